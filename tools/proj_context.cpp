@@ -4,7 +4,7 @@
 // program this function is found before PROJ's own of the same name; a library must not do so to those who link it.
 #include <dlfcn.h>
 
-#include <thalweg/io/gdal/proj_guard.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 extern "C" [[gnu::visibility("default")]] pj_ctx* proj_context_create() {
     using Create = pj_ctx* (*)();

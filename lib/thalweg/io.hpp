@@ -3,26 +3,14 @@
 #pragma once
 
 /// All public headers of the module.
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/files/output_file.hpp>
-#include <thalweg/io/files/temporary_folder.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/io/frame/places_on_earth.hpp>
-#include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/content_of.hpp>
-#include <thalweg/io/gdal/conversions.hpp>
-#include <thalweg/io/gdal/dataset_files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/io/gdal/has_layer.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/io/gdal/plain_copy.hpp>
-#include <thalweg/io/gdal/proj_guard.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
-#include <thalweg/io/mesh/read_tin.hpp>
-#include <thalweg/io/mesh/write_points.hpp>
-#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/find_rivers.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>

@@ -4,9 +4,8 @@
 #include "commands/nodata_option.hpp"
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/output_file.hpp>
-#include <thalweg/io/mesh/read_tin.hpp>
-#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
 #include <thalweg/pipeline/commands/make_blend.hpp>
 #include <thalweg/pipeline/commands/make_blend_tin.hpp>

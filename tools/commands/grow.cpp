@@ -6,7 +6,6 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/files/output_file.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/growth/tokunaga/rewrite.hpp>

@@ -5,7 +5,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/printable.hpp>
-#include <thalweg/io/gdal/conversions.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/commands/dem_in_metres.hpp>

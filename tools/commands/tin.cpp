@@ -3,8 +3,8 @@
 #include "commands/commands.hpp"
 #include "commands/nodata_option.hpp"
 
-#include <thalweg/io/files/output_file.hpp>
-#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/pipeline/commands/make_tin.hpp>
 
 #include <CLI/CLI.hpp>

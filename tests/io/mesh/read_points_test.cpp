@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 #include <fstream>
 #include <string>
@@ -11,9 +11,9 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/output_file.hpp>
-#include <thalweg/io/gdal/content_of.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 
 #include "scratch_folder.hpp"
 

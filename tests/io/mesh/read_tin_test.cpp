@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/read_tin.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 
 #include <array>
 #include <cmath>

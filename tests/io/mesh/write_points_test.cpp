@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/write_points.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 #include <cmath>
 #include <limits>

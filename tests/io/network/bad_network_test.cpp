@@ -7,7 +7,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/gdal/dataset_files.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/write_network.hpp>
 
 #include "sample_networks.hpp"

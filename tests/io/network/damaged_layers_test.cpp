@@ -9,8 +9,8 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/internal/units.hpp>
-#include <thalweg/io/gdal/content_of.hpp>
+#include <thalweg/io/crs/internal/units.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/find_rivers.hpp>
 #include <thalweg/io/network/internal/rivers_layer.hpp>
 

@@ -17,7 +17,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 

@@ -20,7 +20,7 @@
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/dataset_files.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 
 #include "full_disk.hpp"
 #include "scratch_folder.hpp"

@@ -9,8 +9,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/places_on_earth.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/read_mask.hpp>
 #include <thalweg/io/raster/write_dem.hpp>

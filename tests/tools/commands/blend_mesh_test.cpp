@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "blend_runs.hpp"
 
-#include <thalweg/io/mesh/read_tin.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
 
 #include <gtest/gtest.h>

@@ -3,7 +3,7 @@
 #include "command.hpp"
 
 #include <support.hpp>
-#include <thalweg/io/mesh/read_tin.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/write_dem.hpp>
 

@@ -3,19 +3,26 @@
 #include <thalweg/io/files/files.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cerrno>
+#include <charconv>
 #include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
 #include <memory>
+#include <string>
 #include <system_error>
 #include <utility>
+#include <vector>
 
+#include <fcntl.h>
 #include <fmt/format.h>
+#include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
+#include <unistd.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/internal/durable.hpp>
-#include <thalweg/io/files/internal/leftovers.hpp>
-#include <thalweg/io/files/internal/new_file.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 
 namespace thalweg::io {
 
@@ -30,6 +37,120 @@ namespace {
 std::error_code last_error() {
     return {errno, std::generic_category()};
 }
+
+// Waits until a file, or a folder's list of names, is on the disk: a rename that follows then never names what a power
+// failure has cut.
+void make_durable(fs::path const& place, std::string const& who) {
+    int const file = open(place.empty() ? "." : place.c_str(), O_RDONLY | O_CLOEXEC);
+    bool const done = file >= 0 && fsync(file) == 0;
+    int const reason = errno;
+    if (file >= 0) {
+        close(file);
+    }
+    // Some file systems have no such call, some folders may be written to and not read.
+    bool const has_none = reason == EINVAL || reason == ENOTSUP || reason == EROFS;
+    std::error_code ignored;
+    if (!done && !has_none && !(reason == EACCES && fs::is_directory(place, ignored))) {
+        fail(who + ": " + place.string(), {reason, std::generic_category()});
+    }
+}
+
+// Likewise every file and folder below a folder, and the folder.
+void make_all_durable(fs::path const& folder, std::string const& who) {
+    std::error_code error;
+    fs::recursive_directory_iterator entry(folder, error);
+    while (!error && entry != fs::recursive_directory_iterator()) {
+        make_durable(entry->path(), who);
+        entry.increment(error);
+    }
+    if (error) {
+        fail(who + ": " + folder.string(), error);
+    }
+    make_durable(folder, who);
+}
+
+// A process's number says nothing on another host that sees the same folder.
+std::string mark_of_host() {
+    std::array<char, 256> name{};
+    gethostname(name.data(), name.size() - 1);
+    return fmt::format("thalweg-tmp-{}-", name.data());
+}
+
+bool is_of_the_dead(std::string const& name, std::string const& mark) {
+    std::size_t const at = name.find(mark);
+    if (at == std::string::npos) {
+        return false;
+    }
+    pid_t process = 0;
+    char const* const begin = name.data() + at + mark.size();
+    auto const [end, fault] = std::from_chars(begin, name.data() + name.size(), process);
+    bool const ends = fault == std::errc() && (end == name.data() + name.size() || *end == '-');
+    return ends && process > 0 && kill(process, 0) == -1 && errno == ESRCH;
+}
+
+bool holds_old_files(fs::path const& place) {
+    std::error_code ignored;
+    return place.string().ends_with("-old") || fs::exists(place.string() + "-old", ignored);
+}
+
+// What the name of every temporary file of this process holds: "thalweg-tmp-HOST-PID".
+std::string temporary_mark() {
+    return fmt::format("{}{}", mark_of_host(), getpid());
+}
+
+// Removes the temporary files and folders in a folder that processes of this host left when they were killed. Where one
+// died while it moved old files aside, all stays: NAME-old beside NAME holds files of the user. What cannot be removed
+// stays without a word.
+void sweep_leftovers(fs::path const& folder) noexcept {
+    try {
+        std::string const mark = mark_of_host();
+        std::vector<fs::path> dead;
+        for (fs::directory_entry const& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder)) {
+            if (is_of_the_dead(entry.path().filename().string(), mark) && !holds_old_files(entry.path())) {
+                dead.push_back(entry.path());
+            }
+        }
+        for (fs::path const& place : dead) {
+            std::error_code ignored;
+            fs::remove_all(place, ignored);
+        }
+    } catch (std::exception const&) { // a folder that cannot be read, or no memory: the next run sweeps
+    }
+}
+
+} // namespace
+
+std::string simple_name(std::string_view name) {
+    std::string out;
+    for (char const c : name) {
+        char const lower = c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
+        if ((lower >= 'a' && lower <= 'z') || (lower >= '0' && lower <= '9')) {
+            out += lower;
+        }
+    }
+    return out;
+}
+
+NewFile::NewFile(std::string const& path, std::string who)
+    : who_(std::move(who)), file_(std::fopen(path.c_str(), "wbx")) {
+    if (file_ == nullptr) {
+        fail(who_, last_error());
+    }
+}
+
+void NewFile::append(std::string_view bytes) {
+    if (std::fwrite(bytes.data(), 1, bytes.size(), file_.get()) != bytes.size()) {
+        fail(who_, last_error());
+    }
+}
+
+void NewFile::close() {
+    if (std::fclose(file_.release()) != 0) {
+        fail(who_, last_error());
+    }
+}
+
+namespace {
 
 void require(std::error_code error, std::string const& what) {
     if (error) {
@@ -313,6 +434,77 @@ void copy_file(std::string const& from, std::string const& to) {
     }
     fs::copy_file(from, to, fs::copy_options::none, error);
     require(error, fmt::format("io.copy_file: {} to {}", from, to));
+}
+
+OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path), existing_(existing) {
+    if (!fs::path(path).has_filename()) {
+        throw BadParameter(fmt::format("io.output_file: '{}' is not a valid file name", path));
+    }
+    fs::path const folder = fs::path(path).parent_path();
+    std::error_code ignored;
+    if (!folder.empty() && !fs::is_directory(folder, ignored)) {
+        throw BadInput(fmt::format("io.output_file: there is no folder {} for {}", folder.string(), path));
+    }
+    require_place();
+    sweep_leftovers(folder);
+    staging_ = (folder / fmt::format(".{}-{}", temporary_mark(), fs::path(path).filename().string())).string();
+    fs::remove(staging_, ignored); // of an earlier process of the same number
+}
+
+OutputFile::~OutputFile() {
+    std::error_code ignored;
+    fs::remove(staging_, ignored);
+}
+
+void OutputFile::require_place() const {
+    std::error_code ignored;
+    auto const status = fs::symlink_status(path_, ignored);
+    if (!fs::exists(status)) {
+        return;
+    }
+    if (!fs::is_regular_file(status)) {
+        throw BadInput(fmt::format("io.output_file: {} exists and is not a regular file: name another", path_));
+    }
+    if (existing_ == Existing::refuse) {
+        throw BadInput(fmt::format("io.output_file: {} already exists: name another or use --overwrite", path_));
+    }
+}
+
+void OutputFile::commit() {
+    require_place(); // something may have come since
+    make_durable(staging_, "io.output_file");
+    std::error_code error;
+    fs::rename(staging_, path_, error);
+    if (error) {
+        throw IoError(fmt::format("io.output_file: {}: {}", path_, error.message()));
+    }
+    make_durable(fs::path(path_).parent_path(), "io.output_file");
+}
+
+TemporaryFolder::TemporaryFolder(std::string const& name) {
+    char const* const wanted = std::getenv("TMPDIR");
+    std::string const set = wanted == nullptr ? "" : wanted;
+    std::error_code failed;
+    fs::path const above = fs::temp_directory_path(failed);
+    if (failed) {
+        throw IoError(fmt::format("io.temporary_folder: the folder for temporary files{} does not exist or is not a "
+                                  "folder: set TMPDIR to one that does",
+                                  set.empty() ? "" : fmt::format(", TMPDIR={},", set)));
+    }
+    sweep_leftovers(above);
+    std::string folder = (above / fmt::format("{}-{}-XXXXXX", name, temporary_mark())).string();
+    if (mkdtemp(folder.data()) == nullptr) {
+        throw IoError(
+            fmt::format("io.temporary_folder: no folder for temporary files can be made in {}: {}; set TMPDIR "
+                        "to another folder",
+                        above.string(), std::generic_category().message(errno)));
+    }
+    path_ = folder;
+}
+
+TemporaryFolder::~TemporaryFolder() {
+    std::error_code ignored;
+    fs::remove_all(path_, ignored);
 }
 
 } // namespace thalweg::io

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <filesystem>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -47,7 +48,6 @@ public:
     /// Puts the files in place, the old ones removed, when all of them are on the disk. When it fails everything is as
     /// it was before.
     /// \throws BadInput when a file would replace one that is not among old_files
-    /// \throws IoError
     void commit();
 
 private:
@@ -73,7 +73,6 @@ void refuse_pipe(std::string const& path, std::string const& what);
 /// \param max_bytes most bytes to read
 /// \return the bytes of a file.
 /// \throws BadInput when there is none, it is a folder, a pipe or larger than max_bytes
-/// \throws IoError
 std::string read_text(std::string const& path, std::int64_t max_bytes);
 
 /// Writes a new file.
@@ -88,5 +87,48 @@ void write_text(std::string const& path, std::string_view text);
 /// \throws BadInput when there is no such file
 /// \throws IoError like write_text
 void copy_file(std::string const& from, std::string const& to);
+
+/// An output file that appears whole or not at all: it is written at staging() and moved by commit(); without it
+/// nothing is left.
+/// \throws BadParameter when path is ""
+/// \throws BadInput when it exists and existing is refuse, is not a plain file, or its folder does not exist
+/// \throws IoError with the system's reason
+class OutputFile {
+public:
+    explicit OutputFile(std::string const& path, Existing existing = Existing::refuse);
+    /// Removes what was not committed.
+    ~OutputFile();
+    OutputFile(OutputFile const&) = delete;
+    OutputFile& operator=(OutputFile const&) = delete;
+
+    /// \return where to write: a new file in the same folder, with the same ending.
+    std::string const& staging() const { return staging_; }
+    /// Puts the file in place when it is on the disk.
+    void commit();
+
+private:
+    void require_place() const;
+
+    std::string path_;
+    std::string staging_;
+    Existing existing_;
+};
+
+/// A new folder in the system's temporary one (TMPDIR, else the usual place), removed with its content at the end;
+/// those of processes that were killed go, too.
+class TemporaryFolder {
+public:
+    /// \param name the beginning of its name
+    /// \throws IoError with the reason, naming TMPDIR where that is to blame
+    explicit TemporaryFolder(std::string const& name);
+    ~TemporaryFolder();
+    TemporaryFolder(TemporaryFolder const&) = delete;
+    TemporaryFolder& operator=(TemporaryFolder const&) = delete;
+
+    std::filesystem::path const& path() const { return path_; }
+
+private:
+    std::filesystem::path path_;
+};
 
 } // namespace thalweg::io

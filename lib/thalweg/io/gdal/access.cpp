@@ -2,18 +2,37 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/gdal/access.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
+#include <cerrno>
+#include <cstdio>
+#include <cstdlib>
+#include <exception>
 #include <filesystem>
+#include <fstream>
+#include <mutex>
+#include <string>
 #include <string_view>
 #include <system_error>
+#include <utility>
+#include <vector>
 
+#include <cpl_conv.h>
+#include <cpl_http.h>
+#include <cpl_string.h>
+#include <cpl_vsi_virtual.h>
 #include <fmt/format.h>
+#include <gdal_priv.h>
+#include <proj.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/gdal/internal/access.hpp>
 
 namespace thalweg::io {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -36,7 +55,7 @@ bool names_connection(std::string const& path) {
         }
     }
     std::error_code ignored;
-    return !std::filesystem::exists(path, ignored);
+    return !fs::exists(path, ignored);
 }
 
 RecipeFiles::RecipeFiles() {
@@ -62,13 +81,417 @@ void require_allowed(std::string const& path) {
     }
     refuse_pipe(path, "io.require_allowed: " + path);
     std::error_code ignored;
-    auto const status = std::filesystem::status(path, ignored);
-    if (!std::filesystem::exists(status)) {
+    auto const status = fs::status(path, ignored);
+    if (!fs::exists(status)) {
         throw BadInput(fmt::format("io.require_allowed: there is no file '{}'", path));
     }
-    if (!std::filesystem::is_regular_file(status) && !std::filesystem::is_directory(status)) {
+    if (!fs::is_regular_file(status) && !fs::is_directory(status)) {
         throw BadInput(fmt::format("io.require_allowed: {} is neither a file nor a folder", path));
     }
+}
+
+namespace {
+
+// Drivers that connect to servers, also where only a file or a VRT tells them to; GPSBabel starts a program.
+constexpr std::array network_drivers{
+    "AmigoCloud",    "Carto",        "CSW",      "DAAS",     "DODS",     "EEDA",     "EEDAI",
+    "Elasticsearch", "GeoRaster",    "GMLAS",    "GPSBabel", "HANA",     "HTTP",     "JPIPKAK",
+    "MongoDBv3",     "MSSQLSpatial", "MySQL",    "NAS",      "NGW",      "OAPIF",    "OCI",
+    "ODBC",          "OGCAPI",       "OGR_OGDI", "PGeo",     "PLMOSAIC", "PLSCENES", "PostGISRaster",
+    "RDA",           "STACIT",       "STACTA",   "WCS",      "WFS",      "WMS",      "WMTS"};
+
+// File systems of GDAL's that stay on this machine.
+constexpr std::array local_systems{"/vsimem/",   "/vsizip/",     "/vsigzip/",
+                                   "/vsitar/",   "/vsisubfile/", "/vsisparse/",
+                                   "/vsicrypt/", "/vsistdout/",  "/vsistdout_redirect/",
+                                   "/vsicached?"};
+
+std::atomic<int> connections{0};
+thread_local Refusal refused;
+
+struct Roots {
+    std::mutex mutex;
+    std::vector<std::string> folders; ///< one of each Confined, twice
+    std::string tables;               ///< GDAL's own
+};
+
+Roots& roots() {
+    static Roots all;
+    return all;
+}
+
+/// Drivers that are at hand but not registered.
+struct Aside {
+    GDALDriver* postgres = nullptr;
+    GDALDriver* netcdf = nullptr;
+    std::vector<GDALDriver*> never;
+};
+
+Aside& drivers_aside() {
+    static Aside drivers;
+    return drivers;
+}
+
+std::string real_path(fs::path const& path) {
+    std::error_code failed;
+    fs::path const real = fs::weakly_canonical(fs::absolute(path, failed), failed);
+    return failed ? "" : real.string();
+}
+
+bool lies_in(std::string const& path, std::string const& folder) {
+    return !folder.empty() && path.starts_with(folder) &&
+           (path.size() == folder.size() || folder.back() == '/' || path[folder.size()] == '/');
+}
+
+bool is_near(char const* path) {
+    Roots& all = roots();
+    std::lock_guard const lock(all.mutex);
+    if (all.folders.empty()) {
+        return true;
+    }
+    std::string const real = real_path(path);
+    return lies_in(real, all.tables) ||
+           std::ranges::any_of(all.folders, [&](std::string const& folder) { return lies_in(real, folder); });
+}
+
+bool is_no_pipe(char const* path) {
+    if (!is_pipe_or_device(path)) {
+        return true;
+    }
+    refused.pipe = path;
+    CPLError(CE_Failure, CPLE_OpenFailed, "%s is a pipe or a device", path);
+    return false;
+}
+
+void refuse_address(std::string const& address) {
+    refused.address = address;
+    CPLError(CE_Failure, CPLE_AppDefined, "no connection to %s: only what the command line names is reached",
+             address.c_str());
+}
+
+bool is_reachable(char const* path) {
+    if (connections > 0) {
+        return true;
+    }
+    refuse_address(path);
+    return false;
+}
+
+bool is_any(char const* /*path*/) {
+    return true;
+}
+
+/// A file system of GDAL's that some names do not reach.
+class Guarded : public VSIFilesystemHandler {
+public:
+    using Allows = bool (*)(char const*);
+    /// Takes: what may be touched at all, and what of that may be opened.
+    Guarded(VSIFilesystemHandler* inner, Allows allows, Allows opens = is_any)
+        : inner_(inner), allows_(allows), opens_(opens) {}
+    ~Guarded() override { delete inner_; }
+    Guarded(Guarded const&) = delete;
+    Guarded& operator=(Guarded const&) = delete;
+
+    VSIVirtualHandle* Open(char const* path, char const* access, bool set_error, CSLConstList options) override {
+        if (!may(path)) {
+            return nullptr;
+        }
+        if (!opens_(path)) {
+            errno = EACCES;
+            return nullptr;
+        }
+        return inner_->Open(path, access, set_error, options);
+    }
+    int Stat(char const* path, VSIStatBufL* status, int flags) override {
+        return may(path) ? inner_->Stat(path, status, flags) : -1;
+    }
+    int Unlink(char const* path) override { return may(path) ? inner_->Unlink(path) : -1; }
+    int* UnlinkBatch(CSLConstList files) override { return inner_->UnlinkBatch(files); }
+    int Mkdir(char const* path, long mode) override { return may(path) ? inner_->Mkdir(path, mode) : -1; }
+    int Rmdir(char const* path) override { return may(path) ? inner_->Rmdir(path) : -1; }
+    int RmdirRecursive(char const* path) override { return may(path) ? inner_->RmdirRecursive(path) : -1; }
+    char** ReadDirEx(char const* path, int most) override {
+        return may(path) ? inner_->ReadDirEx(path, most) : nullptr;
+    }
+    char** SiblingFiles(char const* path) override { return may(path) ? inner_->SiblingFiles(path) : nullptr; }
+    int Rename(char const* from, char const* to) override {
+        return may(from) && may(to) ? inner_->Rename(from, to) : -1;
+    }
+    int IsCaseSensitive(char const* path) override { return inner_->IsCaseSensitive(path); }
+    GIntBig GetDiskFreeSpace(char const* path) override { return inner_->GetDiskFreeSpace(path); }
+    int SupportsSparseFiles(char const* path) override { return inner_->SupportsSparseFiles(path); }
+    int HasOptimizedReadMultiRange(char const* path) override { return inner_->HasOptimizedReadMultiRange(path); }
+    char const* GetActualURL(char const* path) override { return inner_->GetActualURL(path); }
+    char const* GetOptions() override { return inner_->GetOptions(); }
+    char* GetSignedURL(char const* path, CSLConstList options) override {
+        return may(path) ? inner_->GetSignedURL(path, options) : nullptr;
+    }
+    bool Sync(char const* from, char const* to, char const* const* options, GDALProgressFunc progress, void* data,
+              char*** outputs) override {
+        return may(from) && may(to) && inner_->Sync(from, to, options, progress, data, outputs);
+    }
+    VSIDIR* OpenDir(char const* path, int depth, char const* const* options) override {
+        return may(path) ? inner_->OpenDir(path, depth, options) : nullptr;
+    }
+    char** GetFileMetadata(char const* path, char const* domain, CSLConstList options) override {
+        return may(path) ? inner_->GetFileMetadata(path, domain, options) : nullptr;
+    }
+    bool SetFileMetadata(char const* path, CSLConstList metadata, char const* domain, CSLConstList options) override {
+        return may(path) && inner_->SetFileMetadata(path, metadata, domain, options);
+    }
+    bool AbortPendingUploads(char const* path) override { return inner_->AbortPendingUploads(path); }
+    std::string GetStreamingFilename(std::string const& path) const override {
+        return inner_->GetStreamingFilename(path);
+    }
+    bool IsLocal(char const* path) override { return inner_->IsLocal(path); }
+    bool SupportsSequentialWrite(char const* path, bool local_temporary) override {
+        return inner_->SupportsSequentialWrite(path, local_temporary);
+    }
+    bool SupportsRandomWrite(char const* path, bool local_temporary) override {
+        return inner_->SupportsRandomWrite(path, local_temporary);
+    }
+    bool SupportsRead(char const* path) override { return inner_->SupportsRead(path); }
+
+private:
+    bool may(char const* path) const {
+        if (allows_(path)) {
+            return true;
+        }
+        errno = EACCES;
+        return false;
+    }
+
+    VSIFilesystemHandler* inner_; // deleted here: GDAL deletes what it holds, and it holds this
+    Allows allows_;
+    Allows opens_;
+};
+
+CPLHTTPResult* refuse_fetch(char const* url, CSLConstList options, GDALProgressFunc /*progress*/, void* /*data*/,
+                            CPLHTTPFetchWriteFunc /*write*/, void* /*to*/, void* /*user*/) {
+    auto* const result = static_cast<CPLHTTPResult*>(CPLCalloc(1, sizeof(CPLHTTPResult)));
+    if (CSLFetchNameValue(options, "CLOSE_PERSISTENT") == nullptr) {
+        refuse_address(url);
+        result->nStatus = 1;
+        result->pszErrBuf = CPLStrdup("connections are refused");
+    }
+    return result;
+}
+
+GDALDriver* take_away(char const* name) {
+    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName(name);
+    if (driver != nullptr) {
+        GetGDALDriverManager()->DeregisterDriver(driver);
+    }
+    return driver;
+}
+
+void guard_file_systems() {
+    CPLStringList const prefixes(VSIFileManager::GetPrefixes(), TRUE);
+    for (int i = 0; i < prefixes.size(); ++i) {
+        std::string_view const prefix = prefixes[i];
+        if (!prefix.empty() && std::ranges::find(local_systems, prefix) == local_systems.end()) {
+            VSIFileManager::InstallHandler(prefixes[i],
+                                           new Guarded(VSIFileManager::GetHandler(prefixes[i]), is_reachable));
+        }
+    }
+    VSIFileManager::InstallHandler("", new Guarded(VSIFileManager::GetHandler(""), is_near, is_no_pipe));
+}
+
+void set_unless_set(char const* option, char const* value) {
+    if (CPLGetConfigOption(option, nullptr) == nullptr) {
+        CPLSetConfigOption(option, value);
+    }
+}
+
+} // namespace
+
+void guard_gdal() {
+    for (char const* const name : network_drivers) {
+        if (GDALDriver* const driver = take_away(name)) {
+            drivers_aside().never.push_back(driver);
+        }
+    }
+    drivers_aside().postgres = take_away("PostgreSQL");
+    drivers_aside().netcdf = take_away("netCDF");
+    if (char const* const table = CPLFindFile("gdal", "gdalvrt.xsd")) {
+        roots().tables = real_path(fs::path(table).parent_path());
+    }
+    CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+    CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
+    guard_file_systems();
+}
+
+Connection::Connection() {
+    if (connections++ == 0) {
+        setenv("PGCONNECT_TIMEOUT", "10", 0);
+        set_unless_set("GDAL_HTTP_CONNECTTIMEOUT", "10");
+        set_unless_set("GDAL_HTTP_LOW_SPEED_TIME", "10");
+        set_unless_set("GDAL_HTTP_LOW_SPEED_LIMIT", "1");
+        if (drivers_aside().postgres != nullptr) {
+            GetGDALDriverManager()->RegisterDriver(drivers_aside().postgres);
+        }
+    }
+}
+
+Connection::~Connection() {
+    if (--connections == 0 && drivers_aside().postgres != nullptr) {
+        GetGDALDriverManager()->DeregisterDriver(drivers_aside().postgres);
+    }
+}
+
+Confined::Confined(std::string const& path) {
+    std::error_code ignored;
+    fs::path const file = fs::absolute(path, ignored);
+    fs::path const real = real_path(file);
+    bool const is_folder = fs::is_directory(file, ignored);
+    near_ = real_path(is_folder ? file : file.parent_path());
+    real_ = is_folder ? real.string() : real.parent_path().string();
+    std::lock_guard const lock(roots().mutex);
+    roots().folders.insert(roots().folders.end(), {near_, real_});
+}
+
+Confined::~Confined() {
+    std::lock_guard const lock(roots().mutex);
+    for (std::string const& folder : {near_, real_}) {
+        auto& folders = roots().folders;
+        if (auto const at = std::ranges::find(folders, folder); at != folders.end()) {
+            folders.erase(at);
+        }
+    }
+}
+
+WithNetcdf::WithNetcdf(std::string const& path) {
+    std::array<char, 4> head{};
+    std::error_code ignored;
+    if (drivers_aside().netcdf == nullptr || !fs::is_regular_file(path, ignored)) {
+        return;
+    }
+    std::ifstream(path, std::ios::binary).read(head.data(), head.size());
+    std::string_view const magic(head.data(), head.size());
+    if (magic.starts_with("CDF") || magic == "\x89HDF") {
+        added_ = true;
+        GetGDALDriverManager()->RegisterDriver(drivers_aside().netcdf);
+    }
+}
+
+WithNetcdf::~WithNetcdf() {
+    if (added_) {
+        GetGDALDriverManager()->DeregisterDriver(drivers_aside().netcdf);
+    }
+}
+
+void refuse_grid(std::string const& path) {
+    refused.grid = path;
+}
+
+Refusal take_refusal() {
+    return std::exchange(refused, {});
+}
+
+void throw_refusal(Refusal const& refusal, std::string const& what) {
+    if (!refusal.address.empty()) {
+        throw BadInput(fmt::format("{} makes a connection ({}), and thalweg connects only to what the command line "
+                                   "names; take the address out of the file",
+                                   what, refusal.address));
+    }
+    if (!refusal.pipe.empty()) {
+        throw BadInput(
+            fmt::format("{} needs {}, which is a pipe or a device, and inputs are read more than once: write "
+                        "it to a file first",
+                        what, refusal.pipe));
+    }
+    if (!refusal.grid.empty()) {
+        throw BadInput(fmt::format("{} names {}, and a CRS names grids of PROJ's own folders (projinfo --searchpaths): "
+                                   "copy it there and leave its folder out",
+                                   what, refusal.grid));
+    }
+}
+
+namespace {
+
+std::vector<std::string> folders_of_proj() {
+    std::vector<std::string> folders;
+    std::string_view rest = proj_info().searchpath;
+    while (!rest.empty()) {
+        std::size_t const end = std::min(rest.find(':'), rest.size());
+        if (end > 0) {
+            folders.push_back((fs::absolute(rest.substr(0, end)) / "").lexically_normal().string());
+        }
+        rest.remove_prefix(std::min(end + 1, rest.size()));
+    }
+    return folders;
+}
+
+std::vector<std::string> const& proj_folders() {
+    static std::vector<std::string> const folders = folders_of_proj();
+    return folders;
+}
+
+/// PROJ tries a name without a folder in each of its own and at last in the current one; that this fails is usual.
+bool is_of_proj(char const* name) noexcept {
+    try {
+        std::string const path = fs::absolute(name).lexically_normal().string();
+        if (std::ranges::any_of(proj_folders(), [&](std::string const& folder) { return path.starts_with(folder); })) {
+            return true;
+        }
+        if (std::string_view(name).find('/') != std::string_view::npos) {
+            refuse_grid(name);
+        }
+    } catch (std::exception const&) { // must not cross frames of C
+    }
+    return false;
+}
+
+std::FILE* file_of(PROJ_FILE_HANDLE* handle) {
+    return reinterpret_cast<std::FILE*>(handle);
+}
+
+PROJ_FILE_HANDLE* open_file_of_proj(PJ_CONTEXT*, char const* name, PROJ_OPEN_ACCESS access, void*) {
+    bool const may = access == PROJ_OPEN_ACCESS_READ_ONLY && is_of_proj(name);
+    return may ? reinterpret_cast<PROJ_FILE_HANDLE*>(std::fopen(name, "rbe")) : nullptr;
+}
+std::size_t read_file_of_proj(PJ_CONTEXT*, PROJ_FILE_HANDLE* handle, void* to, std::size_t bytes, void*) {
+    return std::fread(to, 1, bytes, file_of(handle));
+}
+std::size_t write_no_file(PJ_CONTEXT*, PROJ_FILE_HANDLE*, void const*, std::size_t, void*) {
+    return 0;
+}
+int seek_file_of_proj(PJ_CONTEXT*, PROJ_FILE_HANDLE* handle, long long offset, int whence, void*) {
+    return std::fseek(file_of(handle), static_cast<long>(offset), whence) == 0 ? 1 : 0;
+}
+unsigned long long tell_file_of_proj(PJ_CONTEXT*, PROJ_FILE_HANDLE* handle, void*) {
+    return static_cast<unsigned long long>(std::ftell(file_of(handle)));
+}
+void close_file_of_proj(PJ_CONTEXT*, PROJ_FILE_HANDLE* handle, void*) {
+    std::fclose(file_of(handle));
+}
+int exists_for_proj(PJ_CONTEXT*, char const* name, void*) {
+    std::error_code ignored;
+    return is_of_proj(name) && fs::exists(name, ignored) ? 1 : 0;
+}
+int change_no_file(PJ_CONTEXT*, char const*, void*) {
+    return 0;
+}
+int rename_no_file(PJ_CONTEXT*, char const*, char const*, void*) {
+    return 0;
+}
+
+constexpr PROJ_FILE_API own_files{1,
+                                  open_file_of_proj,
+                                  read_file_of_proj,
+                                  write_no_file,
+                                  seek_file_of_proj,
+                                  tell_file_of_proj,
+                                  close_file_of_proj,
+                                  exists_for_proj,
+                                  change_no_file,
+                                  change_no_file,
+                                  rename_no_file};
+
+} // namespace
+
+void confine_proj(pj_ctx* context) {
+    proj_context_set_fileapi(context, &own_files, nullptr);
 }
 
 } // namespace thalweg::io

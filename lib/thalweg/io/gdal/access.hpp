@@ -4,6 +4,8 @@
 
 #include <string>
 
+struct pj_ctx; // PROJ's PJ_CONTEXT
+
 namespace thalweg::io {
 
 /// \param path path of the file
@@ -33,5 +35,12 @@ void require_allowed(std::string const& path);
 /// \param path path of the file
 /// \return whether a recipe may name this source.
 bool is_recipe_file(std::string const& path);
+
+// What PROJ may open.
+
+/// From now on a context of PROJ reads files in PROJ's own folders only (projinfo --searchpaths) and writes none,
+/// wherever the name of a grid comes from.
+/// \param context the context of PROJ
+void confine_proj(pj_ctx* context);
 
 } // namespace thalweg::io

@@ -2,29 +2,245 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/gdal/internal/dataset.hpp>
 
+#include <algorithm>
 #include <array>
 #include <atomic>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
+#include <fstream>
 #include <limits>
+#include <memory>
+#include <string>
+#include <string_view>
+#include <system_error>
 #include <utility>
 #include <vector>
 
+#include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_spatialref.h>
+#include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/io/gdal/internal/archive.hpp>
-#include <thalweg/io/gdal/internal/gdal_guard.hpp>
-#include <thalweg/io/gdal/internal/recipe_formats.hpp>
-#include <thalweg/io/gdal/internal/undisturbed.hpp>
+#include <thalweg/io/gdal/internal/access.hpp>
 
 namespace thalweg::io {
+
+namespace fs = std::filesystem;
+
+namespace {
+
+struct Sqlite {
+    bool is_one = false;
+    bool is_write_ahead = false;
+};
+
+// The header of an SQLite file: its name, and 2 for write-ahead mode where versions to write and read stand.
+Sqlite sqlite_in(fs::path const& file) {
+    std::array<char, 20> header{};
+    std::ifstream stream(file, std::ios::binary);
+    bool const is_one =
+        stream.read(header.data(), header.size()) && std::string(header.data(), 15) == "SQLite format 3";
+    return {is_one, is_one && (header[18] == 2 || header[19] == 2)};
+}
+
+fs::path wal_of(fs::path const& file) {
+    return file.string() + "-wal";
+}
+
+struct State {
+    std::uintmax_t bytes = 0;
+    fs::file_time_type changed = {};
+    friend bool operator==(State const&, State const&) = default;
+};
+
+State state_of(fs::path const& file) {
+    return {fs::file_size(file), fs::last_write_time(file)};
+}
+
+// Whether neither part changed while they were copied.
+bool copied(fs::path const& file, fs::path const& copy) {
+    std::array const before{state_of(file), state_of(wal_of(file))};
+    auto const options = fs::copy_options::overwrite_existing;
+    fs::copy_file(file, copy, options);
+    fs::copy_file(wal_of(file), wal_of(copy), options);
+    return before == std::array{state_of(file), state_of(wal_of(file))};
+}
+
+// How a file is opened so that reading changes neither it nor its folder. SQLite writes to a GeoPackage in write-ahead
+// mode even when it is opened to be read: it makes NAME-wal and NAME-shm, and on closing moves what stands in NAME-wal
+// into the file; a NAME-wal beside one in another mode it deletes. One without changes in NAME-wal is therefore opened
+// as immutable; of one with changes a copy is read, which goes with this object. Any other file is opened as it is.
+class Undisturbed {
+public:
+    // Throws: BadInput like refuse_pipe; IoError when a copy is needed and cannot be made, or the file is being
+    // written meanwhile.
+    explicit Undisturbed(fs::path const& file) : path_(file) {
+        for (char const* const beside : {"", "-journal", "-wal"}) { // SQLite opens these by itself
+            std::string const path = file.string() + beside;
+            refuse_pipe(path, "io.Undisturbed: " + path);
+        }
+        std::error_code ignored;
+        if (!fs::is_regular_file(file, ignored)) {
+            return;
+        }
+        Sqlite const base = sqlite_in(file);
+        if (auto const changes = fs::file_size(wal_of(file), ignored); !base.is_one || ignored || changes == 0) {
+            immutable_ = base.is_write_ahead;
+            return;
+        }
+        try {
+            copies_ = std::make_unique<TemporaryFolder>("thalweg");
+            path_ = copies_->path() / file.filename();
+            constexpr int attempts = 3;
+            for (int i = 0; i < attempts; ++i) {
+                if (copied(file, path_)) {
+                    return;
+                }
+            }
+        } catch (fs::filesystem_error const& error) {
+            throw IoError(fmt::format("io.Undisturbed: {} has changes in {}, and no copy of both can be made: {}",
+                                      file.string(), wal_of(file).filename().string(), error.what()));
+        }
+        throw IoError(fmt::format(
+            "io.Undisturbed: {} is being written by another program; close it there and try again", file.string()));
+    }
+
+    // What to open.
+    std::string path() const { return path_.string(); }
+    // GDAL's open options, null-terminated.
+    char const* const* options() const {
+        static std::array<char const*, 2> constexpr immutable{"IMMUTABLE=YES", nullptr};
+        return immutable_ ? immutable.data() : nullptr;
+    }
+
+private:
+    fs::path path_;
+    std::unique_ptr<TemporaryFolder> copies_; // the folder of the copy; null when there is none
+    bool immutable_ = false;
+};
+
+constexpr std::array recipe_formats{"GTiff",        "HFA",
+                                    "AAIGrid",      "GRASSASCIIGrid",
+                                    "GSAG",         "GSBG",
+                                    "GS7BG",        "EHdr",
+                                    "ENVI",         "SAGA",
+                                    "RST",          "SRTMHGT",
+                                    "DTED",         "USGSDEM",
+                                    "BT",           "Terragen",
+                                    "ISG",          "XYZ",
+                                    "PNG",          "JPEG",
+                                    "BMP",          "JP2OpenJPEG",
+                                    "PCRaster",     "NWT_GRD",
+                                    "GPKG",         "ESRI Shapefile",
+                                    "GeoJSON",      "GeoJSONSeq",
+                                    "TopoJSON",     "FlatGeobuf",
+                                    "CSV",          "OpenFileGDB",
+                                    "MapInfo File", "KML",
+                                    "LIBKML",       "GPX",
+                                    "OGR_GMT",      "JML",
+                                    "DXF"};
+
+// The word of an SQL text that begins at a place, and the place behind it; quotes taken off.
+std::string next_word(std::string const& sql, std::size_t& at) {
+    at = std::min(sql.find_first_not_of(" \t\r\n", at), sql.size());
+    if (at == sql.size()) {
+        return "";
+    }
+    char const first = sql[at];
+    char const quote = first == '[' ? ']' : first;
+    bool const quoted = first == '"' || first == '`' || first == '[' || first == '\'';
+    std::size_t const end = quoted ? std::min(sql.find(quote, at + 1), sql.size() - 1) + 1
+                                   : std::min(sql.find_first_of(" \t\r\n(", at + 1), sql.size());
+    std::string word = sql.substr(at, end - at);
+    at = end;
+    return word;
+}
+
+// Whether a table of a GeoPackage is made by a program, which may read any file: all but the index of shapes.
+bool is_foreign_table(std::string const& sql) {
+    std::size_t at = 0;
+    for (char const* const word : {"CREATE", "VIRTUAL", "TABLE"}) {
+        if (!EQUAL(next_word(sql, at).c_str(), word)) {
+            return true;
+        }
+    }
+    next_word(sql, at); // its name
+    return !EQUAL(next_word(sql, at).c_str(), "USING") || !EQUAL(next_word(sql, at).c_str(), "rtree");
+}
+
+// GDAL's names of formats that hold their data themselves, read by drivers that look no further than the files beside
+// the one they open; nullptr at the end.
+std::vector<char const*> recipe_drivers() {
+    std::vector<char const*> drivers(recipe_formats.begin(), recipe_formats.end());
+    drivers.push_back(nullptr);
+    return drivers;
+}
+
+// Takes: GDAL's name of a file, and the user's. Throws: BadInput when the file is in another format.
+void refuse_other_format(std::string const& name, std::string const& path) {
+    GDALDriverH const driver = GDALIdentifyDriver(name.c_str(), nullptr);
+    std::string const format = driver == nullptr ? "" : GDALGetDriverShortName(driver);
+    if (driver != nullptr && std::ranges::find(recipe_formats, format) == recipe_formats.end()) {
+        throw BadInput(
+            fmt::format("io.recipe_formats: {} is in the format {}, and a recipe names files that hold their "
+                        "data themselves, such as GeoPackage, Shapefile, GeoJSON, FlatGeobuf, CSV and "
+                        "GeoTIFF: convert it (ogr2ogr, gdal_translate), or name it on the command line",
+                        path, format));
+    }
+}
+
+// Throws: BadInput when a GeoPackage holds a virtual table, which may read any file; the index of shapes is none.
+void require_own_tables(GDALDataset& package, std::string const& path) {
+    OGRLayer* const tables = package.ExecuteSQL(
+        "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND (rootpage IS NULL OR rootpage < 1)", nullptr, "");
+    if (tables == nullptr) {
+        throw BadInput("io.recipe_formats: the tables of " + path + " cannot be listed");
+    }
+    std::string foreign;
+    for (auto const& row : *tables) {
+        if (is_foreign_table(row->GetFieldAsString(1))) {
+            foreign = row->GetFieldAsString(0);
+        }
+    }
+    package.ReleaseResultSet(tables);
+    if (!foreign.empty()) {
+        throw BadInput(fmt::format("io.recipe_formats: the table {} of {} is virtual: it may read any file; copy the "
+                                   "data into a new GeoPackage (ogr2ogr)",
+                                   foreign, path));
+    }
+}
+
+} // namespace
+
+std::string inside_archive(std::string const& path) {
+    std::error_code ignored;
+    std::string const ending = fs::path(path).extension().string();
+    if ((ending != ".zip" && ending != ".ZIP") || !fs::is_regular_file(path, ignored)) {
+        return path;
+    }
+    std::string inside = "/vsizip/{" + path + "}";
+    constexpr int deepest = 4;
+    for (int level = 0; level < deepest; ++level) {
+        CPLStringList const entries(VSIReadDir(inside.c_str()), TRUE);
+        VSIStatBufL status;
+        if (entries.size() != 1 || VSIStatL((inside + "/" + entries[0]).c_str(), &status) != 0) {
+            break;
+        }
+        inside += std::string("/") + entries[0];
+        if (VSI_ISDIR(status.st_mode) == 0) {
+            break;
+        }
+    }
+    return inside;
+}
 
 void CloseDataset::operator()(GDALDataset* dataset) const {
     GDALClose(dataset);
@@ -114,7 +330,7 @@ bool is_recipe_file(std::string const& path) {
 
 Dataset open_file(std::string const& path, unsigned kinds, std::string const& what) {
     // GDAL takes addresses and connection strings for file names.
-    if (std::error_code ignored; !std::filesystem::exists(path, ignored)) {
+    if (std::error_code ignored; !fs::exists(path, ignored)) {
         throw BadInput(what + " does not exist");
     }
     CPLErrorReset();

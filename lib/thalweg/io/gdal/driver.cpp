@@ -16,7 +16,7 @@
 #include <unistd.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/gdal/internal/gdal_guard.hpp>
+#include <thalweg/io/gdal/internal/access.hpp>
 
 namespace thalweg::io {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 #include <algorithm>
 #include <array>
@@ -23,9 +23,9 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/frame/internal/into_metres.hpp>
-#include <thalweg/io/frame/projection.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>

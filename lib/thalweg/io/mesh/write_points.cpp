@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/write_points.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,10 +12,8 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/io/files/internal/format_of.hpp>
-#include <thalweg/io/files/internal/new_file.hpp>
-#include <thalweg/io/mesh/internal/las.hpp>
-#include <thalweg/io/mesh/internal/ply.hpp>
+#include <thalweg/io/files/internal/files.hpp>
+#include <thalweg/io/mesh/internal/las_ply.hpp>
 
 namespace thalweg::io {
 

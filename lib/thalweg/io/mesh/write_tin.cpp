@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,12 +13,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/files/internal/format_of.hpp>
-#include <thalweg/io/files/internal/little_endian.hpp>
-#include <thalweg/io/frame/internal/crs_text.hpp>
-#include <thalweg/io/mesh/internal/las.hpp>
-#include <thalweg/io/mesh/internal/ply.hpp>
+#include <thalweg/io/files/internal/files.hpp>
+#include <thalweg/io/mesh/internal/las_ply.hpp>
 #include <thalweg/io/network/table.hpp>
 
 namespace thalweg::io {

@@ -15,10 +15,9 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
-#include <thalweg/io/frame/internal/crs_text.hpp>
-#include <thalweg/io/frame/internal/into_metres.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
-#include <thalweg/io/frame/internal/units.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
+#include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/network/internal/read_network_arcs.hpp>
 #include <thalweg/io/network/internal/read_network_columns.hpp>

@@ -21,8 +21,8 @@
 #include <thalweg/core/run/printable.hpp>
 #include <thalweg/core/run/suggest.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/io/frame/internal/into_metres.hpp>
-#include <thalweg/io/frame/internal/units.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
+#include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/read_attributes.hpp>

@@ -14,7 +14,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
-#include <thalweg/io/files/internal/simple_name.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 
 namespace thalweg::io {

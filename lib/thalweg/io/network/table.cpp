@@ -12,7 +12,7 @@
 
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/layer_writer.hpp>

@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/internal/new_file.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 
 namespace thalweg::io {
 

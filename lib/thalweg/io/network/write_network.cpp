@@ -10,7 +10,7 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/internal/format_of.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/network/internal/network_layers.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/write_graph.hpp>

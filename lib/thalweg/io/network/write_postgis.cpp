@@ -11,10 +11,10 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/internal/access.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/gdal/internal/gdal_guard.hpp>
 #include <thalweg/io/network/internal/layer_writer.hpp>
 #include <thalweg/io/network/internal/network_layers.hpp>
 

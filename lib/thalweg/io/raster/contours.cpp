@@ -13,7 +13,6 @@
 #include <thalweg/core/run/range.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/gdal/internal/watch.hpp>
 #include <thalweg/io/network/table.hpp>
 
 namespace thalweg::io {

@@ -14,7 +14,6 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/gdal/internal/watch.hpp>
 
 namespace thalweg::io {
 

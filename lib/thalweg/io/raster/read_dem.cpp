@@ -14,8 +14,8 @@
 #include <gdal_priv.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
-#include <thalweg/io/frame/internal/units.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/internal/plausible.hpp>

@@ -18,13 +18,12 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/range.hpp>
-#include <thalweg/io/frame/internal/ground_scale.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
-#include <thalweg/io/frame/internal/units.hpp>
-#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
+#include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/gdal/internal/watch.hpp>
 #include <thalweg/io/raster/internal/plausible.hpp>
 #include <thalweg/io/raster/internal/undeclared_nodata.hpp>
 

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 
 namespace thalweg::io {

@@ -13,9 +13,9 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/io/frame/internal/into_metres.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 

@@ -18,11 +18,10 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/internal/spatial_reference.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/gdal/internal/watch.hpp>
 
 namespace thalweg::io {
 namespace {

@@ -15,7 +15,6 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/gdal/internal/watch.hpp>
 
 namespace thalweg::io {
 

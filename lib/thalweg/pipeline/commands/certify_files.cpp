@@ -12,7 +12,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>

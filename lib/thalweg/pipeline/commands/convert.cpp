@@ -16,7 +16,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/network/write_postgis.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

@@ -8,8 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/io/raster/warp_to_grid.hpp>

@@ -11,9 +11,8 @@
 
 #include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
-#include <thalweg/io/mesh/read_tin.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -12,7 +12,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/skeleton.hpp>
-#include <thalweg/io/gdal/has_layer.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_mask.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/io/mesh/write_points.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 namespace thalweg::pipeline {
 

@@ -10,10 +10,9 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/io/gdal/content_of.hpp>
-#include <thalweg/io/gdal/has_layer.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/require_metres.hpp>

@@ -8,7 +8,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 namespace thalweg::pipeline {
 

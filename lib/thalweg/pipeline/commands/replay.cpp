@@ -4,7 +4,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/files/temporary_folder.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
+#include <thalweg/io/crs/crs.hpp>
 
 namespace thalweg::pipeline {
 

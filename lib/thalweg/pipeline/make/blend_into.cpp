@@ -8,9 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/io/frame/places_on_earth.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/warp_to_grid.hpp>
 #include <thalweg/pipeline/plan/internal/read_cells.hpp>

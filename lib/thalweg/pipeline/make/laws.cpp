@@ -6,7 +6,7 @@
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/routing/flow_lengths.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>

@@ -5,7 +5,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/routing/route.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 

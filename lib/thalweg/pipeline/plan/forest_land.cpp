@@ -5,9 +5,9 @@
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells/cells_around.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/gdal/content_of.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/network/growth/forest/plant_forest.hpp>

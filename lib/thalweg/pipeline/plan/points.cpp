@@ -3,8 +3,8 @@
 #include <thalweg/pipeline/plan/internal/points.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 

@@ -11,9 +11,8 @@
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/io/frame/same_frame.hpp>
-#include <thalweg/io/gdal/content_of.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/read_mask.hpp>

@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/plan/internal/read_lines.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/fill_heights.hpp>

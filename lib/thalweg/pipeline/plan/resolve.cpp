@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/plan/plan.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>

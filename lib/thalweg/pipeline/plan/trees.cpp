@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/plan/internal/trees.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/projection.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_polygons.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>

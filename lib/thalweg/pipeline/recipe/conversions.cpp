@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/internal/conversions.hpp>
 
-#include <thalweg/io/frame/ground_cell.hpp>
-#include <thalweg/io/frame/places_on_earth.hpp>
-#include <thalweg/io/frame/projection.hpp>
-#include <thalweg/io/gdal/conversions.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

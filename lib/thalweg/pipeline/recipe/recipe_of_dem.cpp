@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/frame/ground_cell.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 #include <fmt/format.h>

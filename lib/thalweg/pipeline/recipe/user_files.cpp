@@ -3,8 +3,8 @@
 #include <thalweg/pipeline/recipe/user_files.hpp>
 
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/plain_copy.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

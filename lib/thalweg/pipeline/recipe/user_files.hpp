@@ -5,7 +5,7 @@
 #include <memory>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/io/files/temporary_folder.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {

@@ -9,9 +9,9 @@
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/dataset_files.hpp>
-#include <thalweg/io/mesh/read_points.hpp>
-#include <thalweg/io/mesh/write_tin.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/order/order.hpp>

@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <exception>
 #include <memory>
 #include <string>
 #include <string_view>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
 
 class GDALDataset;
 
@@ -55,5 +57,38 @@ void require_size(Grid const& grid, std::string const& what);
 /// A copy of heights for GDAL to work on, nodata_height for NaN.
 /// Throws: BadInput at an infinite height or one that equals nodata_height, or like require_size.
 Dataset in_memory(Raster<float> const& dem, std::string const& what);
+
+/// The name by which GDAL opens what a zip archive holds: the archive itself, or the only folder in it where its files
+/// lie there. Any other path is given back. Needs a Driver that outlives it.
+std::string inside_archive(std::string const& path);
+
+/// Carries a Run through GDAL, which knows no exceptions: pass &Watch::step and the watch as GDAL's progress function
+/// and argument, then call settle() before asking GDAL whether it worked.
+class Watch {
+public:
+    Watch(Run const& run, char const* what) : run_(run), what_(what) {}
+
+    static int step(double share, char const* /*message*/, void* watch) {
+        auto& self = *static_cast<Watch*>(watch);
+        try {
+            self.run_.at(share, self.what_);
+            return 1;
+        } catch (...) {
+            self.stopped_ = std::current_exception();
+            return 0;
+        }
+    }
+    /// Throws what stopped the work.
+    void settle() const {
+        if (stopped_) {
+            std::rethrow_exception(stopped_);
+        }
+    }
+
+private:
+    Run const& run_;
+    char const* what_;
+    std::exception_ptr stopped_;
+};
 
 } // namespace thalweg::io

@@ -1,0 +1,327 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/crs/crs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <initializer_list>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string_view>
+#include <utility>
+
+#include <cpl_conv.h>
+#include <cpl_string.h>
+#include <fmt/format.h>
+#include <ogr_spatialref.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/gdal/internal/access.hpp>
+
+namespace thalweg::io {
+namespace {
+
+// GDAL reads the digits of a code and passes over what follows them.
+bool is_mistyped_code(std::string const& text) {
+    return EQUALN(text.c_str(), "EPSG:", 5) && text.find_first_not_of("0123456789+", 5) != std::string::npos;
+}
+
+/// Whether PROJ finds its tables: a code that each of them has is known.
+bool has_database() {
+    return OGRSpatialReference().importFromEPSG(4326) == OGRERR_NONE;
+}
+
+} // namespace
+
+OGRSpatialReference read_reference(std::string const& text) {
+    Driver const driver;
+    CPLStringList options;
+    options.SetNameValue("ALLOW_NETWORK_ACCESS", "NO");
+    options.SetNameValue("ALLOW_FILE_ACCESS", "NO");
+    OGRSpatialReference reference;
+    take_refusal();
+    if (text.empty() || is_mistyped_code(text) ||
+        reference.SetFromUserInput(text.c_str(), options.List()) != OGRERR_NONE) {
+        throw_refusal(take_refusal(), "io.read_reference: the CRS");
+        auto const words = driver.take();
+        if (words.find("proj.db") != std::string::npos || !has_database()) {
+            throw IoError(
+                fmt::format("io.read_reference: the CRS {} cannot be looked up: PROJ does not open its database "
+                            "({}); memory is short, or proj-data is not installed",
+                            text.substr(0, 60), words));
+        }
+        throw BadInput(
+            fmt::format("io.read_reference: '{}' is not a coordinate system{}; give a code such as EPSG:32633, "
+                        "or WKT",
+                        text.substr(0, 60), words.empty() ? "" : " (" + words + ")"));
+    }
+    throw_refusal(take_refusal(), "io.read_reference: the CRS");
+    reference.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return reference;
+}
+
+OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg) {
+    OGRSpatialReference centred;
+    centred.SetProjCS(fmt::format("Equal area around {:.0f}, {:.0f}", longitude_deg, latitude_deg).c_str());
+    centred.SetWellKnownGeogCS("WGS84");
+    centred.SetLAEA(latitude_deg, longitude_deg, 0.0, 0.0);
+    centred.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return centred;
+}
+
+std::string name_of(OGRSpatialReference const& reference) {
+    auto const code_of = [](OGRSpatialReference const& r) -> std::string {
+        char const* const authority = r.GetAuthorityName(nullptr);
+        char const* const code = r.GetAuthorityCode(nullptr);
+        return authority != nullptr && code != nullptr && std::string(authority) == "EPSG" ? std::string("EPSG:") + code
+                                                                                           : std::string();
+    };
+    if (auto code = code_of(reference); !code.empty()) {
+        return code;
+    }
+    Driver const driver; // that it is not identified is no error
+    OGRSpatialReference identified(reference);
+    if (identified.AutoIdentifyEPSG() == OGRERR_NONE) {
+        if (auto code = code_of(identified); !code.empty()) {
+            return code;
+        }
+    }
+    CPLStringList options;
+    options.SetNameValue("FORMAT", "WKT2_2019");
+    char* text = nullptr;
+    reference.exportToWkt(&text, options.List());
+    std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    return wkt;
+}
+
+bool is_projected_in_metres(OGRSpatialReference const& reference) {
+    return reference.IsProjected() != 0 && std::fabs(reference.GetLinearUnits() - 1.0) < 1e-12;
+}
+
+std::string in_message(std::string const& crs) {
+    constexpr std::size_t most = 60;
+    return crs.empty()          ? "no CRS"
+           : crs.size() <= most ? crs
+                                : fmt::format("{}...", std::string_view(crs).substr(0, most));
+}
+
+int epsg_code(std::string const& crs) {
+    constexpr std::string_view prefix = "EPSG:";
+    if (!crs.starts_with(prefix) || crs.size() > prefix.size() + 6) {
+        return 0;
+    }
+    int code = 0;
+    for (char const digit : crs.substr(prefix.size())) {
+        if (digit < '0' || digit > '9') {
+            return 0;
+        }
+        code = 10 * code + (digit - '0');
+    }
+    return code;
+}
+
+std::string one_line(std::string text) {
+    std::ranges::replace_if(
+        text, [](char c) { return c == '\n' || c == '\r'; }, ' ');
+    return text;
+}
+
+std::string projected_crs(std::string const& text) {
+    OGRSpatialReference reference = read_reference(text);
+    reference.StripVertical();
+    if (!is_projected_in_metres(reference)) {
+        char const* unit = nullptr;
+        reference.GetLinearUnits(&unit);
+        throw BadInput(fmt::format("io.projected_crs: {} is {}; give a projected one in metres, such as a UTM zone "
+                                   "(EPSG:32633)",
+                                   in_message(text),
+                                   reference.IsGeographic() != 0  ? "geographic: its cells would not be square"
+                                   : reference.IsProjected() != 0 ? fmt::format("in '{}'", unit)
+                                                                  : "not projected"));
+    }
+    return name_of(reference);
+}
+
+std::string utm_zone(double longitude_deg, double latitude_deg) {
+    // Written so that NaN is refused.
+    if (!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0)) {
+        throw BadInput(
+            fmt::format("io.utm_zone: no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
+                        longitude_deg, latitude_deg));
+    }
+    auto const zone = static_cast<int>(std::floor((longitude_deg + 180.0) / 6.0));
+    return fmt::format("EPSG:{}", (latitude_deg < 0.0 ? 32701 : 32601) + ((zone % 60) + 60) % 60);
+}
+
+std::optional<int> utm_number(std::string const& crs) {
+    int const code = epsg_code(crs);
+    int const zone = code - (code > 32700 ? 32700 : 32600);
+    return zone >= 1 && zone <= 60 ? std::optional(zone) : std::nullopt;
+}
+
+double utm_stretch(std::string const& crs, DegreeBox const& box) {
+    auto const zone = utm_number(crs);
+    if (!zone) {
+        return 0.0;
+    }
+    constexpr double scale = 0.9996; // on the central meridian
+    constexpr double radian = portable::pi / 180.0;
+    double const central = 6.0 * *zone - 183.0;
+    // Farthest from the central meridian, nearest to the equator.
+    double const latitude =
+        box.south <= 0.0 && box.north >= 0.0 ? 0.0 : std::min(std::fabs(box.south), std::fabs(box.north));
+    double stretch = 0.0;
+    for (double const side : {box.west, box.east}) {
+        double const off = std::fabs(std::remainder(side - central, 360.0));
+        double const sine = portable::cos(latitude * radian) * portable::sin(std::min(off, 90.0) * radian);
+        double const length =
+            off >= 90.0 || sine >= 1.0 ? std::numeric_limits<double>::infinity() : scale / std::sqrt(1.0 - sine * sine);
+        stretch = std::max(stretch, length - 1.0);
+    }
+    return stretch;
+}
+
+bool same_crs(std::string const& a, std::string const& b, std::string const& of_a, std::string const& of_b) {
+    if (a.empty() != b.empty()) {
+        throw BadInput(fmt::format("{} has {}, {} has {}: assign the missing one (gdal_edit.py or ogr2ogr -a_srs "
+                                   "EPSG:n)",
+                                   of_a, in_message(a), of_b, in_message(b)));
+    }
+    if (a == b) {
+        return true;
+    }
+    OGRSpatialReference first = read_reference(a);
+    OGRSpatialReference second = read_reference(b);
+    first.StripVertical();
+    second.StripVertical();
+    return first.IsSame(&second) != 0;
+}
+
+bool same_size(Grid const& a, Grid const& b) {
+    return std::fabs(a.cell_m - b.cell_m) <= 1e-6 * b.cell_m;
+}
+
+bool same_cells(Grid const& a, Grid const& b) {
+    double const most = 0.01 * a.cell_m;
+    return a.width == b.width && a.height == b.height && std::fabs(a.west - b.west) <= most &&
+           std::fabs(a.north - b.north) <= most && std::fabs(a.east() - b.east()) <= most &&
+           std::fabs(a.south() - b.south()) <= most;
+}
+
+namespace {
+
+double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference) {
+    double const unit = reference.GetAngularUnits(nullptr);
+    double const latitude = 0.5 * (grid.north + grid.south()) * unit;
+    if (!(std::fabs(latitude) < portable::pi / 2.0)) {
+        throw BadInput(
+            fmt::format("io.ground_cell: the middle of the grid lies at latitude {:.3f} degrees, not between "
+                        "the poles; give the grid its true place",
+                        latitude * 180.0 / portable::pi));
+    }
+    double const flattening = reference.GetInvFlattening() > 0.0 ? 1.0 / reference.GetInvFlattening() : 0.0;
+    double const eccentricity_2 = flattening * (2.0 - flattening);
+    double const sine = portable::sin(latitude);
+    // The root of the radii of curvature's product along the meridian and across it.
+    double const radius =
+        reference.GetSemiMajor() * std::sqrt(1.0 - eccentricity_2) / (1.0 - eccentricity_2 * sine * sine);
+    return grid.cell_m * unit * radius * std::sqrt(portable::cos(latitude));
+}
+
+std::optional<std::string> crs_instead_of(OGRSpatialReference const& reference, Grid const& grid) {
+    Driver const driver;
+    return less_distorted(reference, {{grid.west, grid.south()}, {grid.east(), grid.north}}, "the grid");
+}
+
+} // namespace
+
+GroundCell ground_cell(Grid const& grid) {
+    if (grid.crs.empty()) {
+        return {GridUnit::unknown, grid.cell_m, ""};
+    }
+    OGRSpatialReference reference = read_reference(grid.crs);
+    reference.StripVertical();
+    if (reference.IsGeographic() != 0) {
+        return {GridUnit::degrees, side_of_geographic(grid, reference), ""};
+    }
+    if (is_projected_in_metres(reference)) {
+        if (auto other = crs_instead_of(reference, grid)) {
+            Driver const driver;
+            auto const middle =
+                GroundScale(reference).at({0.5 * (grid.west + grid.east()), 0.5 * (grid.south() + grid.north)});
+            return {GridUnit::distorted, grid.cell_m * (middle ? middle->side_m : 1.0), std::move(*other)};
+        }
+        return {GridUnit::metres, grid.cell_m, name_of(reference)};
+    }
+    return {GridUnit::other, grid.cell_m * reference.GetLinearUnits(), ""};
+}
+
+bool is_distorted(Grid const& grid) {
+    if (grid.crs.empty()) {
+        return false;
+    }
+    OGRSpatialReference reference = read_reference(grid.crs);
+    reference.StripVertical();
+    return is_projected_in_metres(reference) && crs_instead_of(reference, grid).has_value();
+}
+
+namespace {
+
+// East may exceed 180, not west + 360.
+DegreeBox box_of(Grid const& grid, std::string const& what) {
+    Driver const driver;
+    OGRSpatialReference const from = read_reference(grid.crs);
+    OGRSpatialReference const globe = read_reference("EPSG:4326");
+    std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &globe));
+    DegreeBox box;
+    constexpr int points_a_side = 21;
+    if (!turn || turn->TransformBounds(grid.west, grid.south(), grid.east(), grid.north, &box.west, &box.south,
+                                       &box.east, &box.north, points_a_side) == 0) {
+        throw BadInput(fmt::format("{} lies where its CRS has no longitude and latitude; check its position: {}", what,
+                                   driver.take()));
+    }
+    if (box.east < box.west) {
+        box.east += 360.0; // across the antimeridian
+    }
+    return box;
+}
+
+} // namespace
+
+bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std::string const& of_b) {
+    DegreeBox const p = box_of(a, of_a);
+    DegreeBox const q = box_of(b, of_b);
+    bool overlaps = false;
+    for (double const turn : {-360.0, 0.0, 360.0}) {
+        overlaps = overlaps || (p.west < q.east + turn && q.west + turn < p.east);
+    }
+    return overlaps && p.south < q.north && q.south < p.north;
+}
+
+double zone_stretch(Grid const& grid) {
+    if (!utm_number(grid.crs)) {
+        return 0.0;
+    }
+    try {
+        return utm_stretch(grid.crs, box_of(grid, "the grid"));
+    } catch (BadInput const&) { // as far away as that
+        return std::numeric_limits<double>::infinity();
+    }
+}
+
+std::string metric_crs(Grid const& grid, std::string const& what) {
+    if (is_projected_in_metres(read_reference(grid.crs))) {
+        GroundCell const ground = ground_cell(grid);
+        return ground.unit == GridUnit::distorted ? ground.crs : grid.crs;
+    }
+    DegreeBox const box = box_of(grid, what);
+    return utm_zone(0.5 * (box.west + box.east), 0.5 * (box.south + box.north));
+}
+
+} // namespace thalweg::io

@@ -1,0 +1,91 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cstdint>
+#include <cstring>
+#include <limits>
+#include <optional>
+#include <string>
+#include <string_view>
+
+#include <thalweg/core/height_unit.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::io {
+
+/// Appends a number to a file's bytes, lowest byte first on every machine.
+template <class T> void put_number(std::string& bytes, T value) {
+    std::array<char, sizeof(T)> raw{};
+    std::memcpy(raw.data(), &value, sizeof(T));
+    if constexpr (std::endian::native == std::endian::big) {
+        std::reverse(raw.begin(), raw.end());
+    }
+    bytes.append(raw.data(), raw.size());
+}
+
+/// Appends a field of so many bytes, filled with zeros.
+inline void put_field(std::string& bytes, std::string_view words, std::size_t size) {
+    bytes.append(words.substr(0, size));
+    bytes.append(size - std::min(size, words.size()), '\0');
+}
+
+// The parts of a binary PLY file that points and triangles share.
+// Source: Turk 1994, The PLY polygon file format.
+
+/// Appends the header. Takes: the CRS, a comment, "" for none; faces: how many, of vertices alone nothing; the unit of
+/// heights, a comment, of metres none.
+void put_ply_header(std::string& bytes, std::string const& crs, std::uint64_t vertices,
+                    std::optional<std::uint64_t> faces = {}, HeightUnit unit = HeightUnit::metre);
+
+/// Appends a vertex: three doubles.
+void put_ply_vertex(std::string& bytes, Vec3 vertex);
+
+// The parts of a LAS 1.2 file with points of format 0.
+// Source: ASPRS, LAS specification version 1.2.
+
+/// The smallest box around points.
+struct PointExtent {
+    Vec3 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity(),
+             std::numeric_limits<double>::infinity()};
+    Vec3 high{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity(),
+              -std::numeric_limits<double>::infinity()};
+
+    void add(Vec3 p) {
+        low = {std::min(low.x, p.x), std::min(low.y, p.y), std::min(low.z, p.z)};
+        high = {std::max(high.x, p.x), std::max(high.y, p.y), std::max(high.z, p.z)};
+    }
+};
+
+/// One axis: whole multiples of scale above offset.
+struct LasAxis {
+    double scale = 0.001;
+    double offset = 0.0;
+
+    std::int32_t whole(double v) const;
+    double read(std::int32_t whole) const { return static_cast<double>(whole) * scale + offset; }
+};
+
+/// What a file says of all its points.
+struct LasFrame {
+    LasAxis x;
+    LasAxis y;
+    LasAxis z;
+    PointExtent extent; ///< of the coordinates as the file has them
+    std::uint32_t count = 0;
+};
+
+/// Takes: the box around the points and their number; what counts as a short way between them [m] > 0.
+/// Gives: scales of 0.001, or the power of ten below a thousandth of that way, or the least one that fits the box.
+LasFrame las_frame(PointExtent const& extent, std::uint32_t count, double short_way);
+
+/// Appends the header, with GeoTIFF keys where crs is "EPSG:n", projected in metres. The date is always 1 January 2000.
+void put_las_header(std::string& bytes, LasFrame const& frame, std::string const& crs);
+
+/// Appends a point within the frame's box, the only return of its pulse.
+void put_las_point(std::string& bytes, LasFrame const& frame, Vec3 point, std::uint8_t classification);
+
+} // namespace thalweg::io

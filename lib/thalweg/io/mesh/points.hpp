@@ -1,0 +1,114 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/feature_points.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/skeleton.hpp>
+
+namespace thalweg::io {
+
+/// Whether points need heights.
+enum class PointHeights : std::uint8_t {
+    wanted,
+    passed_over ///< points lie in plan: whatever heights they have count as 0, and text needs no third column
+};
+
+/// What becomes of points that lie at one place in plan at unequal heights.
+enum class DuplicatePoints : std::uint8_t {
+    refused,
+    averaged ///< all of a place take the mean of their heights
+};
+
+/// Options of read_points().
+struct ReadPointsParams {
+    std::string path = {};     ///< text (.csv, .txt, .xyz) or anything OGR opens
+    std::string layer = {};    ///< "" takes the only layer of points
+    std::string z_field = "z"; ///< heights of points that have none themselves
+    std::string crs = {};      ///< of the result; "" takes the file's own when projected in metres, else its UTM zone;
+                               ///< a file without one, text included, is taken to be in it unless source_crs says
+    PointHeights heights = PointHeights::wanted;
+    DuplicatePoints duplicates = DuplicatePoints::refused;
+    /// Text: the columns that hold x, y and z, as names of a first line or numbers from 1 ("3,2,4"), or "pnezd"
+    /// (number, northing, easting, height, description). "": a first line names them x, y and z, or there are just
+    /// these three; nothing where the user has no option to name them
+    std::optional<std::string> columns = {};
+    /// CRS of a file that has none, text included ("": crs); nothing where the user has no option to name it
+    std::optional<std::string> source_crs = {};
+};
+
+/// Reads points with heights. Text: one a line, x y z in three columns, in those that a first line names (x, y, z in
+/// any case and order) or in those of params.columns, separated by commas, semicolons or blanks; empty lines and those
+/// that begin with # are skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6
+/// m as read_rivers does. \param params options, each with its default, unit and range \param run progress, log, stop
+/// token and number of threads \return the points \throws BadInput naming file and line or feature: missing file, layer
+/// or height, several layers of points, no points, something that is not a point or not a number, NaN or infinite
+/// values, no CRS (not in text), coordinates that cannot be reprojected, text without names that has more than three
+/// columns, text without a CRS that can only be longitudes and latitudes (where params.source_crs is set) \throws
+/// BadParameter columns that are not three \throws IoError when the file cannot be read to its end \throws Cancelled
+FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
+
+/// \param path path of the file
+/// \return whether a path's ending is that of text with points.
+bool is_text_of_points(std::string const& path);
+
+/// How a cloud of points is written.
+enum class PointFormat : std::uint8_t {
+    ply, ///< PLY, binary, coordinates as doubles
+    las, ///< LAS 1.2, point format 0
+    xyz, ///< text, x y z of one a line
+};
+
+/// A point format name.
+struct PointFormatName {
+    PointFormat format;
+    char const* name;   ///< "las"
+    char const* ending; ///< ".las"
+};
+std::vector<PointFormatName> const& point_formats();
+
+/// \param name its name
+/// \param path path of the file
+/// \return the format of a name, or where it is "" of a path's ending, in any case of letters.
+/// \throws BadParameter that lists the names there are
+PointFormat point_format(std::string const& name, std::string const& path);
+
+/// What LAS says of a point (its classification).
+enum class PointClass : std::uint8_t {
+    ground = 2,    ///< cells of a land
+    key_point = 8, ///< points of a file, ridges and points of a skeleton (model key-point)
+    water = 9      ///< rivers of a skeleton
+};
+
+/// Options of write_points().
+struct WritePointsParams {
+    PointFormat format = PointFormat::las;
+    std::int64_t every = 1; ///< [1, ...] one point, or row and column, of this many: the first
+};
+
+/// Writes points, or the centres of all cells with a height, as a new file; gives how many there are.
+/// \pre crs as in Grid, kept by ply (comment) and las (EPSG code); rivers: a mask in the skeleton's frame.
+/// \param points the points
+/// \param path path of the file
+/// \return points in their order, cells row by row from the north-west. Coordinates read back bit for bit, in text a
+/// cell's height as a float; in LAS within half a millimetre, or half a thousandth of a cell below a metre (of extents
+/// that need more than 32 bits: half the least power of ten that fits). The same bytes on any day.
+/// \throws BadInput naming point or cell, for a number that is not finite, when there is no point, LAS cannot count so
+/// many or the mask is of another frame
+/// \throws IoError also when the file exists
+///
+/// Source: ASPRS LAS 1.2; \cite turk1994, The PLY polygon file format.
+std::uint64_t write_points(FeaturePoints const& points, std::string const& path, WritePointsParams const& params = {},
+                           Run const& run = {});
+std::uint64_t write_points(Raster<float> const& land, std::string const& path, WritePointsParams const& params = {},
+                           Run const& run = {});
+std::uint64_t write_points(Skeleton const& skeleton, Mask const& rivers, std::string const& path,
+                           WritePointsParams const& params = {}, Run const& run = {});
+
+} // namespace thalweg::io
