@@ -19,13 +19,7 @@
 #include <thalweg/io/network/write_findings.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/network/write_postgis.hpp>
-#include <thalweg/io/raster/contours.hpp>
-#include <thalweg/io/raster/hillshade.hpp>
+#include <thalweg/io/raster/dem_derivatives.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
-#include <thalweg/io/raster/read_mask.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
-#include <thalweg/io/raster/warp_to_grid.hpp>
-#include <thalweg/io/raster/write_catchments.hpp>
-#include <thalweg/io/raster/write_dem.hpp>

@@ -12,7 +12,7 @@ REFERRING = {
     "draw/map.hpp": "an argument, for the time of a call",
     "draw/wireframe.hpp": "an argument, for the time of a call",
     "io/network/write_network.hpp": "an argument, for the time of a call; names are literals",
-    "io/raster/write_catchments.hpp": "an argument, for the time of a call",
+    "io/raster/polygons.hpp": "an argument, for the time of a call",
     "core/run/run.hpp": "what the caller asks to be handed back to its own callback",
     "network/import/import_lines.hpp": "an argument, for the time of a call",
     "io/mesh/tin.hpp": "names are literals",

@@ -6,7 +6,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/make_deform.hpp>
 #include <thalweg/pipeline/commands/make_deform_tin.hpp>
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 #include <algorithm>

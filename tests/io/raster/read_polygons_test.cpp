@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 
 #include <cmath>
 
@@ -8,7 +8,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include "scratch_folder.hpp"
 

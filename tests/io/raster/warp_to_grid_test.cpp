@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/raster/warp_to_grid.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include <cmath>
 #include <limits>
@@ -10,9 +10,6 @@
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/io/raster/read_mask.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
 
 #include "scratch_folder.hpp"
 

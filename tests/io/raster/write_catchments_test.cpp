@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/raster/write_catchments.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 
 #include <algorithm>
 #include <memory>
@@ -13,7 +13,7 @@
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/raster/internal/polygonise.hpp>
+#include <thalweg/io/raster/internal/polygons.hpp>
 
 #include "scratch_folder.hpp"
 

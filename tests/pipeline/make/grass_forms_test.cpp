@@ -7,7 +7,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace grass_forms_test {
 

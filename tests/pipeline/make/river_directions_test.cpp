@@ -24,7 +24,7 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/flow/streams/extract_streams.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/check_files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 

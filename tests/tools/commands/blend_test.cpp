@@ -3,8 +3,7 @@
 #include "blend_runs.hpp"
 
 #include <support.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

@@ -4,8 +4,7 @@
 
 #include <support.hpp>
 #include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>

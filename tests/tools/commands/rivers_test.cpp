@@ -6,7 +6,7 @@
 #include "report.hpp"
 
 #include <support.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>

@@ -14,7 +14,7 @@
 #include <thalweg/io/network/internal/network_layers.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/write_graph.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
 

@@ -2,7 +2,113 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/io/raster/contours.hpp>
-#include <thalweg/io/raster/hillshade.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/io/raster/write_dem.hpp>
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <thalweg/core/height_unit.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+
+namespace thalweg::io {
+
+/// What the cells of a raster hold.
+enum class CellValues : std::uint8_t {
+    heights, ///< of terrain
+    numbers  ///< of a mask, of classes, factors
+};
+
+/// Options of read_dem().
+struct ReadDemParams {
+    /// A stored value that is no-data, beside what the file declares; NaN: none. With either, undeclared no-data is not
+    /// searched.
+    std::optional<double> nodata = {};
+    CellValues values = CellValues::heights;
+};
+
+/// Reads the only band of any GDAL raster file, scale and offset applied, in metres by the unit that the band or the
+/// vertical part of its CRS names (metres where none is named); no-data and masked cells become NaN; cells that are NaN
+/// themselves are counted in the log. crs may be geographic or "" here; cell_m is in its unit. A raster without
+/// position has cells of 1 and its south-west corner at 0.
+/// \param path path of the file
+/// \return the raster
+/// \throws BadInput no such file, not a raster, more than one band, cells not square (their sides differ by more than
+/// 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated or south-up, larger than memory, no
+/// heights at all, a height beyond 1e30 (a damaged tile), values that no terrain has and the file does not declare as
+/// no-data: -9999, -32767, -32768, -99999; where it declares none and the cells are heights, also the lowest or highest
+/// value when it is not 0, fills 3 x 3 cells and lies farther from the next one than the others are apart
+Raster<float> read_dem(std::string const& path, ReadDemParams const& params, Run const& run = {});
+
+/// \param path path of the file
+/// \return the same with default options
+Raster<float> read_dem(std::string const& path, Run const& run = {});
+
+/// \param path path of the file
+/// \return the same, with heights in the file's unit: two that differ there differ here.
+Raster<float> read_stored_dem(std::string const& path, ReadDemParams const& params = {}, Run const& run = {});
+
+/// \param path path of the file
+/// \return whether read_dem takes a raster's cells as squares; true also of one that has no place, is rotated or is
+/// south-up
+/// \throws BadInput no such file or not a raster
+bool has_square_cells(std::string const& path);
+
+/// Reads a mask: the cells of any raster file whose value is neither 0 nor no-data.
+/// \pre a file whose cells are those of a grid.
+/// \param path path of the file
+/// \param grid the grid
+/// \return a mask on that grid.
+/// \throws BadInput like read_dem; when the file's cells are not the grid's, or only one of both has a CRS, or their
+/// CRS differ, naming both
+Mask read_mask(std::string const& path, Grid const& grid, Run const& run = {});
+
+/// Brings a DEM into the coordinates and the cell size of a grid.
+/// \pre what names the DEM in messages: "io.warp_to_grid: source.tif".
+/// \param dem [m] heights by cell; NaN: no data
+/// \param grid the grid
+/// \param what what it is, for messages
+/// \return the DEM as it stands where CRS and cell size are the grid's; else warped (bilinear, means where cells become
+/// larger) to squares of the grid's size on the lattice that the grid's own are part of; NaN where it has no data.
+/// \throws BadInput when only one of both has a CRS, naming both; when it cannot be warped to the grid's or becomes
+/// larger than memory
+Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run = {});
+
+/// Writes heights as a new cloud-optimised GeoTIFF: Float32, tiles of 512, DEFLATE with the floating-point predictor,
+/// nodata -9999 for NaN, overviews by mean.
+/// \post the same bytes for the same raster and any number of threads.
+/// \param dem [m] heights by cell; NaN: no data
+/// \param path path of the file
+/// \throws BadInput at an infinite height or one of -9999 m, or when grid.crs is not a CRS
+void write_dem(Raster<float> const& dem, std::string const& path, Run const& run = {});
+
+/// The same, of heights that are in a unit already: the band names it, "m" or "ft". The other names "m".
+/// \param dem [m] heights by cell; NaN: no data
+/// \param path path of the file
+/// \param unit the unit
+void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit unit, Run const& run = {});
+
+/// Writes a new Byte GeoTIFF (tiled, DEFLATE).
+/// \post like write_dem.
+/// \param mask the mask
+/// \param path path of the file
+/// \throws Error like write_dem
+void write_mask(Mask const& mask, std::string const& path, Run const& run = {});
+
+inline constexpr std::uint8_t no_code = 255; ///< nodata of codes
+
+/// Writes codes by cell as a new Byte GeoTIFF (tiled, DEFLATE), nodata no_code.
+/// \post like write_dem.
+/// \param codes codes by cell
+/// \param path path of the file
+/// \throws Error like write_dem
+void write_codes(Raster<std::uint8_t> const& codes, std::string const& path, Run const& run = {});
+
+/// Writes numbers by cell as a new Float64 GeoTIFF (tiled, DEFLATE with the floating-point predictor), nodata -9999 for
+/// NaN: contributing areas, which Float32 would round.
+/// \post like write_dem.
+/// \param field numbers by cell
+/// \param path path of the file
+/// \throws Error like write_dem
+void write_field(Raster<double> const& field, std::string const& path, Run const& run = {});
+
+} // namespace thalweg::io

@@ -1,27 +1,150 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/internal/read_dem.hpp>
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <memory>
 #include <vector>
 
+#include <cpl_conv.h>
+#include <fmt/format.h>
+#include <gdal_alg.h>
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+#include <ogr_spatialref.h>
 #include <unistd.h>
 
-#include <fmt/format.h>
-#include <gdal_priv.h>
-
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/raster/internal/plausible.hpp>
-#include <thalweg/io/raster/internal/undeclared_nodata.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
+namespace {
+
+constexpr std::array<double, 4> no_terrain{-9999.0, -32767.0, -32768.0, -99999.0};
+constexpr double deepest_sea = -12000.0;
+constexpr std::int32_t block_side = 3;
+
+std::string remedy(double stored, std::string const& path) {
+    return fmt::format("declare it (gdal_edit.py -a_nodata {0:.9g} {1}), or use --nodata {0:.9g} where the command has "
+                       "that option",
+                       stored, path);
+}
+
+} // namespace
+
+bool stands_for(double stored, double named) {
+    constexpr double largest = 1e30; // 3.4e38 for 3.4028235e38
+    return stored == named || static_cast<float>(stored) == static_cast<float>(named) ||
+           (std::fabs(stored) > largest && std::fabs(named) > largest && (stored > 0.0) == (named > 0.0));
+}
+
+bool declares_nodata(GDALRasterBand& band) {
+    return (band.GetMaskFlags() & GMF_ALL_VALID) == 0;
+}
+
+std::string implausible_words(std::int64_t col, std::int64_t row, double stored) {
+    return fmt::format("the height at column {}, row {} is {}: is the file damaged? A value that stands for no-data "
+                       "must be declared (gdal_edit.py -a_nodata {:.9g}) or named (--nodata {:.9g})",
+                       col, row, stored, stored, stored);
+}
+
+UndeclaredNodata::UndeclaredNodata(int width, ReadDemParams const& params, bool is_declared)
+    : searches_(!params.nodata), searches_blocks_(params.values == CellValues::heights && !is_declared) {
+    low_.run.assign(static_cast<std::size_t>(width), 0);
+    high_.run = low_.run;
+    for (std::size_t i = 0; i < no_terrain.size(); ++i) {
+        sentinels_[i].value = no_terrain[i];
+    }
+}
+
+void UndeclaredNodata::Extreme::add(std::size_t col, double z) {
+    if (z < value) {
+        next = value;
+        value = z;
+        std::ranges::fill(run, 0);
+        block.reset();
+    } else if (z > value && z < next) {
+        next = z;
+    }
+    run[col] = z == value ? run[col] + 1 : 0;
+}
+
+void UndeclaredNodata::Extreme::end_row(std::int64_t row) {
+    std::int64_t wide = 0;
+    for (std::size_t col = 0; col < run.size() && !block; ++col) {
+        wide = run[col] >= block_side ? wide + 1 : 0;
+        if (wide == block_side) {
+            block = {static_cast<std::int64_t>(col) - 1, row - 1};
+        }
+    }
+}
+
+void UndeclaredNodata::note_sentinel(std::int64_t col, double z) {
+    bool const is_sentinel = std::ranges::find(no_terrain, z) != no_terrain.end();
+    for (Sentinel& s : sentinels_) {
+        if (z == s.value) {
+            s.first = s.count == 0 ? std::array{col, row_} : s.first;
+            ++s.count;
+        }
+        s.is_depth = s.is_depth || (!is_sentinel && s.value > deepest_sea && z < s.value && z > deepest_sea);
+    }
+}
+
+void UndeclaredNodata::add_row(std::span<double const> stored) {
+    constexpr double deep = -9000.0;
+    if (searches_) {
+        for (std::size_t col = 0; col < stored.size(); ++col) {
+            double const z = stored[col];
+            if (z < deep) {
+                note_sentinel(static_cast<std::int64_t>(col), z);
+            }
+            if (searches_blocks_) { // NaN is neither
+                low_.add(col, z);
+                high_.add(col, -z);
+            }
+        }
+        if (searches_blocks_) {
+            low_.end_row(row_);
+            high_.end_row(row_);
+        }
+    }
+    ++row_;
+}
+
+void UndeclaredNodata::require_none(std::string const& what, std::string const& path) const {
+    for (Sentinel const& s : sentinels_) {
+        if (s.count > 0 && !s.is_depth) {
+            throw BadInput(fmt::format("{} has {} cells of {:g}, the first at column {}, row {}: no terrain has this "
+                                       "height, and the file does not declare it as no-data. If it is, {}; --nodata "
+                                       "nan takes it as a height",
+                                       what, s.count, s.value, s.first[0], s.first[1], remedy(s.value, path)));
+        }
+    }
+    double const gap_below = low_.next - low_.value;
+    double const gap_above = high_.next - high_.value;
+    double const range_above = -high_.value - low_.next;
+    double const range_below = -high_.next - low_.value;
+    auto const refuse = [&](Extreme const& e, double value, double gap, double range) {
+        if (e.block && value != 0.0 && std::isfinite(gap) && range > 0.0 && gap > range) {
+            throw BadInput(fmt::format("{} has a block of cells of {:.9g} around column {}, row {}, {:.6g} apart from "
+                                       "every other value, and these differ by {:.6g} only: it looks like no-data "
+                                       "that the file does not declare. If it is, {}; if it is terrain, use --nodata "
+                                       "nan, or declare another value",
+                                       what, value, (*e.block)[0], (*e.block)[1], gap, range, remedy(value, path)));
+        }
+    };
+    refuse(low_, low_.value, gap_below, range_above);
+    refuse(high_, -high_.value, gap_above, range_below);
+}
 
 namespace {
 
@@ -165,6 +288,129 @@ bool has_square_cells(std::string const& path) {
     auto const [west, dx, skew_x, north, skew_y, dy] = place;
     bool const is_north_up = skew_x == 0.0 && skew_y == 0.0 && dx > 0.0 && dy < 0.0;
     return !is_placed || !is_north_up || are_squares(dx, -dy, dataset->GetRasterXSize(), dataset->GetRasterYSize());
+}
+
+Mask read_mask(std::string const& path, Grid const& grid, Run const& run) {
+    Raster<float> const values = read_dem(path, {.values = CellValues::numbers}, run);
+    std::string const what = "io.read_mask: " + path;
+    Grid const& own = values.grid();
+    if (!same_cells(own, grid)) {
+        throw BadInput(fmt::format("{} has {} x {} cells of {} from ({}, {}), the grid {} x {} of {} from ({}, {}): a "
+                                   "mask has the grid's cells (gdalwarp -te ... -ts ...)",
+                                   what, own.width, own.height, own.cell_m, own.west, own.north, grid.width,
+                                   grid.height, grid.cell_m, grid.west, grid.north));
+    }
+    if (!same_crs(own.crs, grid.crs, what, "the grid")) {
+        throw BadInput(
+            fmt::format("{} is in {:.60}, the grid in {:.60}: warp it (gdalwarp -t_srs)", what, own.crs, grid.crs));
+    }
+    Mask mask(grid);
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
+        mask[i] = !std::isnan(values[i]) && values[i] != 0.0F ? 1 : 0;
+    }
+    return mask;
+}
+
+namespace {
+
+std::string wkt_of(std::string const& crs) {
+    if (crs.empty()) {
+        return "";
+    }
+    OGRSpatialReference reference = read_reference(crs);
+    reference.StripVertical();
+    char* text = nullptr;
+    reference.exportToWkt(&text);
+    std::string wkt = text == nullptr ? "" : text;
+    CPLFree(text);
+    return wkt;
+}
+
+/// The lattice cells of a grid that hold all of a data set.
+Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, std::string const& what,
+               Driver const& driver) {
+    CPLStringList options;
+    if (!wkt.empty()) {
+        options.SetNameValue("DST_SRS", wkt.c_str());
+    }
+    std::unique_ptr<void, decltype(&GDALDestroyGenImgProjTransformer)> const transformer(
+        GDALCreateGenImgProjTransformer2(GDALDataset::ToHandle(&source), nullptr, options.List()),
+        &GDALDestroyGenImgProjTransformer);
+    std::array<double, 6> suggested{};
+    std::array<double, 4> box{}; // west, south, east, north
+    int columns = 0;
+    int rows = 0;
+    if (!transformer ||
+        GDALSuggestedWarpOutput2(GDALDataset::ToHandle(&source), GDALGenImgProjTransform, transformer.get(),
+                                 suggested.data(), &columns, &rows, box.data(), 0) != CE_None) {
+        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
+    }
+    double const west = std::floor((box[0] - grid.west) / grid.cell_m);
+    double const east = std::ceil((box[2] - grid.west) / grid.cell_m);
+    double const north = std::floor((grid.north - box[3]) / grid.cell_m);
+    double const south = std::ceil((grid.north - box[1]) / grid.cell_m);
+    double const bytes = (east - west) * (south - north) * sizeof(float);
+    double const there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
+    constexpr double most = std::numeric_limits<int>::max();
+    if (!(bytes <= 0.5 * there && east - west <= most && south - north <= most)) {
+        throw BadInput(fmt::format("{} becomes {:.0f} x {:.0f} cells of {}, more than memory holds: cut a piece out "
+                                   "of it first (gdal_translate -srcwin)",
+                                   what, east - west, south - north, grid.cell_m));
+    }
+    Grid frame = grid;
+    frame.width = static_cast<std::int64_t>(std::max(east - west, 1.0));
+    frame.height = static_cast<std::int64_t>(std::max(south - north, 1.0));
+    frame.west = grid.west + west * grid.cell_m;
+    frame.north = grid.north - north * grid.cell_m;
+    return frame;
+}
+
+} // namespace
+
+Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {
+    if (same_crs(dem.grid().crs, grid.crs, what, "the grid") && same_size(dem.grid(), grid)) {
+        return dem;
+    }
+    Driver const driver;
+    Dataset const source = in_memory(dem, what);
+    std::string const wkt = wkt_of(grid.crs);
+    Grid const frame = frame_for(*source, grid, wkt, what, driver);
+    CPLStringList words;
+    auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
+    // Each place is transformed by itself (-et 0), not between some along a row.
+    for (std::string const& word :
+         {std::string("-of"), std::string("MEM"), std::string("-ot"), std::string("Float32"), std::string("-dstnodata"),
+          std::string("nan"), std::string("-r"), std::string("bilinear"), std::string("-et"), std::string("0"),
+          std::string("-te"), digits(frame.west), digits(frame.south()), digits(frame.east()), digits(frame.north),
+          std::string("-ts"), fmt::format("{}", frame.width), fmt::format("{}", frame.height)}) {
+        words.AddString(word.c_str());
+    }
+    if (!wkt.empty()) {
+        words.AddString("-t_srs");
+        words.AddString(wkt.c_str());
+    }
+    Watch watch(run, "warp");
+    std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const options(
+        GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
+    if (options == nullptr) {
+        throw BadInput(fmt::format("{} cannot be warped to cells of {}: {}", what, grid.cell_m, driver.take()));
+    }
+    GDALWarpAppOptionsSetProgress(options.get(), &Watch::step, &watch);
+    GDALDatasetH from = GDALDataset::ToHandle(source.get());
+    Dataset const warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));
+    watch.settle();
+    if (warped == nullptr) {
+        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
+    }
+    Raster<float> result(frame);
+    int const width = warped->GetRasterXSize();
+    int const height = warped->GetRasterYSize();
+    if (warped->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, result.values().data(), width, height,
+                                           GDT_Float32, 0, 0, nullptr) != CE_None) {
+        throw IoError(what + ": the warped heights cannot be read");
+    }
+    driver.check(what);
+    return result;
 }
 
 } // namespace thalweg::io

@@ -24,8 +24,7 @@
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/raster/internal/plausible.hpp>
-#include <thalweg/io/raster/internal/undeclared_nodata.hpp>
+#include <thalweg/io/raster/internal/read_dem.hpp>
 
 namespace thalweg::io {
 

@@ -38,14 +38,9 @@ struct Drawable {
 /// squares, rotated or south-up are made north-up squares; of several bands the first is taken; without a CRS
 /// coordinates count as metres.
 /// \param path path of the file
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return notes, one for each such change; no-data and masked cells as NaN, scale and offset applied.
-/// \throws BadParameter
 /// \throws BadInput no such file, not a raster, complex numbers, no heights at all, a height beyond 1e30, undeclared
 /// no-data as in read_dem, a place without projection, params.nodata beside another value that the file declares
-/// \throws IoError
-/// \throws Cancelled
 Drawable read_drawable(std::string const& path, ReadDrawableParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::io

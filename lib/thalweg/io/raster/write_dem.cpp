@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/raster/write_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include <algorithm>
 #include <cmath>

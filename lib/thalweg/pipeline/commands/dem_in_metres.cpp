@@ -9,9 +9,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
-#include <thalweg/io/raster/warp_to_grid.hpp>
 
 namespace thalweg::pipeline {
 

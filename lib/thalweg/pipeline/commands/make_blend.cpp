@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/commands/make_blend.hpp>
 
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_cells.hpp>
 
 namespace thalweg::pipeline {

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_cells.hpp>
 
 namespace thalweg::pipeline {

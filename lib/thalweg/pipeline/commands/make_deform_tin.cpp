@@ -13,7 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 
 namespace thalweg::pipeline {
 

@@ -10,7 +10,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
-#include <thalweg/io/raster/write_catchments.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 
 namespace thalweg::pipeline {
 

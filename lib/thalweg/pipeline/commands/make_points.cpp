@@ -15,7 +15,6 @@
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/io/raster/read_mask.hpp>
 #include <thalweg/pipeline/commands/internal/require_metres.hpp>
 #include <thalweg/pipeline/plan/internal/read_cells.hpp>
 

@@ -9,8 +9,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/io/raster/warp_to_grid.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_cells.hpp>
 
 namespace thalweg::pipeline {

@@ -6,7 +6,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/flow/catchments/areas.hpp>
 #include <thalweg/flow/flow_field.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/choose_lakes.hpp>
 #include <thalweg/network/channels/flood_lakes.hpp>

@@ -9,7 +9,7 @@
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/network/growth/forest/plant_forest.hpp>
 #include <thalweg/network/growth/forest/shape_island.hpp>
 #include <thalweg/network/growth/forest/spread_outlets.hpp>

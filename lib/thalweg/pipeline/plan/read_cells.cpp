@@ -14,10 +14,8 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/raster/read_dem.hpp>
-#include <thalweg/io/raster/read_mask.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
-#include <thalweg/io/raster/warp_to_grid.hpp>
+#include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 
 namespace thalweg::pipeline {

@@ -5,7 +5,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/io/raster/read_polygons.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 

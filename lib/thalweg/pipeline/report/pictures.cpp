@@ -7,6 +7,7 @@
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
+#include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 

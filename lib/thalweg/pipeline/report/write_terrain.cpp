@@ -13,6 +13,7 @@
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>

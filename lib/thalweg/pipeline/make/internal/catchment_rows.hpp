@@ -8,7 +8,7 @@
 #include <thalweg/flow/catchments/catchments.hpp>
 #include <thalweg/flow/catchments/reaches.hpp>
 #include <thalweg/flow/flow_field.hpp>
-#include <thalweg/io/raster/write_catchments.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 
 /// Private to this module.
 namespace thalweg::pipeline {

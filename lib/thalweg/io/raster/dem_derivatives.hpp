@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <vector>
 
@@ -10,6 +11,15 @@
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::io {
+
+enum class Light { north_west, multidirectional };
+
+/// \param dem [m] heights by cell; NaN: no data
+/// \param z_factor > 0, vertical exaggeration
+/// \param light where the light comes from
+/// \return GDAL's hillshade, 1..255; 0 where there is no data. z_factor: [> 0] exaggeration.
+/// \throws BadInput an empty raster, an infinite height
+Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor = 1.0, Light light = Light::north_west);
 
 /// A contour line.
 struct ContourLine {
@@ -20,11 +30,9 @@ struct ContourLine {
 /// GDAL's contour lines at multiples of an interval [m].
 /// \param dem [m] heights by cell; NaN: no data
 /// \param interval_m [m] > 0, interval between contours
-/// \param run progress, log, stop token and number of threads
 /// \return the lines
 /// \throws BadParameter when the interval is not above 0 or gives more than 10000 levels
 /// \throws BadInput an empty raster, an infinite height
-/// \throws Cancelled
 std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run = {});
 
 /// Writes contours as a new GeoPackage, layer contours (LineStringZ; z real, is_index integer: 1 for every fifth).
@@ -33,10 +41,7 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
 /// \param interval_m [m] > 0, interval between contours
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
-/// \throws BadInput
 /// \throws IoError also when the file exists
-/// \throws Cancelled
 void write_contours(std::vector<ContourLine> const& lines, double interval_m, std::string const& crs,
                     std::string const& path, Run const& run = {});
 
@@ -46,7 +51,6 @@ void write_contours(std::vector<ContourLine> const& lines, double interval_m, st
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path path of the file
 /// \param unit the unit
-/// \param run progress, log, stop token and number of threads
 void write_contours(std::vector<ContourLine> const& lines, double interval, std::string const& crs,
                     std::string const& path, HeightUnit unit, Run const& run = {});
 
