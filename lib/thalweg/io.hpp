@@ -11,14 +11,11 @@
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/network/find_rivers.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/table.hpp>
-#include <thalweg/io/network/write_findings.hpp>
 #include <thalweg/io/network/write_network.hpp>
-#include <thalweg/io/network/write_postgis.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

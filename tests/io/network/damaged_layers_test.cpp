@@ -11,8 +11,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/sources.hpp>
-#include <thalweg/io/network/find_rivers.hpp>
-#include <thalweg/io/network/internal/rivers_layer.hpp>
+#include <thalweg/io/network/internal/line_features.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
 
 #include "scratch_folder.hpp"
 #include "vector_files.hpp"

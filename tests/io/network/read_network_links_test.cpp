@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/internal/read_network_links.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -10,7 +10,7 @@
 #include <ogr_geometry.h>
 #include <rapidcheck.h>
 
-#include <thalweg/io/network/internal/read_network_lines.hpp>
+#include <thalweg/io/network/internal/line_features.hpp>
 
 namespace read_network_links_test {
 

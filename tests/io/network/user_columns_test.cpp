@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/internal/user_columns.hpp>
+#include <thalweg/io/network/internal/network_tables.hpp>
 
 #include <memory>
 #include <string>
@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/io/network/internal/read_attributes.hpp>
+#include <thalweg/io/network/internal/line_features.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/network/import/from_file.hpp>

@@ -63,6 +63,30 @@ Axes axes_of(Vec2 x, Vec2 y) {
     return {0.5 * (sum + difference), 0.5 * (sum - difference), area};
 }
 
+// By how much lengths in a projected CRS are off, on average over a box whose coordinates are in `own`; places without
+// longitude and latitude in `own` do not count, those without any in the other CRS count as off by 100 %.
+double length_error(OGRSpatialReference const& projected, OGRSpatialReference const& own, FileBox const& box) {
+    Driver const driver;
+    OGRSpatialReference const from = plan_of(own);
+    OGRSpatialReference const to = plan_of(projected);
+    GroundScale const own_scale(from);
+    GroundScale const scale(to);
+    bool const is_own = name_of(from) == name_of(to);
+    Transformation const turn(is_own ? nullptr : OGRCreateCoordinateTransformation(&from, &to));
+    double sum = 0.0;
+    int count = 0;
+    for (Vec2 place : places_in(box)) {
+        if (!own_scale.at(place)) {
+            continue;
+        }
+        bool const moved = is_own || (turn && turn->Transform(1, &place.x, &place.y) != 0);
+        auto const there = moved ? scale.at(place) : std::nullopt;
+        sum += there ? there->error : 1.0;
+        ++count;
+    }
+    return count == 0 ? 0.0 : sum / count;
+}
+
 } // namespace
 
 struct GroundScale::Turn {
@@ -124,52 +148,6 @@ std::optional<PointScale> GroundScale::at(Vec2 place) const {
                       std::max(std::fabs(1.0 / axes.longest - 1.0), std::fabs(1.0 / axes.shortest - 1.0))};
 }
 
-double length_error(OGRSpatialReference const& projected, OGRSpatialReference const& own, FileBox const& box) {
-    Driver const driver;
-    OGRSpatialReference const from = plan_of(own);
-    OGRSpatialReference const to = plan_of(projected);
-    GroundScale const own_scale(from);
-    GroundScale const scale(to);
-    bool const is_own = name_of(from) == name_of(to);
-    Transformation const turn(is_own ? nullptr : OGRCreateCoordinateTransformation(&from, &to));
-    double sum = 0.0;
-    int count = 0;
-    for (Vec2 place : places_in(box)) {
-        if (!own_scale.at(place)) {
-            continue;
-        }
-        bool const moved = is_own || (turn && turn->Transform(1, &place.x, &place.y) != 0);
-        auto const there = moved ? scale.at(place) : std::nullopt;
-        sum += there ? there->error : 1.0;
-        ++count;
-    }
-    return count == 0 ? 0.0 : sum / count;
-}
-
-bool is_distorted(OGRSpatialReference const& own, FileBox const& box) {
-    return is_projected_in_metres(own) && length_error(own, own, box) > most_length_error;
-}
-
-bool is_better(OGRSpatialReference const& other, OGRSpatialReference const& own, FileBox const& box) {
-    return length_error(other, own, box) <= 0.5 * length_error(own, own, box);
-}
-
-std::optional<std::string> less_distorted(OGRSpatialReference const& own, FileBox const& box, std::string const& name) {
-    if (!is_distorted(own, box)) {
-        return std::nullopt;
-    }
-    std::string zone;
-    try {
-        zone = zone_of(box, own, name);
-    } catch (BadInput const&) { // round a pole or the globe
-        if (length_error(own, own, box) > most_error_without_zone) {
-            throw;
-        }
-        return std::nullopt;
-    }
-    return is_better(read_reference(zone), own, box) ? std::optional(std::move(zone)) : std::nullopt;
-}
-
 namespace {
 
 constexpr double most_stretch = 0.04;
@@ -190,24 +168,10 @@ std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformat
     return degrees;
 }
 
-} // namespace
-
-void FilePlaces::add(double x, double y) {
-    low_ = {std::min(low_.x, x), std::min(low_.y, y)};
-    high_ = {std::max(high_.x, x), std::max(high_.y, y)};
-    double const turned = x < 0.0 ? x + 360.0 : x;
-    turned_ = {std::min(turned_.x, turned), std::max(turned_.y, turned)};
-}
-
-FileBox FilePlaces::box() const {
-    return {low_, high_, turned_};
-}
-
-bool is_missing(OGRSpatialReference const* reference) {
-    return reference == nullptr || reference->IsEmpty() ||
-           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
-}
-
+// The UTM zone of the middle of a box whose coordinates are in `from`; where that lengthens lines by more than 4 %,
+// Lambert's azimuthal equal-area projection around the middle. Longitudes on both sides of 180 degrees are one box
+// where that is narrower. Throws: BadInput where the middle has no longitude and latitude or the box spans more than
+// 180 degrees of longitude: "io.into_metres: name ...".
 std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
     FileBox box = given;
     if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
@@ -240,6 +204,48 @@ std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::
                         name, degrees->east - degrees->west, degrees->west, degrees->east));
     }
     return name_of(equal_area_around(std::round(turned.x), std::round(turned.y)));
+}
+
+} // namespace
+
+bool is_distorted(OGRSpatialReference const& own, FileBox const& box) {
+    return is_projected_in_metres(own) && length_error(own, own, box) > most_length_error;
+}
+
+bool is_better(OGRSpatialReference const& other, OGRSpatialReference const& own, FileBox const& box) {
+    return length_error(other, own, box) <= 0.5 * length_error(own, own, box);
+}
+
+std::optional<std::string> less_distorted(OGRSpatialReference const& own, FileBox const& box, std::string const& name) {
+    if (!is_distorted(own, box)) {
+        return std::nullopt;
+    }
+    std::string zone;
+    try {
+        zone = zone_of(box, own, name);
+    } catch (BadInput const&) { // round a pole or the globe
+        if (length_error(own, own, box) > most_error_without_zone) {
+            throw;
+        }
+        return std::nullopt;
+    }
+    return is_better(read_reference(zone), own, box) ? std::optional(std::move(zone)) : std::nullopt;
+}
+
+void FilePlaces::add(double x, double y) {
+    low_ = {std::min(low_.x, x), std::min(low_.y, y)};
+    high_ = {std::max(high_.x, x), std::max(high_.y, y)};
+    double const turned = x < 0.0 ? x + 360.0 : x;
+    turned_ = {std::min(turned_.x, turned), std::max(turned_.y, turned)};
+}
+
+FileBox FilePlaces::box() const {
+    return {low_, high_, turned_};
+}
+
+bool is_missing(OGRSpatialReference const* reference) {
+    return reference == nullptr || reference->IsEmpty() ||
+           (reference->GetName() != nullptr && std::string_view(reference->GetName()).starts_with("Undefined"));
 }
 
 OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string const& source_crs) {

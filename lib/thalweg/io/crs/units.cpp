@@ -18,6 +18,8 @@
 namespace thalweg::io {
 namespace {
 
+constexpr double us_survey_foot_m = 1200.0 / 3937.0;
+
 constexpr double foot_m = 0.3048;
 
 double vertical_unit(OGRSpatialReference const* reference) {

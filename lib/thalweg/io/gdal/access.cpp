@@ -380,10 +380,6 @@ WithNetcdf::~WithNetcdf() {
     }
 }
 
-void refuse_grid(std::string const& path) {
-    refused.grid = path;
-}
-
 Refusal take_refusal() {
     return std::exchange(refused, {});
 }
@@ -435,7 +431,7 @@ bool is_of_proj(char const* name) noexcept {
             return true;
         }
         if (std::string_view(name).find('/') != std::string_view::npos) {
-            refuse_grid(name);
+            refused.grid = name;
         }
     } catch (std::exception const&) { // must not cross frames of C
     }

@@ -27,8 +27,8 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/points.hpp>
-#include <thalweg/io/network/internal/layer_writer.hpp>
-#include <thalweg/io/network/internal/rivers_layer.hpp>
+#include <thalweg/io/network/internal/line_features.hpp>
+#include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {
 namespace {

@@ -9,6 +9,15 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 
 namespace thalweg::io {
+namespace {
+
+// Appends a field of so many bytes, filled with zeros.
+void put_field(std::string& bytes, std::string_view words, std::size_t size) {
+    bytes.append(words.substr(0, size));
+    bytes.append(size - std::min(size, words.size()), '\0');
+}
+
+} // namespace
 
 void put_ply_header(std::string& bytes, std::string const& crs, std::uint64_t vertices,
                     std::optional<std::uint64_t> faces, HeightUnit unit) {

@@ -32,8 +32,6 @@ struct ReadNetworkParams {
 /// tell arc_id and ds_arc, or arc_id, from_node and to_node, no schema is needed. Nor is one under any_lines: arcs have
 /// the numbers of their features, from 1, and the links that docs/river_files.md lists, if any. A column that is the
 /// feature id of its format is found like a field. The source is opened to be read only, and nothing is left beside it
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return arcs drawn downstream (where the lines of most linked arcs are drawn up, all are turned), in metres (what is
 /// not in a projected CRS in metres, or in one whose lengths are off by more than 1 % and that is not the choice of
 /// a network in the native schema, is reprojected to its UTM zone, to 1e-6 m), areas in m2; NetworkFile::says tells
@@ -55,7 +53,6 @@ NetworkFile read_network(std::string const& path, ReadNetworkParams const& param
 
 /// Reads a network in the native schema with all its layers and fields, lines with Z, numbers that are there and whole.
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \return the network as in its file
 /// \throws Error like the other, and BadInput instead of every finding
 NetworkFile read_network(std::string const& path, Run const& run = {});

@@ -11,6 +11,20 @@
 
 namespace thalweg::io {
 
+/// Where the rivers are that somebody's path names.
+struct RiverSource {
+    std::string path;
+    std::string layer; ///< "arcs" of a network that thalweg wrote, else ""
+};
+
+/// Looks for rivers.
+/// \param path a file that OGR reads, a zip archive of one, a folder of shapefiles, the folder that `make` or `convert`
+/// wrote (its network.gpkg, else its only NAME_arcs file or its only GeoPackage), or a database ("PG:...")
+/// \return where the rivers are
+/// \throws BadInput that says what is there instead: nothing, an empty file or folder, a raster, no layer with lines, a
+/// file that GDAL cannot read
+RiverSource find_rivers(std::string const& path);
+
 /// Which lines of a file are rivers.
 enum class LineFilter : std::uint8_t {
     natural, ///< no canal, ditch, pipe, weir, coastline ...: docs/river_files.md lists them
@@ -41,15 +55,12 @@ struct ReadRiversParams {
 /// Features without a line of some length (null, empty, points that are all one) are left out, shapes that are not
 /// lines are skipped: findings. has_z: every vertex has a height, and not all are the same (files that fill Z with 0
 /// have none).
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the lines
 /// \throws BadParameter one of id_field and down_field without the other
 /// \throws BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
 /// features, no CRS, coordinates that are not finite or cannot be reprojected, nothing left, a lambda that is not a
 /// whole number from 1 to 50
 /// \throws IoError when the file cannot be read to its end
-/// \throws Cancelled
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
 
 } // namespace thalweg::io

@@ -13,7 +13,7 @@
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
-#include <thalweg/io/files/internal/decimals.hpp>
+#include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {
 

@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstddef>
 #include <filesystem>
+#include <limits>
 
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
@@ -15,9 +17,261 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/network/internal/layer_writer.hpp>
+#include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {
+namespace {
+
+// A dBase field is text: these widths hold what a reader takes for a 32-bit, a 64-bit and a real number.
+constexpr int integer_width = 9;
+constexpr int wide_integer_width = 18;
+constexpr int real_width = 24;
+constexpr int text_width = 32; // grows by itself up to text_limit
+constexpr std::size_t text_limit = 254;
+
+// Both formats stamp the day of writing unless told another.
+constexpr char const* date = "2000-01-01";
+constexpr char const* instant = "2000-01-01T00:00:00.000Z";
+
+// Room for any number a user may have, one that a reader takes for 64 bits included.
+int users_width(Column::Kind kind, int width) {
+    constexpr int any_integer = 11;
+    constexpr int any_wide_integer = 20;
+    return kind == Column::Kind::integer ? any_integer : kind == Column::Kind::wide_integer ? any_wide_integer : width;
+}
+
+void add_field(LayerTarget const& target, OGRLayer& layer, Column const& column) {
+    OGRFieldDefn field(column.name.c_str(), OFTInteger);
+    int width = integer_width;
+    switch (column.kind) {
+    case Column::Kind::integer: break;
+    case Column::Kind::wide_integer:
+        field.SetType(OFTInteger64);
+        width = wide_integer_width;
+        break;
+    case Column::Kind::real:
+        field.SetType(OFTReal);
+        width = real_width;
+        break;
+    case Column::Kind::text:
+        field.SetType(OFTString);
+        width = text_width;
+        break;
+    case Column::Kind::date:
+        field.SetType(OFTDate);
+        width = 0;
+        break;
+    case Column::Kind::time:
+        field.SetType(OFTTime);
+        width = 0;
+        break;
+    case Column::Kind::datetime:
+        field.SetType(OFTDateTime);
+        width = 0;
+        break;
+    }
+    bool const is_part_of_moment = column.kind == Column::Kind::date || column.kind == Column::Kind::time;
+    if (target.format == LayerFormat::flatgeobuf && is_part_of_moment) { // which has no other
+        field.SetType(OFTString);
+    }
+    if (target.format == LayerFormat::shapefile) {
+        field.SetWidth(column.is_users ? users_width(column.kind, width) : width);
+        field.SetPrecision(column.decimals);
+    } else if (!column.is_users) {
+        field.SetNullable(FALSE);
+    }
+    target.require(layer.CreateField(&field) == OGRERR_NONE);
+}
+
+// Least power of ten that has too many digits for a field.
+double limit_of(Column const& column, LayerFormat format) {
+    auto const digits = [](int count) {
+        double power = 1.0;
+        for (int i = 0; i < count; ++i) {
+            power *= 10.0;
+        }
+        return power;
+    };
+    if (column.kind == Column::Kind::integer) {
+        return digits(integer_width - 1); // in every format, so that they hold the same
+    }
+    if (format != LayerFormat::shapefile) {
+        return std::numeric_limits<double>::infinity();
+    }
+    return column.kind == Column::Kind::wide_integer ? digits(wide_integer_width - 1)
+                                                     : digits(real_width - 2 - column.decimals);
+}
+
+CPLStringList options_of(LayerTarget const& target, bool has_shape) {
+    CPLStringList options;
+    switch (target.format) {
+    case LayerFormat::geopackage:
+        if (has_shape) {
+            options.SetNameValue("GEOMETRY_NULLABLE", "NO");
+        }
+        break;
+    case LayerFormat::shapefile:
+        options.SetNameValue("ENCODING", "UTF-8");
+        options.SetNameValue("DBF_DATE_LAST_UPDATE", date);
+        break;
+    case LayerFormat::flatgeobuf: break;
+    case LayerFormat::geojson: options.SetNameValue("SIGNIFICANT_FIGURES", "17"); break; // any double, bit for bit
+    case LayerFormat::postgresql:
+        options.SetNameValue("GEOMETRY_NAME", "geom");
+        options.SetNameValue("FID", "fid");
+        options.SetNameValue("GEOMETRY_NULLABLE", "NO");
+        if (!target.db_schema.empty()) {
+            options.SetNameValue("SCHEMA", target.db_schema.c_str());
+        }
+        break;
+    }
+    return options;
+}
+
+OGRLayer& create_layer(LayerTarget const& target, Table const& table) {
+    CPLStringList options = options_of(target, table.shape != Table::Shape::none);
+    OGRwkbGeometryType type = wkbNone;
+    if (table.shape != Table::Shape::none) {
+        type = table.shape == Table::Shape::point       ? wkbPoint25D
+               : table.shape == Table::Shape::line      ? wkbLineString25D
+               : table.shape == Table::Shape::plan_line ? wkbLineString
+               : table.shape == Table::Shape::polygon   ? wkbPolygon25D
+                                                        : wkbMultiPolygon;
+    }
+    OGRLayer* const layer = target.dataset.CreateLayer(table.name.c_str(), type == wkbNone ? nullptr : target.reference,
+                                                       type, options.List());
+    target.require(layer != nullptr);
+    for (Column const& column : table.columns) {
+        add_field(target, *layer, column);
+    }
+    return *layer;
+}
+
+void set_field(OGRFeature& feature, int index, Column const& column, std::size_t row, LayerTarget const& target,
+               std::string const& table) {
+    auto const refuse = [&](std::string const& why) {
+        throw BadInput(fmt::format("{}: {} {} has {} {}", target.what, table, row + 1, column.name, why));
+    };
+    auto const value = column.at(row);
+    if (std::holds_alternative<std::monostate>(value)) {
+        feature.SetFieldNull(index);
+        return;
+    }
+    double const limit = column.is_users ? std::numeric_limits<double>::infinity() : limit_of(column, target.format);
+    if (auto const* whole = std::get_if<std::int64_t>(&value)) {
+        if (!(std::fabs(static_cast<double>(*whole)) < limit)) {
+            refuse(fmt::format("= {}, more than the field holds", *whole));
+        }
+        feature.SetField(index, static_cast<GIntBig>(*whole));
+    } else if (auto const* real = std::get_if<double>(&value)) {
+        if (!std::isfinite(*real) || !(std::fabs(*real) < limit)) {
+            refuse(fmt::format("= {}, which cannot be written", *real));
+        }
+        feature.SetField(index, *real);
+    } else {
+        auto const& text = std::get<std::string>(value);
+        if (target.format == LayerFormat::shapefile && text.size() > text_limit) {
+            refuse(fmt::format("of more than {} bytes", text_limit));
+        }
+        feature.SetField(index, text.c_str());
+    }
+}
+
+void set_parts(OGRFeature& feature, Table const& table, std::size_t row, LayerTarget const& target) {
+    OGRMultiPolygon parts;
+    for (Polygon const& part : table.parts_at(row)) {
+        OGRPolygon drawn;
+        for (auto const& positions : part.rings) {
+            OGRLinearRing ring;
+            ring.setNumPoints(static_cast<int>(positions.size()));
+            for (int i = 0; Vec2 const p : positions) {
+                ring.setPoint(i++, p.x, p.y);
+            }
+            ring.closeRings();
+            target.require(drawn.addRing(&ring) == OGRERR_NONE);
+        }
+        target.require(parts.addGeometry(&drawn) == OGRERR_NONE);
+    }
+    target.require(feature.SetGeometry(&parts) == OGRERR_NONE);
+}
+
+void set_shape(OGRFeature& feature, Table const& table, std::size_t row, LayerTarget const& target) {
+    if (table.shape == Table::Shape::multi_polygon) {
+        set_parts(feature, table, row, target);
+        return;
+    }
+    std::vector<Vec3> const positions = table.shape_at(row);
+    for (Vec3 const& p : positions) {
+        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+            throw BadInput(
+                fmt::format("{}: {} {} has a vertex ({}, {}, {})", target.what, table.name, row + 1, p.x, p.y, p.z));
+        }
+    }
+    if (table.shape == Table::Shape::point) {
+        OGRPoint const point(positions.at(0).x, positions.at(0).y, positions.at(0).z);
+        target.require(feature.SetGeometry(&point) == OGRERR_NONE);
+        return;
+    }
+    auto const draw = [&](OGRSimpleCurve& line) {
+        line.setNumPoints(static_cast<int>(positions.size()));
+        for (int i = 0; Vec3 const& p : positions) {
+            line.setPoint(i++, p.x, p.y, p.z);
+        }
+    };
+    if (table.shape == Table::Shape::line || table.shape == Table::Shape::plan_line) {
+        OGRLineString line;
+        draw(line);
+        if (table.shape == Table::Shape::plan_line) {
+            line.flattenTo2D();
+        }
+        target.require(feature.SetGeometry(&line) == OGRERR_NONE);
+        return;
+    }
+    OGRLinearRing ring;
+    draw(ring);
+    OGRPolygon polygon;
+    target.require(polygon.addRing(&ring) == OGRERR_NONE && feature.SetGeometry(&polygon) == OGRERR_NONE);
+}
+
+GIntBig id_of(GIntBig row, LayerFormat format) {
+    // A shapefile counts its features from 0 and would leave a gap; the others count by themselves.
+    return format == LayerFormat::geopackage ? row + 1 : format == LayerFormat::shapefile ? row : OGRNullFID;
+}
+
+} // namespace
+
+FixedDate::FixedDate() {
+    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", instant);
+}
+FixedDate::~FixedDate() {
+    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
+}
+
+void LayerTarget::require(bool done) const {
+    if (!done) {
+        driver.check(what);
+        throw IoError(what + " could not be written");
+    }
+}
+
+void write_layer(LayerTarget const& target, Table const& table, Run const& run) {
+    constexpr std::size_t rows_between_reports = 1024;
+    OGRLayer& layer = create_layer(target, table);
+    OGRFeature feature(layer.GetLayerDefn());
+    for (std::size_t row = 0; row < table.rows; ++row) {
+        if (row % rows_between_reports == 0) {
+            run.at(static_cast<double>(row) / static_cast<double>(table.rows), "write");
+        }
+        for (int i = 0; Column const& column : table.columns) {
+            set_field(feature, i++, column, row, target, table.name);
+        }
+        if (table.shape != Table::Shape::none) {
+            set_shape(feature, table, row, target);
+        }
+        feature.SetFID(id_of(static_cast<GIntBig>(row), target.format));
+        target.require(layer.CreateFeature(&feature) == OGRERR_NONE);
+    }
+}
 
 namespace {
 

@@ -46,7 +46,6 @@ struct Table {
 /// \param tables the values of the tables
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \throws BadInput naming table, row and column when a number is not finite or does not fit its column
 /// \throws IoError also when the file exists
 void write_tables(std::vector<Table> const& tables, std::string const& crs, std::string const& path,
@@ -57,7 +56,6 @@ void write_tables(std::vector<Table> const& tables, std::string const& crs, std:
 /// \param table the table
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \throws Error like write_tables
 void write_shapefile(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
 
@@ -66,7 +64,6 @@ void write_shapefile(Table const& table, std::string const& crs, std::string con
 /// \param table the table
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \throws Error like write_tables
 void write_flatgeobuf(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
 
@@ -76,7 +73,6 @@ void write_flatgeobuf(Table const& table, std::string const& crs, std::string co
 /// \param table the table
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \throws Error like write_tables
 /// \throws BadInput also when the CRS has no EPSG code
 void write_geojson(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});

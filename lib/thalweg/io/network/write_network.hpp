@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/attributes.hpp>
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/ridge_lines.hpp>
@@ -56,7 +57,6 @@ struct NetworkTables {
 /// \post the same bytes for the same network, on any day.
 /// \param tables the values of the tables
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \throws BadInput naming the arc or node when the values do not belong to the network, an arc's end is not its node,
 /// a node reaches no outlet, a ridge has fewer than two vertices, a number is not finite or, in a shapefile, has more
 /// digits than its field
@@ -68,7 +68,6 @@ void write_geopackage(NetworkTables const& tables, std::string const& path, Run 
 /// \post like write_geopackage.
 /// \param tables the values of the tables
 /// \param path path of the file
-/// \param run progress, log, stop token and number of threads
 /// \throws Error like write_geopackage
 void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run = {});
 
@@ -114,7 +113,6 @@ struct WriteNetworkParams {
 };
 
 /// \param path path of the file
-/// \param params options, each with its default, unit and range
 /// \return the files that a network written to a path has, PATH's folder left out: PATH itself, or in the network
 /// schema NAME_arcs and NAME_nodes of shapefile, FlatGeobuf and GeoJSON; of a shapefile all it may have, .shp first.
 std::vector<std::string> network_files(std::string const& path, WriteNetworkParams const& params);
@@ -126,11 +124,47 @@ std::vector<std::string> network_files(std::string const& path, WriteNetworkPara
 /// schema has for them (schema.hpp).
 /// \param tables the values of the tables
 /// \param path path of the file
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \throws Error as write_geopackage
 /// \throws BadInput naming the place, also when more arcs meet than the schema can name, or GeoJSON cannot name the CRS
 void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params = {},
                    Run const& run = {});
+
+/// Options of write_postgis().
+struct WritePostgisParams {
+    Schema schema = Schema::native;
+    std::string name = "network"; ///< of what is made, "NAME" or "SCHEMA.NAME": small letters, digits and _
+    bool overwrite = false;       ///< replaces tables and view of these names
+};
+
+/// \param name its name
+/// \return whether a name is that of a PostgreSQL database ("PG:dbname=rivers host=...").
+bool is_postgis(std::string const& name);
+
+/// Writes a network into a PostGIS database, in one transaction: wholly or not at all.
+/// \param tables the values of the tables
+/// \param connection the database, "PG:..."
+/// \return the names of what it made: in the network schema tables NAME_arcs and NAME_nodes, in another one table NAME;
+/// where the schema names nodes also the view NAME_edges (id, source, target, cost, reverse_cost, geom) as pgRouting
+/// takes it: cost is the arc's length in the schema's unit, and -1 upstream. Columns have the schema's names in small
+/// letters, and fid is their primary key. Lines are bit for bit those of the network, other numbers have the 15 digits
+/// in which GDAL hands them over.
+/// \throws BadParameter when the name is none
+/// \throws BadInput when what it would make is there already and overwrite is not set, or there is no such schema in
+/// the database
+/// \throws IoError also when no database answers or a view of somebody's needs what would be replaced; otherwise as
+/// write_network
+std::vector<std::string> write_postgis(NetworkTables const& tables, std::string const& connection,
+                                       WritePostgisParams const& params = {}, Run const& run = {});
+
+/// Writes findings as the points of a new GeoPackage: layer findings, with fields kind (text), feature (integer; 0 for
+/// none), amount (real, in the unit of its kind) and text.
+/// \post one point a finding, in their order; a layer without features where there is none; the same bytes on any day.
+/// \pre findings; what is not finite in them stands as 0.
+/// \param findings the findings
+/// \param crs of their places, "" for none
+/// \param path path of the file
+/// \throws IoError also when the file exists
+void write_findings(std::vector<Finding> const& findings, std::string const& crs, std::string const& path,
+                    Run const& run = {});
 
 } // namespace thalweg::io

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/write_postgis.hpp>
+#include <thalweg/io/network/write_network.hpp>
 
 #include <algorithm>
 #include <array>
@@ -15,8 +15,8 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/network/internal/layer_writer.hpp>
-#include <thalweg/io/network/internal/network_layers.hpp>
+#include <thalweg/io/network/internal/network_tables.hpp>
+#include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {
 

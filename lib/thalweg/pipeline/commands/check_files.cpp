@@ -11,7 +11,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/network/write_findings.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/commands/internal/certify_files.hpp>

@@ -18,7 +18,6 @@
 #include <thalweg/flow/routing/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/write_network.hpp>
-#include <thalweg/io/network/write_postgis.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/elevation/drape.hpp>
 #include <thalweg/network/import/from_file.hpp>

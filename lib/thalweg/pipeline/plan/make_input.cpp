@@ -6,7 +6,7 @@
 #include <thalweg/core/run/printable.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/network/find_rivers.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/pipeline/plan/internal/read_lines.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 

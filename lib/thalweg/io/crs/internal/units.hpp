@@ -9,10 +9,9 @@
 class GDALDataset;
 class OGRLayer;
 class OGRSpatialReference;
+
 /// Units of length in files.
 namespace thalweg::io {
-
-inline constexpr double us_survey_foot_m = 1200.0 / 3937.0;
 
 /// What 1 of a unit is in metres, by any of its usual names ("m", "metre", "ft", "US survey foot", "cm", ...); nothing
 /// for a name that is not known.

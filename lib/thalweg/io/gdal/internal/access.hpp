@@ -53,9 +53,6 @@ struct Refusal {
     std::string grid = {}; ///< of a datum, outside PROJ's folders
 };
 
-/// Notes a grid for this thread. Throws: bad_alloc.
-void refuse_grid(std::string const& path);
-
 /// What was refused in this thread since the last call.
 Refusal take_refusal();
 

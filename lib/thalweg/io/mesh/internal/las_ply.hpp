@@ -27,12 +27,6 @@ template <class T> void put_number(std::string& bytes, T value) {
     bytes.append(raw.data(), raw.size());
 }
 
-/// Appends a field of so many bytes, filled with zeros.
-inline void put_field(std::string& bytes, std::string_view words, std::size_t size) {
-    bytes.append(words.substr(0, size));
-    bytes.append(size - std::min(size, words.size()), '\0');
-}
-
 // The parts of a binary PLY file that points and triangles share.
 // Source: Turk 1994, The PLY polygon file format.
 

@@ -14,7 +14,7 @@ class OGRFeatureDefn;
 class OGRLayer;
 
 /// What the fields of river files say: NHDPlus, HydroRIVERS, EU-Hydro, OpenStreetMap, and the schemas of networks.
-/// docs/river_files.md lists them. Private to this module.
+/// docs/river_files.md lists them.
 namespace thalweg::io {
 
 class RiverFields {

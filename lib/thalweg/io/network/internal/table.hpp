@@ -12,8 +12,9 @@
 class GDALDataset;
 class OGRSpatialReference;
 
-/// How a table becomes a layer of what GDAL has opened. Private to this module.
 namespace thalweg::io {
+
+// How a table becomes a layer of what GDAL has opened.
 
 enum class LayerFormat : std::uint8_t { geopackage, shapefile, flatgeobuf, geojson, postgresql };
 
@@ -41,5 +42,10 @@ public:
     FixedDate(FixedDate const&) = delete;
     FixedDate& operator=(FixedDate const&) = delete;
 };
+
+// Decimals in a shapefile: more than a double at 1e6 m carries, few enough for 1e13 m or 1e16 m2.
+inline constexpr int length_decimals = 9;
+inline constexpr int area_decimals = 6;
+inline constexpr int slope_decimals = 15;
 
 } // namespace thalweg::io
