@@ -10,11 +10,9 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/conditioning/condition.hpp>
-#include <thalweg/flow/routing/route.hpp>
-#include <thalweg/flow/routing/route_dinf.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/condition.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 

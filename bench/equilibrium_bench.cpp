@@ -8,7 +8,7 @@
 #include <benchmark/benchmark.h>
 
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 #include "../tests/support.hpp"

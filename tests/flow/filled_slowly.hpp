@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 /// The filled DEM by the definition: lower a flood until each cell stands at the least level of any way out.
 inline std::vector<double> filled_slowly(thalweg::Raster<float> const& dem) {

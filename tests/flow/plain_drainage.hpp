@@ -6,7 +6,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/flow/conditioning/internal/small_step.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 #include <algorithm>
 #include <cmath>

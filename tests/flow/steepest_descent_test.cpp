@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/steepest_descent.hpp>
+#include <thalweg/flow/direction.hpp>
 
 #include <gtest/gtest.h>
 

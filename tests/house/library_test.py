@@ -19,7 +19,7 @@ REFERRING = {
     "io/mesh/points.hpp": "names are literals",
     "io/network/schema.hpp": "tables of literals",
     "measure/relief/relief.hpp": "names are literals, and tables of them",
-    "flow/catchments/areas.hpp": "names are literals",
+    "flow/catchments.hpp": "names are literals",
     "pipeline/make/relief.hpp": "names are literals",
     "pipeline/report/law_rows.hpp": "names are literals, and a row of a table of them",
     "pipeline/commands/convert.hpp": "names are literals",
@@ -116,7 +116,7 @@ class Checks(unittest.TestCase):
         good = "// a\n// b\n//\n// Sample 1: x.\n#include <thalweg/core.hpp>\n//! [x]\n//! [x]\n"
         self.assertEqual(list(faults_of_sample(good)), [])
         for bad in (good.replace("Sample 1: ", ""), good.replace("//! [x]\n", "", 1),
-                    good.replace("core.hpp", "core/nothing.hpp"), good.replace("core.hpp", "flow/internal/flood_queue.hpp")):
+                    good.replace("core.hpp", "core/nothing.hpp"), good.replace("core.hpp", "flow/internal/priority_flood.hpp")):
             self.assertEqual(len(list(faults_of_sample(bad))), 1, bad)
 
 

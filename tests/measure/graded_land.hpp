@@ -8,8 +8,7 @@
 #include <numeric>
 #include <vector>
 
-#include <thalweg/flow/flow_field.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include "dems.hpp"
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -14,7 +14,7 @@
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 
 #include <measure/dems.hpp>
 #include <measure/trees.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/catchments.hpp>
 
 #include <cmath>
 #include <map>
@@ -11,9 +11,7 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <measure/dems.hpp>
 #include <measure/trees.hpp>

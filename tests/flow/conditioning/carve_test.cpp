@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/conditioning/internal/carve.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 #include <cmath>
 #include <cstdint>
@@ -11,9 +11,7 @@
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/conditioning/dem_change.hpp>
-#include <thalweg/flow/conditioning/internal/confine_channels.hpp>
-#include <thalweg/flow/conditioning/internal/fill.hpp>
+#include <thalweg/flow/condition.hpp>
 
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"

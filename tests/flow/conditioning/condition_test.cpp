@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/condition.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/conditioning/internal/small_step.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 #include "conditioning/scenes.hpp"
 #include "plain_drainage.hpp"

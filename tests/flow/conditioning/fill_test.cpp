@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/conditioning/internal/fill.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 #include <cmath>
 

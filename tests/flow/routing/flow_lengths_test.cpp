@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/routing/flow_lengths.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -9,8 +9,6 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
-#include <thalweg/flow/routing/route.hpp>
 
 #include <measure/dems.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/routing/route_dinf.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <array>
 #include <cmath>
@@ -12,7 +12,6 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
 
 #include "filled_slowly.hpp"
 #include <measure/dems.hpp>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <cmath>
 #include <limits>

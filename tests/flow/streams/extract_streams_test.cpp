@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/streams/extract_streams.hpp>
+#include <thalweg/flow/extract_streams.hpp>
 
 #include <cmath>
 #include <limits>
@@ -12,8 +12,8 @@
 
 #include <thalweg/core/cells/cells_along.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <measure/dems.hpp>
 

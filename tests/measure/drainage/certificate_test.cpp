@@ -12,8 +12,8 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 #include "dems.hpp"

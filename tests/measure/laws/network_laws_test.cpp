@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 #include <thalweg/measure/laws/internal/network_laws.hpp>
 #include <thalweg/measure/relief/relief.hpp>

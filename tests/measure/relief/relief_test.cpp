@@ -11,7 +11,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 

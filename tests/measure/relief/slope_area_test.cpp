@@ -8,7 +8,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include "graded_land.hpp"
 

@@ -10,7 +10,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include "dems.hpp"
 

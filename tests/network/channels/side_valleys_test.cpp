@@ -5,7 +5,7 @@
 
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/shorten.hpp>

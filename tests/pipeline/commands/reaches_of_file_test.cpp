@@ -9,7 +9,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/catchments.hpp>
 
 namespace reaches_of_file_test {
 

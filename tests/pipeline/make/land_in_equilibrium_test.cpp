@@ -4,7 +4,7 @@
 #include <thalweg/pipeline/make/make.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>

@@ -9,8 +9,7 @@
 #include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/flow_lengths.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/order/count_streams.hpp>

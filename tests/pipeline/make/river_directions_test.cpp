@@ -21,8 +21,8 @@
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
-#include <thalweg/flow/streams/extract_streams.hpp>
+#include <thalweg/flow/extract_streams.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/check_files.hpp>

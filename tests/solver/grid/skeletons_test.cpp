@@ -3,7 +3,7 @@
 // The solver on skeletons as the pipeline makes them and as land has them.
 #include <thalweg/solver/grid/poisson.hpp>
 
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>

@@ -29,10 +29,10 @@ struct Run {
     /// Reports progress.
     /// \param share [0, 1] done
     /// \param what name of the stage
-    /// CANC when the work must stop
+    /// \throws Cancelled when the work must stop
     void at(double share, char const* what) const;
     /// Checks the stop token.
-    /// CANC when the work must stop
+    /// \throws Cancelled when the work must stop
     void check() const;
     /// Logs a line about a stage: "grow       100000 particles".
     /// \param stage name of the stage, set in a column of its own

@@ -46,12 +46,14 @@ struct ReadPointsParams {
 /// Reads points with heights. Text: one a line, x y z in three columns, in those that a first line names (x, y, z in
 /// any case and order) or in those of params.columns, separated by commas, semicolons or blanks; empty lines and those
 /// that begin with # are skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6
-/// m as read_rivers does. \param params options, each with its default, unit and range \param run progress, log, stop
-/// token and number of threads \return the points \throws BadInput naming file and line or feature: missing file, layer
-/// or height, several layers of points, no points, something that is not a point or not a number, NaN or infinite
-/// values, no CRS (not in text), coordinates that cannot be reprojected, text without names that has more than three
-/// columns, text without a CRS that can only be longitudes and latitudes (where params.source_crs is set) \throws
-/// BadParameter columns that are not three \throws IoError when the file cannot be read to its end \throws Cancelled
+/// m as read_rivers does.
+/// \return the points
+/// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no points,
+/// something that is not a point or not a number, NaN or infinite values, no CRS (not in text), coordinates that cannot
+/// be reprojected, text without names that has more than three columns, text without a CRS that can only be longitudes
+/// and latitudes (where params.source_crs is set)
+/// \throws BadParameter columns that are not three
+/// \throws IoError when the file cannot be read to its end
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
 
 /// \param path path of the file

@@ -46,9 +46,10 @@ struct ReadNetworkParams {
 /// reprojected (none; 0), heights_converted (none; metres of a unit), turned (none; arcs), by_feature (none; arcs of a
 /// file taken so under any_lines), as_text (none; columns of a type that is kept as texts), not_utf8 (none; texts of
 /// which bytes are kept as \\xNN), cut_below (arc; the number of the arc downstream, which the file does not hold: an
-/// outlet). \throws BadInput no such file or layer, several layers, a schema that is not recognised (lists what was
-/// looked for), no field of arc ids, a field without numbers, arcs and nodes in different CRS \throws IoError the file
-/// is damaged, locked, or left in the middle of a change \throws Cancelled
+/// outlet).
+/// \throws BadInput no such file or layer, several layers, a schema that is not recognised (lists what was looked for),
+/// no field of arc ids, a field without numbers, arcs and nodes in different CRS
+/// \throws IoError the file is damaged, locked, or left in the middle of a change
 NetworkFile read_network(std::string const& path, ReadNetworkParams const& params, Run const& run = {});
 
 /// Reads a network in the native schema with all its layers and fields, lines with Z, numbers that are there and whole.

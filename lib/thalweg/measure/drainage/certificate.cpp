@@ -18,7 +18,7 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 namespace thalweg::measure {

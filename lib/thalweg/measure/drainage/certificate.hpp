@@ -10,8 +10,8 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 
 namespace thalweg::measure {
 

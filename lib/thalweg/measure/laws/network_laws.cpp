@@ -13,7 +13,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 #include <thalweg/measure/laws/internal/network_laws.hpp>
 

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/required.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 
 namespace thalweg::measure {

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/peaks/orometry.hpp>
 #include <thalweg/measure/relief/geomorphons.hpp>
 #include <thalweg/measure/relief/slope_area.hpp>

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 
 namespace thalweg::measure {

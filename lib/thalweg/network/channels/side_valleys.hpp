@@ -8,7 +8,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/route.hpp>
 
 namespace thalweg::network {
 

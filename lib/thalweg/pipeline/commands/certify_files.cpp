@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>

@@ -14,8 +14,8 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

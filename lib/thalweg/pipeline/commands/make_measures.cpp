@@ -14,9 +14,8 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/suggest.hpp>
-#include <thalweg/flow/catchments/catchments.hpp>
-#include <thalweg/flow/routing/route.hpp>
-#include <thalweg/flow/routing/route_dinf.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
 #include <thalweg/pipeline/commands/internal/require_metres.hpp>

@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 
 namespace thalweg::pipeline {

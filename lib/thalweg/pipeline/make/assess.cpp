@@ -2,10 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/assess.hpp>
 
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/flow_field.hpp>
-#include <thalweg/flow/routing/route_dinf.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/make/internal/catchment_rows.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>

@@ -8,8 +8,7 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/catchments/catchments.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>

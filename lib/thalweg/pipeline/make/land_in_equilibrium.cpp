@@ -4,8 +4,8 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/choose_lakes.hpp>

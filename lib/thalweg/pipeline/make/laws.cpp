@@ -3,9 +3,8 @@
 #include <thalweg/pipeline/make/laws.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/routing/flow_lengths.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>

@@ -7,9 +7,9 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/flow_field.hpp>
-#include <thalweg/flow/streams/extract_streams.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/extract_streams.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
 
 namespace thalweg::pipeline {

@@ -3,8 +3,8 @@
 #include <thalweg/pipeline/make/relief.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>

@@ -10,7 +10,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 
 namespace thalweg::pipeline {

@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/make/rivers.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/elevation/set_heights_graded.hpp>

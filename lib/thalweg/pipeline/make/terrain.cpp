@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/terrain.hpp>
 
-#include <thalweg/flow/conditioning/condition.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/condition.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/pipeline/make/internal/around_rivers.hpp>
 #include <thalweg/pipeline/make/internal/land.hpp>

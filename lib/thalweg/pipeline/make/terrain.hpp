@@ -14,9 +14,8 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/flow/conditioning/condition.hpp>
-#include <thalweg/flow/conditioning/dem_change.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/condition.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>

@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/report/report.hpp>
 
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/flow/conditioning/dem_change.hpp>
+#include <thalweg/flow/condition.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
 #include <thalweg/pipeline/make/internal/user_data.hpp>
 #include <thalweg/pipeline/report/internal/report_parts.hpp>

@@ -3,8 +3,8 @@
 #include <thalweg/pipeline/report/internal/scene_page.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 

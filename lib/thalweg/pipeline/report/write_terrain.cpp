@@ -7,7 +7,7 @@
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>

@@ -14,7 +14,6 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
 #include <thalweg/flow/direction.hpp>
-#include <thalweg/flow/steepest_descent.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 
 namespace thalweg::measure {

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/grid.hpp>
 #include <thalweg/core/network_file.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
+#include <thalweg/flow/catchments.hpp>
 
 /// Private to this module.
 namespace thalweg::pipeline {

@@ -5,9 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/flow/catchments/catchments.hpp>
-#include <thalweg/flow/catchments/reaches.hpp>
-#include <thalweg/flow/flow_field.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 
 /// Private to this module.

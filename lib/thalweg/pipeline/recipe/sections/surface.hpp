@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <thalweg/flow/conditioning/condition.hpp>
+#include <thalweg/flow/condition.hpp>
 #include <thalweg/pipeline/recipe/sections/equilibrium.hpp>
 #include <thalweg/skeleton/regress.hpp>
 #include <thalweg/surface/diffusion/diffusion.hpp>

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/conditioning/internal/carve.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -17,13 +15,11 @@
 #include <thalweg/core/cells/d8.hpp>
 #include <thalweg/core/cells/framed.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/conditioning/dem_change.hpp>
-#include <thalweg/flow/conditioning/internal/flood.hpp>
-#include <thalweg/flow/conditioning/internal/small_step.hpp>
+#include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/direction.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 namespace thalweg::flow {
-
 namespace {
 
 /// Cells whose water stands at one level.

@@ -7,7 +7,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/flow/catchments/areas.hpp>
+#include <thalweg/flow/catchments.hpp>
 
 namespace thalweg::flow {
 
@@ -25,14 +25,11 @@ struct ExtractStreamsParams {
 /// Extracts the network of cells whose D8 contributing area is at least support_cells.
 /// \param drainage flow field of the DEM
 /// \param dem [m] by cell; NaN: no data
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return nodes where streams begin, meet or leave the DEM, numbered by cell; arcs, numbered by the node they leave;
 /// areas as areas_d8. A stream of one cell is omitted. Arcs meet only at nodes, except in flats, where two may cross at
 /// a corner of cells.
 /// \throws BadParameter when support_cells is below 1
 /// \throws BadInput when DEM and flow field differ in grid
-/// \throws Cancelled
 ///
 /// Source: \cite ocallaghan1984.
 ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const& dem,
@@ -41,10 +38,8 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
 /// Finds the support for a total stream length.
 /// \param drainage flow field of the DEM
 /// \param length_m [m] > 0, total length of all streams
-/// \param run progress, log, stop token and number of threads
 /// \return [cells] the largest support at which the extracted streams are at least this long; 1: they never are
 /// \throws BadParameter when length_m is not a number above 0
-/// \throws Cancelled
 std::int64_t support_for_length(FlowField const& drainage, double length_m, Run const& run = {});
 
 } // namespace thalweg::flow

@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/routing/route.hpp>
+#include <thalweg/flow/route.hpp>
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 
 #include <fmt/format.h>
 
@@ -12,13 +13,40 @@
 #include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
-#include <thalweg/flow/internal/each_downstream.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>
-#include <thalweg/flow/steepest_descent.hpp>
 
 namespace thalweg::flow {
-
 namespace {
+
+// Calls visit(cell, receiver) for every cell whose water goes on, after all cells that drain into it: from each cell
+// without donors, water is followed as far as all donors have arrived. Takes: directions that stay on the grid and
+// close no circle. Source: Braun and Willett 2013.
+template <class Visit> void each_downstream(Raster<Direction> const& direction, Run const& run, Visit visit) {
+    constexpr std::int8_t done = -1;
+    Raster<std::int8_t> awaited(direction.grid()); // donors whose water has not arrived yet
+    for (std::int64_t i = 0; i < direction.cells(); ++i) {
+        if (std::int64_t const next = receiver(direction, i); next >= 0) {
+            ++awaited[next];
+        }
+    }
+    for (std::int64_t i = 0; i < direction.cells(); ++i) {
+        if (i % cells_between_checks == 0) {
+            run.check();
+        }
+        for (std::int64_t at = i; awaited[at] == 0;) {
+            awaited[at] = done;
+            std::int64_t const next = receiver(direction, at);
+            if (next < 0) {
+                break;
+            }
+            visit(at, next);
+            --awaited[next];
+            at = next;
+        }
+    }
+}
 
 using Sinks = std::vector<std::int64_t>; ///< cells, ascending
 
@@ -166,6 +194,18 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
     }
     accumulate(result, run);
     return result;
+}
+
+Raster<float> flow_lengths(FlowField const& drainage, Run const& run) {
+    Grid const& grid = drainage.grid();
+    auto const straight = static_cast<float>(grid.cell_m);
+    auto const diagonal = static_cast<float>(grid.cell_m * std::sqrt(2.0));
+    Raster<float> length(grid);
+    each_downstream(drainage.direction, run, [&](std::int64_t cell, std::int64_t receiver) {
+        float const step = is_diagonal(drainage.direction[cell]) ? diagonal : straight;
+        length[receiver] = std::max(length[receiver], length[cell] + step);
+    });
+    return length;
 }
 
 } // namespace thalweg::flow

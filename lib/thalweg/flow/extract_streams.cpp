@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/streams/extract_streams.hpp>
+#include <thalweg/flow/extract_streams.hpp>
 
 #include <algorithm>
 #include <array>
@@ -16,7 +16,6 @@
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::flow {
-
 namespace {
 
 /// The cells of rivers in which nodes lie, ascending.

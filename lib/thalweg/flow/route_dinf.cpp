@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/flow/routing/route_dinf.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -15,9 +13,9 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parallel.hpp>
+#include <thalweg/flow/route.hpp>
 
 namespace thalweg::flow {
-
 namespace {
 
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();

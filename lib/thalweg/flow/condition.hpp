@@ -7,9 +7,25 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/valley.hpp>
-#include <thalweg/flow/conditioning/dem_change.hpp>
 
 namespace thalweg::flow {
+
+/// The difference between two DEMs.
+struct DemChange {
+    std::int64_t raised_cells = 0;
+    std::int64_t cut_cells = 0;
+    double max_raise_m = 0.0;
+    double max_cut_m = 0.0;
+    double raised_m3 = 0.0;
+    double cut_m3 = 0.0;
+
+    double volume_m3() const { return raised_m3 + cut_m3; }
+};
+
+/// Compares two DEMs of one size. Cells without data in either are not compared.
+/// \param before,after [m] by cell; NaN: no data
+/// \return the cells that differ, and by how much
+DemChange change_between(Raster<float> const& before, Raster<float> const& after);
 
 enum class Conditioning : std::uint8_t { none, fill, carve };
 
@@ -29,8 +45,6 @@ struct ConditionedDem {
 /// carve. Method none changes nothing.
 /// \param dem [m] by cell; NaN: no data; river cells have the valley's heights
 /// \param valley [m] heights of river cells; all NaN: no rivers
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return river cells keep their heights bit for bit; as float32, each cell drains
 /// \throws Error as confine_channels, fill and carve
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params = {},
