@@ -5,7 +5,7 @@
 // lattices that have been touched before. BM_midpoint: the whole stage, with the memory it allocates, first touch
 // included. One and two threads.
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/internal/refine.hpp>
 #include <thalweg/fractal/midpoint.hpp>
 

@@ -4,7 +4,7 @@
 // Sample 2: land around rivers that somebody drew.
 // Three lines become a network with heights, the network cells, the cells a surface, and the surface a file.
 //   build/release/bin/sample_terrain [dem.tif]
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>

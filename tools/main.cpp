@@ -9,7 +9,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/solver/opencl/devices.hpp>

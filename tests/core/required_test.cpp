@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 #include <string>
 #include <type_traits>

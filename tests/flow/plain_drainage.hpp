@@ -2,10 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/flow/internal/condition.hpp>
 
 #include <algorithm>

@@ -167,7 +167,7 @@ def check_source(name, lines):
         if module in ("pipeline", "tools") and not name.startswith(READER) and (found := CHANGED_VALUE.search(code)):
             yield number, f"{found[1]}&: values of the pipeline are not changed; take it by value or const and return one"
         if found := DISTRIBUTION.search(code):
-            yield number, f"{found[0]}: distributions differ between libraries; use core/random.hpp"
+            yield number, f"{found[0]}: distributions differ between libraries; use core/numbers/random.hpp"
         if module and (found := PREFIX.search(code)) and found[1] in MODULES and found[1] != module:
             yield number, f"{found[0]}: an error names its own module first; write a key as key = value or [section]"
         if not in_lib:
@@ -179,7 +179,7 @@ def check_source(name, lines):
         if not begins(name, LIBM_FREE_OF):
             found = LIBM_CALL.search(code) or (LIBM_LOG.search(code) if has_cmath else None)
             if found:
-                yield number, f"{found[0].rstrip('(')} of libm has other bits on other machines; use core/elementary.hpp"
+                yield number, f"{found[0].rstrip('(')} of libm has other bits on other machines; use core/numbers/elementary.hpp"
 
 
 def types_of(lines):

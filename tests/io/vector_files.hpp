@@ -14,7 +14,7 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/river_files.hpp>
 
 #include "scratch_folder.hpp"
 

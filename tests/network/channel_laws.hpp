@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 
 /// What holds of channels.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 
 /// Rivers as a file gives them.
 namespace test {

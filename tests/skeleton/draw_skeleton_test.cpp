@@ -14,7 +14,7 @@
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "fields.hpp"

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>

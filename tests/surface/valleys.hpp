@@ -5,7 +5,6 @@
 #include <support.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/valley.hpp>
 
 #include <rapidcheck.h>
 

@@ -6,7 +6,7 @@
 #include "commands/verdict.hpp"
 #include "terminal/terminal.hpp"
 
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/commands/check_files.hpp>
 
 #include <CLI/CLI.hpp>

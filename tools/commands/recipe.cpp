@@ -4,7 +4,7 @@
 #include "help/print_keys.hpp"
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 

@@ -3,7 +3,7 @@
 #include "commands/commands.hpp"
 #include "terminal/terminal.hpp"
 
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/commands/replay.hpp>
 
 #include <CLI/CLI.hpp>

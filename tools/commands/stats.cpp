@@ -4,7 +4,7 @@
 #include "commands/nodata_option.hpp"
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>

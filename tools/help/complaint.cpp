@@ -4,7 +4,7 @@
 
 #include "help/describe.hpp"
 
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

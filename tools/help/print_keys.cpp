@@ -3,7 +3,7 @@
 #include "help/print_keys.hpp"
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terminal/terminal.hpp"
 
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 #include <fmt/format.h>
 

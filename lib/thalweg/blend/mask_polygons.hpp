@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <thalweg/core/polygons.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 
 namespace thalweg::blend {

@@ -12,10 +12,10 @@
 
 #include <thalweg/blend/internal/region.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::blend {
 namespace {

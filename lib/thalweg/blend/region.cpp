@@ -10,9 +10,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 
 namespace thalweg::blend {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include <thalweg/core/grid.hpp>
 #include <thalweg/core/indexed.hpp>
+#include <thalweg/core/raster.hpp>
 
 namespace thalweg {
 

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <concepts>
 #include <cstddef>
 #include <cstdint>
@@ -37,6 +38,17 @@ public:
 
     /// \return how many there are, which is the number that the next to be added gets.
     Id count() const { return static_cast<Id>(Values::size()); }
+};
+
+/// A table with an entry for each value of an enumeration that counts from 0, in its order.
+template <class Enum, class T, std::size_t Size> struct ByEnum {
+    std::array<T, Size> entries{};
+
+    /// \param value one of the enumeration's
+    /// \return its entry
+    /// \throws std::out_of_range for a value that the table does not have
+    constexpr T& operator[](Enum value) { return entries.at(static_cast<std::size_t>(value)); }
+    constexpr T const& operator[](Enum value) const { return entries.at(static_cast<std::size_t>(value)); }
 };
 
 } // namespace thalweg

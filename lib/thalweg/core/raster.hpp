@@ -2,16 +2,57 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <span>
+#include <string>
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
-#include <thalweg/core/run/large_pages.hpp>
+#include <thalweg/core/run/memory.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace thalweg {
+
+/// A cell by its column (to the east) and row (to the south), both from 0.
+struct Cell {
+    std::int64_t col = 0;
+    std::int64_t row = 0;
+    friend bool operator==(Cell const&, Cell const&) = default;
+};
+
+/// The frame of a raster: square cells, cell (0, 0) in the north-west.
+struct Grid {
+    std::int64_t width = 0;  ///< [cells]
+    std::int64_t height = 0; ///< [cells]
+    double cell_m = 1.0;     ///< [m] side of a cell
+    double west = 0.0;       ///< [m] outer edge of column 0
+    double north = 0.0;      ///< [m] outer edge of row 0
+    std::string crs;         ///< "EPSG:32631" or WKT, projected, metres; "" for none
+
+    friend bool operator==(Grid const&, Grid const&) = default;
+
+    std::int64_t cells() const { return width * height; }
+    bool contains(Cell c) const { return c.col >= 0 && c.row >= 0 && c.col < width && c.row < height; }
+    std::int64_t index(Cell c) const { return c.row * width + c.col; }
+    Cell at(std::int64_t index) const { return {index % width, index / width}; }
+    bool on_border(Cell c) const { return c.col == 0 || c.row == 0 || c.col == width - 1 || c.row == height - 1; }
+
+    Vec2 centre(Cell c) const {
+        return {west + (static_cast<double>(c.col) + 0.5) * cell_m,
+                north - (static_cast<double>(c.row) + 0.5) * cell_m};
+    }
+    /// Finds the cell of a position.
+    /// \param p [m]
+    /// \return may lie outside the grid
+    Cell cell_of(Vec2 p) const {
+        return {static_cast<std::int64_t>(std::floor((p.x - west) / cell_m)),
+                static_cast<std::int64_t>(std::floor((north - p.y) / cell_m))};
+    }
+    double east() const { return west + static_cast<double>(width) * cell_m; }
+    double south() const { return north - static_cast<double>(height) * cell_m; }
+};
 
 /// One value per cell, row-major from the north-west. In a Raster<float> of heights [m] NaN means no data.
 template <class T> class Raster {
@@ -47,5 +88,15 @@ private:
 
 /// 1: marked, 0: not.
 using Mask = Raster<std::uint8_t>;
+
+/// Heights [m] of the river cells, NaN elsewhere: the constraint of a surface.
+struct Valley {
+    Raster<float> z;
+};
+
+/// Heights [m] of the cells that constrain a surface (rivers, ridges and points); NaN elsewhere.
+struct Skeleton {
+    Raster<float> z;
+};
 
 } // namespace thalweg

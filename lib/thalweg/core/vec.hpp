@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cmath>
+#include <cstddef>
+#include <vector>
 
 namespace thalweg {
 
@@ -96,6 +98,17 @@ constexpr double cross(Vec2 o, Vec2 a, Vec2 b) {
 /// \return [m]
 inline double distance(Vec2 a, Vec2 b) {
     return norm(a - b);
+}
+
+/// The length of a polyline in plan.
+/// \param line vertices [m]; heights are not read
+/// \return [m]
+inline double length_in_plan(std::vector<Vec3> const& line) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        sum += distance(plan(line[i - 1]), plan(line[i]));
+    }
+    return sum;
 }
 
 } // namespace thalweg

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/map.hpp>
 

@@ -7,8 +7,8 @@
 #include <utility>
 #include <vector>
 
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/draw/picture.hpp>

@@ -15,7 +15,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/sections.hpp>

@@ -10,8 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/cells/framed.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/internal/condition.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>

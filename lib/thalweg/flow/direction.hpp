@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <limits>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/raster.hpp>
 
 namespace thalweg::flow {

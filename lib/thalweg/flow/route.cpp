@@ -8,11 +8,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/d8.hpp>
-#include <thalweg/core/cells/framed.hpp>
-#include <thalweg/core/numbers/compensated_sum.hpp>
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>

@@ -17,8 +17,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
 #include <thalweg/fractal/internal/refine.hpp>

@@ -14,7 +14,7 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::fractal {
 namespace {

@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 

@@ -10,10 +10,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/skeleton/internal/perlin.hpp>
 
 namespace thalweg::skeleton {

@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/feature_points.hpp>
-#include <thalweg/core/ridge_lines.hpp>
+#include <thalweg/core/features.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/skeleton.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::skeleton {

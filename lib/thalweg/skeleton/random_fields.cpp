@@ -11,11 +11,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/skeleton/internal/normal_row.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 #include <thalweg/solver/spectral/fft.hpp>

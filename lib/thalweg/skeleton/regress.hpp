@@ -6,7 +6,7 @@
 #include <cstddef>
 #include <cstdint>
 
-#include <thalweg/core/feature_points.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 

@@ -17,9 +17,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/ridge_lines.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
-#include <thalweg/core/ridge_lines.hpp>
+#include <thalweg/core/features.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 

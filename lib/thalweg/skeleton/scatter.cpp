@@ -14,15 +14,12 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_around.hpp>
-#include <thalweg/core/cells/nearest_cells.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::skeleton {

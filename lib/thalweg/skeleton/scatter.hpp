@@ -5,11 +5,9 @@
 #include <cstdint>
 #include <optional>
 
-#include <thalweg/core/feature_points.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/valley.hpp>
 
 namespace thalweg::skeleton {
 

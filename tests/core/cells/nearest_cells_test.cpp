@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/cells.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
 
 namespace nearest_cells_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 #include <cmath>
 #include <cstdint>

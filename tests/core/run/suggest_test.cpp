@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 #include <gtest/gtest.h>
 

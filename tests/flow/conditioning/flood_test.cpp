@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/core/cells/framed.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 

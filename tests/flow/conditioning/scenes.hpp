@@ -12,10 +12,9 @@
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/valley.hpp>
 
 #include "plain_drainage.hpp"
 

@@ -10,7 +10,7 @@
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"

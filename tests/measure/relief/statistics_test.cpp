@@ -11,7 +11,7 @@
 #include <rapidcheck.h>
 
 #include <support.hpp>
-#include <thalweg/core/numbers/compensated_sum.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"

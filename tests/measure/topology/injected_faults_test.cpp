@@ -8,7 +8,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 
 #include "faults.hpp"
 

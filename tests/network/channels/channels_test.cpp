@@ -14,7 +14,7 @@
 
 #include <network/channel_laws.hpp>
 #include <network/networks.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace channels_test {

@@ -10,7 +10,7 @@
 
 #include <network/channel_laws.hpp>
 #include <network/networks.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 

@@ -3,7 +3,7 @@
 // Valleys that a land has grown around given rivers, as arcs.
 #include <thalweg/network/channels/side_valleys.hpp>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/geometry/crossings.hpp>

@@ -7,7 +7,7 @@
 #include <cmath>
 #include <limits>
 
-#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace clip_lines_test {
 

@@ -14,8 +14,8 @@
 
 #include <network/rivers.hpp>
 #include <support.hpp>
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace import_test {
 

@@ -10,7 +10,7 @@
 
 #include <gtest/gtest.h>
 
-#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace keep_connectors_test {
 

@@ -11,8 +11,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 

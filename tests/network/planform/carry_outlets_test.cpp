@@ -12,7 +12,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 

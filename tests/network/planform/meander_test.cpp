@@ -10,7 +10,7 @@
 
 #include <network/networks.hpp>
 #include <support.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/order.hpp>

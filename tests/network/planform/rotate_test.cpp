@@ -9,7 +9,7 @@
 #include <rapidcheck.h>
 
 #include <network/networks.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/dla/pick_branch.hpp>

@@ -12,7 +12,7 @@
 
 #include <network/networks.hpp>
 #include <support.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 

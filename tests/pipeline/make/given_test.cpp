@@ -14,7 +14,7 @@
 
 #include <io/scratch_folder.hpp>
 #include <pipeline/made.hpp>
-#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace given_test {
 

@@ -8,7 +8,6 @@
 #include <gtest/gtest.h>
 
 #include <support.hpp>
-#include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>

@@ -4,7 +4,7 @@
 
 #include <support.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/value_noise.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 

@@ -3,7 +3,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 #include <support.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/direction.hpp>
 

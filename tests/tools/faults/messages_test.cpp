@@ -8,7 +8,7 @@
 
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 #include <algorithm>
 #include <sys/wait.h>

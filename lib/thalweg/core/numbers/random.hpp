@@ -5,6 +5,8 @@
 #include <array>
 #include <cstdint>
 
+#include <thalweg/core/raster.hpp>
+
 namespace thalweg {
 
 /// Generates random words from a seed and up to four numbers that name a place, by the counter-based Philox4x64-10
@@ -55,5 +57,19 @@ private:
     std::array<std::uint64_t, 16> words_{};
     std::size_t next_ = 16;
 };
+
+/// Makes two independent standard normal deviates from two random words.
+/// \param first,second independent uniform words
+/// \return sqrt(-2 ln u) times cos(2 pi v) and sin(2 pi v), u in (0, 1], v in [0, 1); absolute values are at most 8.6
+///
+/// Source: \cite box1958; \cite zhang, equation 3.
+std::array<double, 2> normal_pair(std::uint64_t first, std::uint64_t second);
+
+/// Evaluates smooth noise: random numbers on a lattice, interpolated by x^2 (3 - 2 x).
+/// \param seed random seed
+/// \param cell where
+/// \param lattice_cells [cells] >= 1, spacing of the lattice
+/// \return in [-1, 1]
+double value_noise(std::uint64_t seed, Cell cell, double lattice_cells);
 
 } // namespace thalweg

@@ -14,6 +14,12 @@ enum class Lanes : std::uint8_t {
 
 /// Detects the widest instruction set.
 /// \return what this processor supports
-Lanes widest_lanes();
+inline Lanes widest_lanes() {
+#ifdef __x86_64__
+    return __builtin_cpu_supports("avx2") ? Lanes::avx2 : Lanes::plain;
+#else
+    return Lanes::plain;
+#endif
+}
 
 } // namespace thalweg

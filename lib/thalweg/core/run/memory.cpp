@@ -2,15 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/memory.hpp>
 
-#include <sys/resource.h>
-
 #include <algorithm>
+#include <cstdlib>
 #include <fstream>
 #include <limits>
+#include <new>
 #include <string>
 
-namespace thalweg {
+#include <sys/mman.h>
+#include <sys/resource.h>
 
+namespace thalweg {
 namespace {
 
 /// The number a file holds, or -1 where there is no file or no number ("max").
@@ -46,6 +48,21 @@ std::int64_t peak_memory_bytes() {
     rusage usage{};
     getrusage(RUSAGE_SELF, &usage);
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
+}
+
+void* take_large_pages(std::size_t bytes) {
+    constexpr std::size_t page = std::size_t{2} << 20;
+    void* memory = nullptr;
+    if (posix_memalign(&memory, page, bytes) != 0) {
+        throw std::bad_alloc();
+    }
+    // What fills no large page at the end stays in small ones. A wish: what comes of it only changes time and memory.
+    madvise(memory, bytes / page * page, MADV_HUGEPAGE);
+    return memory;
+}
+
+void give_large_pages(void* memory) noexcept {
+    std::free(memory);
 }
 
 } // namespace thalweg

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstddef>
 #include <cstdint>
+#include <new>
 
 namespace thalweg {
 
@@ -13,5 +15,35 @@ std::int64_t free_memory_bytes();
 /// The process's peak memory.
 /// \return [bytes]
 std::int64_t peak_memory_bytes();
+
+/// Allocates memory aligned to 2 MiB, in pages of that size if the system has them: the first access then costs a
+/// third.
+/// \param bytes size
+/// \return to be released by give_large_pages
+/// \throws std::bad_alloc when the system refuses
+void* take_large_pages(std::size_t bytes);
+void give_large_pages(void* memory) noexcept;
+
+/// An allocator with large pages for large blocks and operator new for small ones.
+template <class T> struct LargePages {
+    using value_type = T;
+    static constexpr std::size_t least_bytes = std::size_t{4} << 20;
+
+    LargePages() = default;
+    template <class U> LargePages(LargePages<U> const&) noexcept {}
+
+    T* allocate(std::size_t n) {
+        std::size_t const bytes = n * sizeof(T);
+        return static_cast<T*>(bytes < least_bytes ? ::operator new(bytes) : take_large_pages(bytes));
+    }
+    void deallocate(T* memory, std::size_t n) noexcept {
+        if (n * sizeof(T) < least_bytes) {
+            ::operator delete(memory);
+        } else {
+            give_large_pages(memory);
+        }
+    }
+    friend bool operator==(LargePages const&, LargePages const&) { return true; }
+};
 
 } // namespace thalweg

@@ -3,7 +3,19 @@
 #include <thalweg/core/run/run.hpp>
 
 #include <algorithm>
+#include <cstddef>
 #include <string>
+#ifdef THALWEG_TSAN
+#include <atomic>
+#include <exception>
+#include <mutex>
+#include <thread>
+#include <vector>
+#endif
+
+#include <oneapi/tbb/blocked_range.h>
+#include <oneapi/tbb/parallel_for.h>
+#include <oneapi/tbb/task_arena.h>
 
 #include <thalweg/core/run/error.hpp>
 
@@ -27,6 +39,68 @@ void Run::tell(std::string_view stage, std::string_view words) const {
     std::string line(stage);
     line.append(std::max(column, stage.size()) - stage.size() + 1, ' ');
     say(line.append(words));
+}
+
+namespace {
+
+#ifdef THALWEG_TSAN
+/// oneTBB is compiled without the thread sanitizer, which takes each of its hand-overs for a race. In builds with it,
+/// threads of the standard library do the work; the order in which they take it is one that orders nothing else.
+void share(int threads, std::int64_t count, std::int64_t grain,
+           std::function<void(std::int64_t, std::int64_t)> const& body) {
+    std::int64_t const length = std::max<std::int64_t>({grain, count / 64, 1});
+    std::atomic<std::int64_t> next = 0;
+    std::mutex guard;
+    std::exception_ptr failure;
+    auto const take = [&] { return next.fetch_add(length, std::memory_order_relaxed); };
+    auto const work = [&] {
+        try {
+            for (std::int64_t begin = take(); begin < count; begin = take()) {
+                body(begin, std::min(count, begin + length));
+            }
+        } catch (...) {
+            std::scoped_lock const lock(guard);
+            failure = failure ? failure : std::current_exception();
+        }
+    };
+    {
+        std::vector<std::jthread> workers;
+        for (unsigned i = threads > 0 ? static_cast<unsigned>(threads) : std::thread::hardware_concurrency(); i > 0;
+             --i) {
+            workers.emplace_back(work);
+        }
+    }
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+}
+#else
+void share(int threads, std::int64_t count, std::int64_t grain,
+           std::function<void(std::int64_t, std::int64_t)> const& body) {
+    namespace tbb = oneapi::tbb;
+    tbb::task_arena arena(threads > 0 ? threads : tbb::task_arena::automatic);
+    arena.execute([&] {
+        auto const least = static_cast<std::size_t>(std::max<std::int64_t>(grain, 1));
+        tbb::parallel_for(tbb::blocked_range<std::int64_t>(0, count, least),
+                          [&](tbb::blocked_range<std::int64_t> const& r) { body(r.begin(), r.end()); });
+    });
+}
+#endif
+
+} // namespace
+
+void parallel_ranges(Run const& run, std::int64_t count, std::int64_t grain,
+                     std::function<void(std::int64_t, std::int64_t)> const& body) {
+    run.check();
+    if (count <= 0) {
+        return;
+    }
+    if (run.threads == 1 || count <= grain) {
+        body(0, count);
+        return;
+    }
+    share(run.threads, count, grain, body);
+    run.check();
 }
 
 } // namespace thalweg

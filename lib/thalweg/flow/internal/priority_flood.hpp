@@ -11,7 +11,7 @@
 #include <deque>
 #include <vector>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
 

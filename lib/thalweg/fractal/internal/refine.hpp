@@ -7,7 +7,7 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run/large_pages.hpp>
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/midpoint.hpp>
 

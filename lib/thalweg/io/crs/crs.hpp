@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 
 namespace thalweg::io {
 

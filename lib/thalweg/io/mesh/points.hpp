@@ -7,10 +7,9 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/feature_points.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/skeleton.hpp>
 
 namespace thalweg::io {
 
@@ -48,12 +47,11 @@ struct ReadPointsParams {
 /// that begin with # are skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6
 /// m as read_rivers does.
 /// \return the points
-/// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no points,
-/// something that is not a point or not a number, NaN or infinite values, no CRS (not in text), coordinates that cannot
-/// be reprojected, text without names that has more than three columns, text without a CRS that can only be longitudes
-/// and latitudes (where params.source_crs is set)
-/// \throws BadParameter columns that are not three
-/// \throws IoError when the file cannot be read to its end
+/// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no
+/// points, something that is not a point or not a number, NaN or infinite values, no CRS (not in text), coordinates
+/// that cannot be reprojected, text without names that has more than three columns, text without a CRS that can only be
+/// longitudes and latitudes (where params.source_crs is set) \throws BadParameter columns that are not three \throws
+/// IoError when the file cannot be read to its end
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
 
 /// \param path path of the file

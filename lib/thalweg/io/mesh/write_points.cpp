@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
 

@@ -21,8 +21,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/network/schema.hpp>

@@ -16,7 +16,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {

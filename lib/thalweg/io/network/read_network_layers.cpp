@@ -14,8 +14,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {

@@ -18,8 +18,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>

@@ -6,7 +6,7 @@
 #include <optional>
 #include <string>
 
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::io {

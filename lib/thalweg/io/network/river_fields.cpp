@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 namespace thalweg::io {
 

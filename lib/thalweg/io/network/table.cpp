@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/by_enum.hpp>
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>

@@ -9,7 +9,7 @@
 #include <variant>
 #include <vector>
 
-#include <thalweg/core/polygons.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 

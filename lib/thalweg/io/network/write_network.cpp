@@ -16,7 +16,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/run.hpp>

@@ -7,12 +7,11 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/attributes.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/grid.hpp>
 #include <thalweg/core/height_unit.hpp>
-#include <thalweg/core/ridge_lines.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/schema.hpp>

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/polygons.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 

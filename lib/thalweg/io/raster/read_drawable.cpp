@@ -17,7 +17,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>

@@ -14,8 +14,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>

@@ -6,9 +6,9 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/numbers/sums.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::measure {

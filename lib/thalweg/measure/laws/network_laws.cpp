@@ -9,8 +9,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/flow/catchments.hpp>

@@ -7,7 +7,7 @@
 #include <optional>
 #include <vector>
 
-#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/measure/laws/fits.hpp>

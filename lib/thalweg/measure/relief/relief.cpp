@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/numbers/compensated_sum.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 namespace thalweg::measure {
 namespace {

@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/numbers/compensated_sum.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace thalweg::measure {

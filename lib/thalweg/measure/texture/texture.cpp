@@ -8,13 +8,12 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 

@@ -13,13 +13,11 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_around.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/numbers/value_noise.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/channels/internal/lake_basins.hpp>
 
 namespace thalweg::network {

@@ -13,9 +13,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/channels/internal/drawn_lines.hpp>
 

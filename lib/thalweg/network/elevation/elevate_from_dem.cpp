@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/lower_rises.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>

@@ -4,7 +4,7 @@
 
 #include <cstddef>
 
-#include <thalweg/core/by_enum.hpp>
+#include <thalweg/core/indexed.hpp>
 
 namespace thalweg::network {
 

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/elevation/internal/raise.hpp>
 
 namespace thalweg::network {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 

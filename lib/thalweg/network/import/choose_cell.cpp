@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/choose_cell.hpp>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 

@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::network {

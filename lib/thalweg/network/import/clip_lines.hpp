@@ -2,8 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/grid.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 
 namespace thalweg::network {
 

@@ -12,8 +12,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace thalweg::network {
 

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {

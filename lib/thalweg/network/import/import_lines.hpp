@@ -8,7 +8,7 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 

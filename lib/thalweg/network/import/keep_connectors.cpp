@@ -14,7 +14,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/internal/import_steps.hpp>

@@ -2,9 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/land_and_sea.hpp>
 
-#include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
-#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 

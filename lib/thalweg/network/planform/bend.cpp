@@ -7,7 +7,7 @@
 #include <cmath>
 #include <cstddef>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/planform/internal/smooth_step.hpp>

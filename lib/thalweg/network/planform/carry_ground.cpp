@@ -6,7 +6,7 @@
 #include <cmath>
 #include <utility>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 
 namespace thalweg::network {
 

@@ -9,9 +9,9 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>

@@ -11,7 +11,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 

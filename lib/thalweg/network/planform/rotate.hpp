@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {

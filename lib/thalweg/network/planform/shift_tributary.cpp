@@ -9,7 +9,6 @@
 #include <cstdint>
 #include <optional>
 
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 

@@ -9,9 +9,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/triangles.hpp>

@@ -7,7 +7,7 @@
 #include <unordered_map>
 #include <utility>
 
-#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells.hpp>
 
 namespace thalweg::network {
 

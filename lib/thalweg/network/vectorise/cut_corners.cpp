@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 namespace thalweg::network {
 

@@ -6,7 +6,6 @@
 #include <map>
 #include <utility>
 
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
 

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::network {

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/core/valley.hpp>
 
 namespace thalweg::network {
 

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 

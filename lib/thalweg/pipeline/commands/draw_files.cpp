@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/commands/draw_files.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
 #include <thalweg/pipeline/report/internal/scene_page.hpp>
 

@@ -13,7 +13,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

@@ -11,7 +11,6 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/skeleton.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

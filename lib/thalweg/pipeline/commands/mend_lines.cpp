@@ -11,7 +11,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/length_in_plan.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/import/keep_connectors.hpp>
 #include <thalweg/network/vectorise/cut_loops.hpp>

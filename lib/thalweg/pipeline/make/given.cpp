@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/given.hpp>
 
-#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/pipeline/make/internal/direction_words.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 

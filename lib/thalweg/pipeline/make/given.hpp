@@ -8,7 +8,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>

@@ -9,8 +9,7 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/attributes.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 
 /// Which features a network's arcs are made of, whatever became of the arcs. Private to this module.

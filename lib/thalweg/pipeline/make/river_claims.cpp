@@ -8,8 +8,7 @@
 #include <set>
 #include <utility>
 
-#include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 
 namespace thalweg::pipeline {
 

@@ -4,8 +4,7 @@
 
 #include <vector>
 
-#include <thalweg/core/attributes.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 
 namespace thalweg::pipeline {

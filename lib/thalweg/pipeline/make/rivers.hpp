@@ -4,7 +4,6 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/network_story.hpp>

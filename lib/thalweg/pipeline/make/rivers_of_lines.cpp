@@ -1,8 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
-#include <thalweg/core/length_in_plan.hpp>
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>

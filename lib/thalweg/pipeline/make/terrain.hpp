@@ -7,13 +7,12 @@
 #include <vector>
 
 #include <thalweg/core/channels.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/ridge_lines.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/fractal/match_statistics.hpp>

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>

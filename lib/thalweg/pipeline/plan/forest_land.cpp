@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/plan/internal/forest_land.hpp>
 
 #include <thalweg/blend/mask_polygons.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>

@@ -4,9 +4,9 @@
 
 #include <cstdint>
 
-#include <thalweg/core/polygons.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/network/growth/dla/pick_branch.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 

@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/plan/make_input.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/network/read_rivers.hpp>

@@ -5,11 +5,10 @@
 #include <optional>
 #include <vector>
 
-#include <thalweg/core/feature_points.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/polygons.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/plan/timings.hpp>

@@ -9,7 +9,7 @@
 #include <limits>
 
 #include <thalweg/blend/mask_polygons.hpp>
-#include <thalweg/core/cells/cells_along.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>

@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/recipe/internal/key_rows.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

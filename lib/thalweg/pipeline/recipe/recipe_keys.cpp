@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/recipe/internal/key_rows.hpp>
 #include <thalweg/pipeline/recipe/internal/sections.hpp>
 

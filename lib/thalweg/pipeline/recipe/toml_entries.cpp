@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/recipe/internal/toml_entries.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/recipe/internal/toml_depth.hpp>
 
 #include <fmt/format.h>

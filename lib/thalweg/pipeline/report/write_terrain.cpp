@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/write_terrain.hpp>
 
-#include <thalweg/core/run/printable.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/sections.hpp>

@@ -10,7 +10,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/grid/internal/poisson.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 

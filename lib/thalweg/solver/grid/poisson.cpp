@@ -10,10 +10,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/grid/internal/poisson.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>
 

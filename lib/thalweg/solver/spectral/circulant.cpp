@@ -10,12 +10,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/normal.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/numbers/sum_rows.hpp>
+#include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 
 namespace thalweg::solver {

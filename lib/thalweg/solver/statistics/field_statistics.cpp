@@ -12,8 +12,8 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/sum_rows.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/numbers/sums.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::solver {
 namespace {

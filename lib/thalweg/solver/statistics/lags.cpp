@@ -8,8 +8,8 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/sum_rows.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/numbers/sums.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>
 

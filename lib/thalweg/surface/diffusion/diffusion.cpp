@@ -10,15 +10,13 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/value_noise.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 

@@ -6,8 +6,6 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/skeleton.hpp>
-#include <thalweg/core/valley.hpp>
 
 namespace thalweg::surface {
 

@@ -12,12 +12,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/nearest_cells.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
 namespace thalweg::surface {

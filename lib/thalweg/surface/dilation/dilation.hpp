@@ -7,7 +7,6 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/valley.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 
 namespace thalweg::surface {

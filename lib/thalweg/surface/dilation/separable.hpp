@@ -10,9 +10,8 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/lanes.hpp>
-#include <thalweg/core/run/large_pages.hpp>
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/core/valley.hpp>
 
 /// Implementation of expand and dilate without barriers: the lexicographic (level, base) transform by one sweep down
 /// and one up, i.e. for each cell the least pair (|c - v|, e_v) over all valley cells v.

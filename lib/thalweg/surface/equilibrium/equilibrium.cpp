@@ -15,7 +15,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>

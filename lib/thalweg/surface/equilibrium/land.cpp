@@ -7,10 +7,10 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/value_noise.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 

@@ -12,9 +12,9 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 namespace thalweg::surface {

@@ -7,7 +7,7 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 

@@ -9,10 +9,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>

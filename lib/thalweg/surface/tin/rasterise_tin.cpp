@@ -15,7 +15,6 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parallel.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>

@@ -8,8 +8,8 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/attributes.hpp>
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/vec.hpp>
 
 class GDALDataset;

@@ -8,10 +8,9 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/attributes.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/height_unit.hpp>
-#include <thalweg/core/ridge_lines.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/table.hpp>

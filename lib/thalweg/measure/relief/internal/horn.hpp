@@ -5,7 +5,7 @@
 #include <array>
 #include <cstdint>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 
 namespace thalweg::measure {
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 

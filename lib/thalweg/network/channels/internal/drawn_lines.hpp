@@ -8,7 +8,7 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>

@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/raster.hpp>
 
 /// A step of flood_lakes. Private to this module.

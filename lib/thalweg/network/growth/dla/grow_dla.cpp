@@ -12,7 +12,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/dla/internal/tiled_bytes.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 

@@ -8,7 +8,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::network {

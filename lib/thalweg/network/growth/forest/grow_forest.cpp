@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/forest/internal/forest_growth.hpp>
 
 namespace thalweg::network {

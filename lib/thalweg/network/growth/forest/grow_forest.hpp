@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>

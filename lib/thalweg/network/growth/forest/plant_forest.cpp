@@ -10,11 +10,10 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells/cells_along.hpp>
-#include <thalweg/core/cells/cells_around.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 #include <thalweg/network/growth/forest/internal/room_in.hpp>
 #include <thalweg/network/growth/forest/spread_outlets.hpp>

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 
-#include <thalweg/core/cells/framed.hpp>
+#include <thalweg/core/cells.hpp>
 
 namespace thalweg::network {
 

@@ -3,7 +3,7 @@
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 #include <fmt/format.h>
 

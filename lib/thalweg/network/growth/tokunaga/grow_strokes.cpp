@@ -5,7 +5,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
 #include <thalweg/network/growth/tokunaga/internal/join_links.hpp>

@@ -4,8 +4,8 @@
 
 #include <cstdint>
 
-#include <thalweg/core/grid.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>

@@ -3,7 +3,7 @@
 #include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/suggest.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/elevation/rosgen.hpp>

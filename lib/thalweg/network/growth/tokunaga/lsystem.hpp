@@ -6,7 +6,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thalweg/core/required.hpp>
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 

@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 

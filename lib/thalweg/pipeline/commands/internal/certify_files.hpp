@@ -5,7 +5,7 @@
 #include <optional>
 #include <string>
 
-#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 

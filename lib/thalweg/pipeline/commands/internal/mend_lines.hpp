@@ -5,8 +5,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/network_file.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 
 /// The lines of mend_network, before adopt. Private to this module.

@@ -5,8 +5,8 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/network_file.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/write_network.hpp>

@@ -5,8 +5,8 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
-#include <thalweg/core/network_file.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/flow/catchments.hpp>
 
 /// Private to this module.

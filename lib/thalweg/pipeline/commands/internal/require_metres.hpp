@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 
 namespace thalweg::pipeline {
 

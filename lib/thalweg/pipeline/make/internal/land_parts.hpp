@@ -5,7 +5,7 @@
 #include <optional>
 #include <vector>
 
-#include <thalweg/core/feature_points.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>

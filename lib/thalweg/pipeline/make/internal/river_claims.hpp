@@ -6,10 +6,9 @@
 #include <vector>
 
 #include <thalweg/core/channels.hpp>
-#include <thalweg/core/network_file.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/core/valley.hpp>
 
 /// What rivers say of the DEM around them, alike in make and check. Private to this module.
 namespace thalweg::pipeline {

@@ -4,8 +4,8 @@
 
 #include <string>
 
-#include <thalweg/core/feature_points.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/features.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 
 /// What files say of the cells of a grid. Private to this module.

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 

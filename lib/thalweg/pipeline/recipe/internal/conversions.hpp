@@ -5,7 +5,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 

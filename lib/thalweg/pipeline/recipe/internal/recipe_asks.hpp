@@ -4,7 +4,7 @@
 
 #include <cstdint>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 /// What several keys of a recipe ask for together. Private to this module.

@@ -6,7 +6,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 

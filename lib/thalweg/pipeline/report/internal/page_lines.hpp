@@ -6,7 +6,7 @@
 #include <span>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 
 namespace thalweg::pipeline {
 

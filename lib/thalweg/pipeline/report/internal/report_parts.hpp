@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 

@@ -11,8 +11,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/lanes.hpp>
-#include <thalweg/core/run/large_pages.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/grid/poisson.hpp>
 

@@ -11,9 +11,9 @@
 #include <limits>
 #include <vector>
 
-#include <thalweg/core/cells/d8.hpp>
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/large_pages.hpp>
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace thalweg::surface {

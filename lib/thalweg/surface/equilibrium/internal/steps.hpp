@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/channels.hpp>
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>

@@ -6,8 +6,8 @@
 #include <span>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/dla/internal/exit_law.hpp>
 #include <thalweg/network/growth/dla/internal/free_squares.hpp>

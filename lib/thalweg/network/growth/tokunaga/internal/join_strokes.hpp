@@ -5,9 +5,9 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/river_lines.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 
 /// Private to this module.

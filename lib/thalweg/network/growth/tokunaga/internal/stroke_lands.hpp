@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <thalweg/core/grid.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
 
 /// Private to this module.

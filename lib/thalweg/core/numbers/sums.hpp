@@ -2,22 +2,36 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstddef>
 #include <cstdint>
 #include <vector>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/parallel.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg {
 
+/// A compensated sum (Neumaier 1974): rounding errors do not accumulate over millions of terms.
+class CompensatedSum {
+public:
+    void add(double value) {
+        double const sum = sum_ + value;
+        lost_ += std::fabs(sum_) >= std::fabs(value) ? (sum_ - sum) + value : (value - sum) + sum_;
+        sum_ = sum;
+    }
+    double value() const { return sum_ + lost_; }
+
+private:
+    double sum_ = 0.0;
+    double lost_ = 0.0;
+};
+
 /// Sums term(row) over the rows [0, rows), in row order whichever thread computes a term.
-/// \param run progress, log, stop token and number of threads
 /// \param rows number of rows
 /// \param term called with a row; its value's type has operator+=
 /// \return the same bits for any number of threads
 /// \throws Error what term throws
-/// \throws Cancelled
 template <class Term> auto sum_rows(Run const& run, std::int64_t rows, Term const& term) {
     using Sum = decltype(term(rows));
     Indexed<RowIndex, Sum> parts(rows);

@@ -6,6 +6,7 @@
 #include <cstdint>
 #include <limits>
 #include <string_view>
+#include <utility>
 
 namespace thalweg {
 
@@ -79,5 +80,15 @@ void require_in(std::string_view function, std::string_view name, Whole value, R
                 std::string_view unit = {}) {
     require_in(function, name, static_cast<std::int64_t>(value), range, unit);
 }
+
+/// A parameter without a default: code that leaves it out does not compile. Converts to its value.
+template <class T> class Required {
+public:
+    constexpr Required(T value) : value_(std::move(value)) {} // implicit: {.cell_m = 30.0}
+    constexpr operator T const&() const noexcept { return value_; }
+
+private:
+    T value_;
+};
 
 } // namespace thalweg

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/run/range.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 #include <cmath>
 #include <string>
@@ -10,7 +10,6 @@
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg {
-
 namespace {
 
 std::string in_words(Range const& range) {

@@ -4,6 +4,7 @@
 
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thalweg {
 
@@ -28,5 +29,17 @@ std::string as_utf8(std::string_view text);
 /// \\xNN or \\u{NNNN}; of a line above 600 bytes the first 400 and the last 150, of more than 60 lines the first 50,
 /// with a note of what is left out
 std::string printable(std::string_view text);
+
+/// Finds the known word nearest to a mistyped one by edit distance, ignoring case; a swap of neighbours counts once.
+/// \param word as typed
+/// \param known valid words
+/// \return at most max(1, min(3, a third of the letters)) edits away; of several the first; "": none is near
+std::string closest(std::string_view word, std::vector<std::string> const& known);
+
+/// Suggests the closest known word.
+/// \param word as typed
+/// \param known valid words
+/// \return " Did you mean 'x'?", or ""
+std::string did_you_mean(std::string_view word, std::vector<std::string> const& known);
 
 } // namespace thalweg
