@@ -57,7 +57,6 @@
 #include <thalweg/network/vectorise/trace.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/report/law_rows.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/random_fields.hpp>

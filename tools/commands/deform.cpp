@@ -8,7 +8,6 @@
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/make_deform.hpp>
-#include <thalweg/pipeline/commands/make_deform_tin.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 
 #include <string>
 
-#include <thalweg/pipeline/plan/forecast.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 
 namespace thalweg::tools {
 

@@ -10,10 +10,10 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/plan/forecast.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/recipe/user_files.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/pipeline/report/write_terrain.hpp>
 

@@ -12,7 +12,6 @@
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
-#include <thalweg/pipeline/report/law_rows.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 #include <CLI/CLI.hpp>

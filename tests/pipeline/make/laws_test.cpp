@@ -14,7 +14,6 @@
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/report/law_rows.hpp>
 
 namespace laws_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/forecast.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 
 #include "old_recipes.hpp"
 

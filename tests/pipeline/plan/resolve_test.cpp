@@ -6,7 +6,6 @@
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/plan/forecast.hpp>
 
 #include <gtest/gtest.h>
 

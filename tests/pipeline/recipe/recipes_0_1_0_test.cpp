@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // recipe.toml files that version 0.1.0 wrote, one of each method: they list every key of their sections, used or not.
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 #include <thalweg/io/files/files.hpp>
 

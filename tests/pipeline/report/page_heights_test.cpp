@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/internal/page_heights.hpp>
+#include <thalweg/pipeline/report/internal/page.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/internal/page_lines.hpp>
+#include <thalweg/pipeline/report/internal/page.hpp>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -8,7 +8,6 @@
 #include <pipeline/page_decoder.hpp>
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/report/internal/page_heights.hpp>
 
 #include <cmath>
 #include <limits>

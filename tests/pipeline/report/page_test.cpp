@@ -6,7 +6,6 @@
 #include <nlohmann/json.hpp>
 
 #include <pipeline/page_decoder.hpp>
-#include <thalweg/pipeline/report/internal/page_heights.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <unpacked.hpp>
 

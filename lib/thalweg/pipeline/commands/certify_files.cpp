@@ -14,7 +14,6 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 
 namespace thalweg::pipeline {

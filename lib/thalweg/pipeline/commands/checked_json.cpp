@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/commands/check_files.hpp>
-#include <thalweg/pipeline/report/internal/report_parts.hpp>
+#include <thalweg/pipeline/report/internal/report.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 #include <nlohmann/json.hpp>

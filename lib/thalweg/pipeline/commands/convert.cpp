@@ -23,8 +23,8 @@
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
+#include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/make/internal/split_areas.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/report/report.hpp>

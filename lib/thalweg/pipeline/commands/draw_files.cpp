@@ -5,7 +5,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
-#include <thalweg/pipeline/report/internal/scene_page.hpp>
+#include <thalweg/pipeline/report/internal/page.hpp>
 
 #include <fmt/format.h>
 

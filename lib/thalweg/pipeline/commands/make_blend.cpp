@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/commands/make_blend.hpp>
 
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make_blend_tin.hpp>
+#include <thalweg/pipeline/commands/make_blend.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -17,9 +17,9 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
-#include <thalweg/pipeline/commands/internal/require_metres.hpp>
-#include <thalweg/pipeline/make/internal/catchment_rows.hpp>
+#include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 

@@ -14,8 +14,7 @@
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/commands/internal/require_metres.hpp>
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 

@@ -15,7 +15,7 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/commands/internal/mend_lines.hpp>
-#include <thalweg/pipeline/make/internal/direction_words.hpp>
+#include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 
 namespace thalweg::pipeline {

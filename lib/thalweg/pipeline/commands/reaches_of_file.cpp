@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/reaches_of_file.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
 
 #include <algorithm>
 #include <cmath>

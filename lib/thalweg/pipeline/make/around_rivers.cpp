@@ -7,12 +7,10 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/order/streams.hpp>
-#include <thalweg/pipeline/make/internal/detail.hpp>
-#include <thalweg/pipeline/make/internal/land.hpp>
-#include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/make/internal/terrain.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>

@@ -17,7 +17,6 @@
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/timings.hpp>
 
 namespace thalweg::pipeline {
 

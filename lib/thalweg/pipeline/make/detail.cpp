@@ -1,10 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/detail.hpp>
+#include <thalweg/pipeline/make/internal/terrain.hpp>
 
 #include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/pipeline/make/internal/land_parts.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 #include <algorithm>
 #include <utility>

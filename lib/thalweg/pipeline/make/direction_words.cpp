@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/direction_words.hpp>
+#include <thalweg/pipeline/make/internal/given.hpp>
 
 #include <algorithm>
 #include <string_view>

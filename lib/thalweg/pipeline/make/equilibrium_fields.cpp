@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/internal/equilibrium_fields.hpp>
 
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 

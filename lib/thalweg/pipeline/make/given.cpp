@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/make/given.hpp>
 
 #include <thalweg/core/vec.hpp>
-#include <thalweg/pipeline/make/internal/direction_words.hpp>
+#include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 
 #include <fmt/format.h>

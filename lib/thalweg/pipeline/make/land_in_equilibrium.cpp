@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
+#include <thalweg/pipeline/make/internal/terrain.hpp>
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
@@ -17,12 +17,11 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/pipeline/make/internal/equilibrium_fields.hpp>
-#include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
-#include <thalweg/pipeline/plan/internal/read_lines.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

@@ -10,7 +10,6 @@
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/timings.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {

@@ -15,11 +15,10 @@
 #include <thalweg/network/vectorise/cut_corners.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
-#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
-#include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
-#include <thalweg/pipeline/recipe/internal/conversions.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
 

@@ -6,10 +6,7 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/elevation/assign_types.hpp>
 #include <thalweg/network/order/count_streams.hpp>
-#include <thalweg/pipeline/make/network_story.hpp>
-#include <thalweg/pipeline/make/river_file.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/timings.hpp>
 
 namespace thalweg::pipeline {
 

@@ -6,7 +6,7 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/thin.hpp>
 #include <thalweg/network/vectorise/trace.hpp>
-#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
 #include <fmt/format.h>

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/forest/plant_forest.hpp>
-#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
 
 #include <fmt/format.h>
 

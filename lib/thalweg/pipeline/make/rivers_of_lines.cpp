@@ -5,9 +5,9 @@
 #include <thalweg/network/elevation/keep_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
-#include <thalweg/pipeline/make/internal/direction_words.hpp>
-#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
+#include <thalweg/pipeline/make/internal/given.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 #include <fmt/format.h>
 

@@ -3,8 +3,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
-#include <thalweg/pipeline/make/internal/rivers_in_plan.hpp>
-#include <thalweg/pipeline/plan/internal/trees.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 #include <fmt/format.h>
 

@@ -6,15 +6,13 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/pipeline/make/internal/around_rivers.hpp>
-#include <thalweg/pipeline/make/internal/land.hpp>
-#include <thalweg/pipeline/make/internal/land_in_equilibrium.hpp>
 #include <thalweg/pipeline/make/internal/paste_patches.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
-#include <thalweg/pipeline/plan/internal/points.hpp>
-#include <thalweg/pipeline/recipe/internal/conversions.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/make/internal/terrain.hpp>
+#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>
 

@@ -20,7 +20,6 @@
 #include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/timings.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 

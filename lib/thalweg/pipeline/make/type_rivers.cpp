@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/type_rivers.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
 
 #include <thalweg/network/order/order.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/forecast.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -15,7 +15,7 @@
 #include <thalweg/network/growth/forest/spread_outlets.hpp>
 #include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

@@ -4,7 +4,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
+#include <thalweg/pipeline/plan/internal/frame.hpp>
 
 #include <fmt/format.h>
 

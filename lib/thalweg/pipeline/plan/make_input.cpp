@@ -7,7 +7,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/pipeline/plan/internal/read_lines.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 #include <algorithm>
 

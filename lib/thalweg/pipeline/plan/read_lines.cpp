@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/internal/read_lines.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -8,8 +8,8 @@
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/fill_heights.hpp>
 #include <thalweg/network/import/keep_connectors.hpp>
-#include <thalweg/pipeline/plan/internal/stray_vertex.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <fmt/format.h>

@@ -8,16 +8,12 @@
 #include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
 #include <thalweg/pipeline/plan/internal/forest_land.hpp>
-#include <thalweg/pipeline/plan/internal/plan_asks.hpp>
-#include <thalweg/pipeline/plan/internal/points.hpp>
-#include <thalweg/pipeline/plan/internal/read_cells.hpp>
-#include <thalweg/pipeline/plan/internal/read_lines.hpp>
-#include <thalweg/pipeline/plan/internal/trees.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
+#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
 
 #include <fmt/format.h>
 

@@ -1,17 +1,119 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_asks.hpp>
-#include <thalweg/pipeline/recipe/internal/unused_keys.hpp>
+#include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
 
 namespace thalweg::pipeline {
+
+bool in_equilibrium(Recipe const& recipe) {
+    return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
+}
+
+bool replaces_rivers(Recipe const& recipe) {
+    return std::any_of(recipe.patches.begin(), recipe.patches.end(),
+                       [](PatchRecipe const& p) { return p.rivers == PatchRivers::replace; });
+}
+
+int levels_of(Recipe const& recipe) {
+    return recipe.detail && recipe.detail->method == DetailMethod::midpoint ? recipe.detail->midpoint.levels : 0;
+}
+
+Grid coarse_grid(Grid const& grid, int levels) {
+    std::int64_t const step = std::int64_t{1} << levels;
+    Grid coarse = grid;
+    coarse.width = (grid.width - 1 + step - 1) / step + 1;
+    coarse.height = (grid.height - 1 + step - 1) / step + 1;
+    coarse.cell_m = grid.cell_m * static_cast<double>(step);
+    double const shift = 0.5 * (coarse.cell_m - grid.cell_m);
+    coarse.west = grid.west - shift;
+    coarse.north = grid.north + shift;
+    return coarse;
+}
+
+void check_detail(Recipe const& recipe, std::int64_t width, std::int64_t height) {
+    int const levels = levels_of(recipe);
+    if (levels == 0 || recipe.detail->midpoint.stencil != fractal::Stencil::exact) {
+        return;
+    }
+    auto const coarse_at = [&](int halved) { return coarse_grid({width, height, 1.0, 0.0, 0.0, ""}, halved); };
+    auto const coarse_cells = [&](int halved) { return coarse_at(halved).cells(); };
+    if (coarse_cells(levels) <= fractal::most_conditioning_cells) {
+        Grid const coarse = coarse_at(levels);
+        solver::check_fractional_surface(((coarse.width - 1) << levels) + 1, ((coarse.height - 1) << levels) + 1,
+                                         recipe.detail->midpoint.hurst.value_or(fractal::least_hurst));
+        return;
+    }
+    constexpr int most_levels = 12;
+    int enough = levels;
+    while (enough <= most_levels && coarse_cells(enough) > fractal::most_conditioning_cells) {
+        ++enough;
+    }
+    throw BadParameter(fmt::format(
+        "pipeline.check_detail: detail.stencil = \"exact\" takes up to {} coarse cells, and {} x {} cells at "
+        "detail.levels = {} have {}; set {}detail.stencil = 16",
+        fractal::most_conditioning_cells, width, height, levels, coarse_cells(levels),
+        enough <= most_levels ? fmt::format("detail.levels = {}, or ", enough) : ""));
+}
+
+namespace {
+
+bool is_default(Key const& key, Value const& value, bool set_by_someone) {
+    static Recipe const standard = with_all_sections();
+    static std::array<Recipe, 2> const built_in = {default_recipe(), cluster_recipe()};
+    return key.take(standard) == value || std::count(key.earlier.begin(), key.earlier.end(), value) > 0 ||
+           (!set_by_someone && std::any_of(built_in.begin(), built_in.end(),
+                                           [&](Recipe const& recipe) { return key.take(recipe) == value; }));
+}
+
+std::string words_for_unused(std::string const& path, Value const& value, std::string const& place,
+                             std::string const& lacks) {
+    return fmt::format("{} = {}{} has no effect in this recipe: it needs {}. Remove it, or change that.", path,
+                       toml_text(value), place.empty() ? "" : " (" + place + ")", lacks);
+}
+
+} // namespace
+
+std::vector<UnusedKey> unused_keys(Recipe const& recipe) {
+    std::vector<UnusedKey> found;
+    for (Key const& key : all_keys()) {
+        std::size_t const count = key.use.holds(recipe) ? 0 : key.part->count(recipe);
+        for (std::size_t item = 0; item < count; ++item) {
+            std::string const path = key.place(item);
+            auto const value = key.take(recipe, item);
+            auto const place = recipe.set_at.find(path);
+            bool const is_set = place != recipe.set_at.end();
+            if (value && !is_default(key, *value, is_set)) {
+                found.push_back(
+                    {path, words_for_unused(path, *value, is_set ? place->second : "", key.use.lacks(recipe))});
+            }
+        }
+    }
+    return found;
+}
+
+void refuse_unused_keys(Recipe const& resolved) {
+    std::vector<std::string> faults;
+    for (UnusedKey const& key : unused_keys(resolved)) {
+        if (resolved.set_at.contains(key.path)) {
+            faults.push_back(key.words);
+        }
+    }
+    if (!faults.empty()) {
+        throw BadParameter(fmt::format("recipe: {}", fmt::join(faults, "\nrecipe: ")));
+    }
+}
 
 namespace {
 

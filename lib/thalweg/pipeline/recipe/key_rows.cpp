@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/internal/key_rows.hpp>
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/messages.hpp>
+#include <sstream>
+#include <stdexcept>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include <sstream>
-#include <stdexcept>
-#include <string_view>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 namespace thalweg::pipeline {
-
 namespace {
 
 /// The shortest text that reads back as the same number, and as one with a fraction.
@@ -145,6 +144,22 @@ std::string const& as_short_text(Value const& v) {
         throw BadParameter("the text is too long or holds a null byte");
     }
     return s;
+}
+
+Use source_is(char const* word) {
+    return is("network.source", {word});
+}
+
+Use method_is(std::vector<std::string> const& words) {
+    return with("network") && is("surface.method", words);
+}
+
+Use by_equilibrium() {
+    return method_is({"equilibrium"});
+}
+
+Use has_surface() {
+    return without("network") || with("surface");
 }
 
 } // namespace thalweg::pipeline

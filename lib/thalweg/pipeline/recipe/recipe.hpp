@@ -2,22 +2,39 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <array>
 #include <cstdint>
 #include <map>
 #include <optional>
 #include <string>
 #include <vector>
 
-#include <thalweg/pipeline/recipe/sections/detail.hpp>
-#include <thalweg/pipeline/recipe/sections/grid.hpp>
+#include <thalweg/core/height_unit.hpp>
+#include <thalweg/io/network/schema.hpp>
 #include <thalweg/pipeline/recipe/sections/network.hpp>
-#include <thalweg/pipeline/recipe/sections/output.hpp>
-#include <thalweg/pipeline/recipe/sections/patch.hpp>
-#include <thalweg/pipeline/recipe/sections/skeleton.hpp>
-#include <thalweg/pipeline/recipe/sections/statistics.hpp>
-#include <thalweg/pipeline/recipe/sections/surface.hpp>
+#include <thalweg/pipeline/recipe/sections/terrain.hpp>
 
 namespace thalweg::pipeline {
+
+/// Where the land lies. What is left out is chosen from the network.
+struct GridRecipe {
+    std::int64_t width = 0;  ///< [cells] 0: the network's box and 5 % around it
+    std::int64_t height = 0; ///< [cells] likewise
+    double cell_m = 30.0;    ///< [m] > 0; 0 chooses it from the lines of a file
+    std::string crs;         ///< projected, metres; "": the line file's own or its UTM zone, else EPSG:32631
+    std::optional<std::array<double, 2>> origin; ///< [m] west and north edge
+    bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
+};
+
+/// The keys of section [output] of a recipe.
+struct OutputRecipe {
+    std::string title;                      ///< of the pictures and the page; "" names the seed
+    double contour_interval = 0.0;          ///< [units] 0 chooses a round number
+    bool catchments = true;                 ///< of the arcs, where there are rivers and a surface
+    bool accumulation = false;              ///< contributing areas by cell, where there is a surface
+    io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
+    HeightUnit units = HeightUnit::metre;   ///< of heights in dem.tif, networks, contours and TINs
+};
 
 /// Everything that decides a result, as one plain value.
 struct Recipe {
@@ -72,7 +89,6 @@ Recipe read_recipe(std::string const& toml, std::string const& name);
 /// is found from the working folder, wherever the recipe lies.
 /// \param recipe the recipe
 /// \param assignment "section.key=value"
-/// \throws BadParameter
 void set_key(Recipe& recipe, std::string const& assignment);
 
 /// \param recipe the recipe

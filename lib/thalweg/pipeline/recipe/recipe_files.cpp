@@ -1,11 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-
-#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 #include <filesystem>
+#include <string>
 #include <variant>
+
+#include <fmt/format.h>
+
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -51,6 +58,82 @@ Recipe framed(Recipe recipe, Grid const& grid) {
     recipe.grid.height = grid.height;
     recipe.grid.origin = {grid.west, grid.north};
     return recipe;
+}
+
+namespace {
+
+/// Far from its central meridian a UTM zone measures other lengths than the ground has, as other projections do.
+std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
+    constexpr double much = 0.01;
+    constexpr double percent = 100.0;
+    if (io::is_distorted(grid) && !io::utm_number(grid.crs)) {
+        io::GroundCell const ground = io::ground_cell(grid);
+        double const metre = ground.side_m / grid.cell_m;
+        std::string const words =
+            fmt::format("metres of the grid's CRS, {:.60}, are {:.3g} m on the ground there. Name another CRS: --crs "
+                        "{:.60}",
+                        grid.crs, metre, ground.crs);
+        run.say("warning: " + words);
+        return {{"stretched", 0, {}, 1.0 / metre - 1.0, words}};
+    }
+    double const stretch = io::zone_stretch(grid);
+    if (!(stretch > much)) {
+        return {};
+    }
+    std::string const words =
+        fmt::format("the grid reaches far beyond its UTM zone {}: lengths are up to {:.1f} % too long there. Name "
+                    "another CRS: --crs EPSG:n",
+                    grid.crs, percent * stretch);
+    run.say("warning: " + words);
+    return {{"stretched", 0, {}, stretch, words}};
+}
+
+namespace fs = std::filesystem;
+
+bool is_users(Recipe const& recipe, std::string const& path) {
+    auto const at = recipe.set_at.find(path);
+    return at == recipe.set_at.end() || at->second == "--set";
+}
+
+} // namespace
+
+std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
+    std::vector<Finding> notes;
+    for (NamedFile const& file : files_of(recipe)) {
+        bool const is_lines = file.key->help.path == "network.lines.path";
+        std::string const source_crs = is_lines ? recipe.network->lines.source_crs : "";
+        for (std::string const& words :
+             io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs, source_crs)) {
+            run.say(fmt::format("{:<6} {}", "units", words));
+            notes.push_back({"converted", 0, {}, 0.0, words});
+        }
+    }
+    std::vector<Finding> const stretched = warn_of_stretch(grid, run);
+    notes.insert(notes.end(), stretched.begin(), stretched.end());
+    return notes;
+}
+
+UserFiles::UserFiles(Recipe& recipe, Run const& run) {
+    for (NamedFile const& file : files_of(recipe)) {
+        if (is_users(recipe, file.key->place(file.item))) {
+            file.key->put(recipe, copied(recipe, file.name, file.layer, run), file.item);
+        }
+    }
+}
+
+std::string UserFiles::copied(Recipe const& recipe, std::string const& name, std::string const& layer, Run const& run) {
+    std::string const path = file_in(recipe, name);
+    std::error_code ignored;
+    bool const is_missing = !io::names_connection(path) && !fs::exists(path, ignored) && !path.starts_with("/vsi");
+    if (name.empty() || is_missing || io::is_text_of_points(path) || io::is_recipe_file(path)) {
+        return name; // what is missing is reported by the stage that needs it
+    }
+    if (!folder_) {
+        folder_ = std::make_unique<io::TemporaryFolder>("thalweg-inputs");
+    }
+    fs::path const own = folder_->path() / fmt::format("{}", ++copies_);
+    fs::create_directory(own);
+    return io::plain_copy(path, layer, own.string(), run);
 }
 
 } // namespace thalweg::pipeline

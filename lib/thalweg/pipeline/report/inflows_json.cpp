@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/internal/report_parts.hpp>
+#include <thalweg/pipeline/report/internal/report.hpp>
 
 #include <nlohmann/json.hpp>
 

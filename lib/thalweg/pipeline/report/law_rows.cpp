@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/law_rows.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
 
 #include <cmath>
 

@@ -3,10 +3,6 @@
 #include <thalweg/pipeline/report/internal/page.hpp>
 
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/report/internal/fill_page.hpp>
-#include <thalweg/pipeline/report/internal/page_data.hpp>
-#include <thalweg/pipeline/report/internal/page_heights.hpp>
-#include <thalweg/pipeline/report/internal/page_lines.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
 
 #include <nlohmann/json.hpp>

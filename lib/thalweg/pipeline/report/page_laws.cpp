@@ -3,7 +3,7 @@
 #include <thalweg/pipeline/report/internal/page_laws.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/pipeline/report/law_rows.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>

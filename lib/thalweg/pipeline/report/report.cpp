@@ -5,9 +5,9 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
-#include <thalweg/pipeline/make/internal/user_data.hpp>
-#include <thalweg/pipeline/report/internal/report_parts.hpp>
-#include <thalweg/pipeline/report/law_rows.hpp>
+#include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/report/internal/report.hpp>
 
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/internal/scene_page.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>

@@ -17,11 +17,8 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/make/internal/catchment_rows.hpp>
-#include <thalweg/pipeline/make/internal/in_unit.hpp>
+#include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/make/internal/split_areas.hpp>
-#include <thalweg/pipeline/make/internal/user_data.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>

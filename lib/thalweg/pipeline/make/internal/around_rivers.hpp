@@ -4,7 +4,7 @@
 
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 /// The land around rivers. Private to this module.
 namespace thalweg::pipeline {

@@ -5,7 +5,7 @@
 #include <cstdint>
 
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 /// Land from numbers and from points (paper 001). Private to this module.
 namespace thalweg::pipeline {

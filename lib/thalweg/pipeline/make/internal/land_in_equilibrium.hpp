@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 /// Land in equilibrium with its rivers. Private to this module.
 namespace thalweg::pipeline {

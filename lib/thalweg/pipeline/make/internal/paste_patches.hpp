@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 /// Real relief in the land. Private to this module.
 namespace thalweg::pipeline {

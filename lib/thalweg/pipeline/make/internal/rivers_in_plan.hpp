@@ -8,9 +8,8 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/pipeline/make/network_story.hpp>
-#include <thalweg/pipeline/make/river_file.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
 /// Where rivers run. Private to this module.

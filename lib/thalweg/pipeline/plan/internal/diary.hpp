@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/plan/timings.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 
 /// Private to this module.
 namespace thalweg::pipeline {

@@ -3,7 +3,7 @@
 #pragma once
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
 /// Private to this module.

@@ -4,7 +4,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/pipeline/plan/internal/diary.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
 /// Networks that branch by Tokunaga's law. Private to this module.

@@ -13,9 +13,10 @@
 
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
-/// What the tables of keys are written in: a row names a key, its field by a chain of member pointers, and all that is
-/// known of it. Private to this module.
 namespace thalweg::pipeline {
+
+// What the tables of keys are written in: a row names a key, its field by a chain of member pointers, and all that is
+// known of it.
 
 inline constexpr bool left_open = true; ///< of a Range
 inline constexpr double endless = 9.0e15;
@@ -308,5 +309,26 @@ template <class S> Rows<S> joined(std::vector<Rows<S>> const& parts) {
     }
     return all;
 }
+
+// Conditions that keys of several sections share: what the stages read, and when.
+
+Use source_is(char const* word);
+
+/// Terrain around rivers by one of these methods.
+Use method_is(std::vector<std::string> const& words);
+Use by_equilibrium();
+Use has_surface();
+
+// The keys of each section and of its parts, in the order of recipe files.
+
+Rows<Recipe> seed_keys();
+Rows<GridRecipe> grid_keys();
+Rows<NetworkRecipe> network_keys();
+Rows<SkeletonRecipe> skeleton_keys();
+Rows<SurfaceRecipe> surface_keys();
+Rows<StatisticsRecipe> statistics_keys();
+Rows<DetailRecipe> detail_keys();
+Rows<PatchRecipe> patch_keys();
+Rows<OutputRecipe> output_keys();
 
 } // namespace thalweg::pipeline

@@ -6,12 +6,15 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// What a recipe names. Private to this module.
 namespace thalweg::pipeline {
+
+// What a recipe names.
 
 /// A file the recipe names, found from the recipe's folder.
 std::string file_in(Recipe const& recipe, std::string const& name);
@@ -35,5 +38,9 @@ Recipe with_absolute_files(Recipe recipe);
 
 /// The recipe of a terrain on this grid.
 Recipe framed(Recipe recipe, Grid const& grid);
+
+/// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.
+/// Gives: a note for each: "converted", "stretched".
+std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run);
 
 } // namespace thalweg::pipeline

@@ -5,8 +5,6 @@
 #include <string>
 
 #include <thalweg/pipeline/report/internal/page.hpp>
-#include <thalweg/pipeline/report/internal/page_heights.hpp>
-#include <thalweg/pipeline/report/internal/page_lines.hpp>
 
 namespace thalweg::pipeline {
 
