@@ -2,18 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/frame.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstddef>
+#include <limits>
+#include <vector>
+
+#include <fmt/format.h>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/pipeline/plan/internal/frame.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-
 namespace thalweg::pipeline {
-
 namespace {
 
 struct Box {
@@ -210,6 +211,106 @@ Grid frame_tree(std::int64_t links, GridRecipe const& wanted) {
     grid.west = wanted.origin ? (*wanted.origin)[0] : default_west;
     grid.north = wanted.origin ? (*wanted.origin)[1] : default_north;
     grid.crs = wanted.crs;
+    check_memory(grid.width, grid.height);
+    return grid;
+}
+
+namespace {
+
+struct Vertex {
+    double along = 0.0; ///< its coordinate on the axis that is looked at
+    Vec3 at;
+    std::int64_t feature = 0;
+};
+
+[[noreturn]] void refuse(Vertex const& stray, double gap_m, RiverLines const& lines) {
+    throw BadInput(
+        fmt::format("grid: river {} in {} has a vertex at ({:.1f}, {:.1f}), {:.0f} km from the others, so that "
+                    "a grid around all would be empty for the most part: correct it, or set grid.width, "
+                    "grid.height and grid.clip = true",
+                    stray.feature, lines.name, stray.at.x, stray.at.y, gap_m / 1000.0));
+}
+
+/// Looks from the beginning of sorted vertices.
+void look(std::vector<Vertex> const& sorted, RiverLines const& lines) {
+    constexpr double times_as_far = 20.0;
+    std::size_t const few = std::max<std::size_t>(2, sorted.size() / 100);
+    for (std::size_t k = 1; k <= few; ++k) {
+        double const gap = std::fabs(sorted[k].along - sorted[k - 1].along);
+        double const others = std::fabs(sorted.back().along - sorted[k].along);
+        if (others > 0.0 && gap > times_as_far * others) {
+            refuse(sorted[k - 1], gap, lines);
+        }
+    }
+}
+
+} // namespace
+
+void require_no_stray_vertex(RiverLines const& lines) {
+    constexpr std::size_t fewest = 20;
+    for (double Vec3::*const axis : {&Vec3::x, &Vec3::y}) {
+        std::vector<Vertex> vertices;
+        for (RiverLine const& line : lines.lines) {
+            for (Vec3 const& v : line.vertices) {
+                vertices.push_back({v.*axis, v, line.feature});
+            }
+        }
+        if (vertices.size() < fewest) {
+            return;
+        }
+        std::stable_sort(vertices.begin(), vertices.end(),
+                         [](Vertex const& a, Vertex const& b) { return a.along < b.along; });
+        look(vertices, lines);
+        std::reverse(vertices.begin(), vertices.end());
+        look(vertices, lines);
+    }
+}
+
+void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name) {
+    for (std::size_t i = 0; i < points.points.size(); ++i) {
+        Vec3 const& p = points.points[i];
+        if (p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north) {
+            throw BadInput(
+                fmt::format("skeleton.points = \"{}\": point {} at ({:.3f}, {:.3f}) lies off the grid, which "
+                            "reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or remove it",
+                            name, i + 1, p.x, p.y, grid.west, grid.south(), grid.east(), grid.north));
+        }
+    }
+}
+
+Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
+    double const cell = wanted.cell_m;
+    Grid grid{wanted.width, wanted.height, cell, default_west, default_north, wanted.crs};
+    if (!points.points.empty()) {
+        double west = std::numeric_limits<double>::infinity();
+        double south = west;
+        double east = -west;
+        double north = -west;
+        for (Vec3 const& p : points.points) {
+            west = std::min(west, p.x);
+            east = std::max(east, p.x);
+            south = std::min(south, p.y);
+            north = std::max(north, p.y);
+        }
+        double const margin = wanted.width > 0 ? 0.0 : 0.05 * std::max(east - west, north - south);
+        grid.west = std::floor((west - margin) / cell) * cell;
+        grid.north = std::ceil((north + margin) / cell) * cell;
+        if (wanted.width == 0) {
+            double const columns = std::ceil((east + margin - grid.west) / cell);
+            double const rows = std::ceil((grid.north - south + margin) / cell);
+            if (!(columns < 1e6) || !(rows < 1e6)) {
+                throw BadInput(fmt::format("grid: the points span {:.0f} x {:.0f} m, {:.3g} x {:.3g} cells of {} m: "
+                                           "give a larger grid.cell or a grid",
+                                           east - west, north - south, columns, rows, cell));
+            }
+            grid.width = std::max<std::int64_t>(1, static_cast<std::int64_t>(columns));
+            grid.height = std::max<std::int64_t>(1, static_cast<std::int64_t>(rows));
+        }
+    }
+    if (wanted.origin) {
+        grid.west = (*wanted.origin)[0];
+        grid.north = (*wanted.origin)[1];
+    }
     check_memory(grid.width, grid.height);
     return grid;
 }

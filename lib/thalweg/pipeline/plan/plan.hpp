@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
+#include <string>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/features.hpp>
@@ -14,6 +17,9 @@
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
+
+/// What stages took [s], in their order.
+using Timings = std::vector<std::pair<std::string, double>>;
 
 /// Where a forest may grow.
 struct ForestLand {
@@ -42,12 +48,28 @@ struct Plan {
 /// points are read here and nowhere else; what lies over the surface (masks, fields, lakes, patches) has to be there,
 /// and is read when the surface is drawn.
 /// \param recipe the recipe
-/// \param run progress, log, stop token and number of threads
 /// \return the same plan for the same recipe and files, whatever the Run.
 /// \throws BadParameter naming what does not fit together, and every key that is set and has no effect
 /// \throws BadInput where a file is missing or not what its key needs, or the grid needs more memory than is free
-/// \throws IoError
-/// \throws Cancelled
 Plan resolve(Recipe const& recipe, Run const& run = {});
+
+/// What make() would do with a recipe.
+struct Forecast {
+    std::vector<std::string> stages; ///< in order, with the names of its timings
+    std::optional<Grid> grid;        ///< empty: it follows from rivers that have to be grown first
+    std::int64_t cells = 0;          ///< of the grid, an estimate where it is unknown
+    std::int64_t memory_bytes = 0;   ///< at most, estimated
+    double seconds = 0.0;            ///< estimated, on one core of 2020
+};
+
+/// \param plan the plan
+/// \return the stages that make() times, in its order, and estimates.
+Forecast forecast(Plan const& plan);
+
+/// Plans a recipe and says what a run would do, without running it.
+/// \param recipe the recipe
+/// \return the forecast of its plan
+/// \throws Error as resolve()
+Forecast forecast(Recipe const& recipe, Run const& run = {});
 
 } // namespace thalweg::pipeline

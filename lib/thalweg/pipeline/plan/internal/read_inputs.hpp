@@ -8,9 +8,11 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
-/// What files say of the cells of a grid. Private to this module.
 namespace thalweg::pipeline {
+
+// What files say of the cells of a grid.
 
 /// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
 /// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
@@ -37,5 +39,21 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
 /// Throws: as io::read_dem and io::warp_to_grid.
 Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::string const& what,
                           std::optional<double> nodata, Run const& run);
+
+// The lines that a recipe names, and what follows from them.
+
+/// The lines of network.lines.path.
+RiverLines read_lines(Recipe const& recipe, Run const& run);
+
+/// A recipe with the CRS and, where it is 0, the cell size of its grid by its lines; and a mean slope by the cell size.
+struct OnLines {
+    Recipe recipe;
+    std::string why; ///< the cell has its size, as the end of a sentence; "" where it was given
+};
+OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run);
+
+/// The usual mean slope [degrees] of land in cells of this size: the coarser, the gentler. Within 6 % of the mean
+/// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
+double usual_slope_deg(double cell_m);
 
 } // namespace thalweg::pipeline

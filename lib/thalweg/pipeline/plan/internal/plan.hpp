@@ -1,0 +1,78 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <string>
+#include <utility>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+
+namespace thalweg::pipeline {
+
+/// Times the stages and says a line for each.
+class Diary {
+public:
+    explicit Diary(Run const& run) : run_(run) {}
+
+    template <class Stage> auto stage(char const* name, Stage&& work) {
+        run_.at(0.0, name);
+        auto const begin = std::chrono::steady_clock::now();
+        auto result = work();
+        std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin;
+        timings_s_.emplace_back(name, taken.count());
+        run_.at(1.0, name);
+        return result;
+    }
+    /// About the last stage.
+    void say(std::string const& words) const;
+
+    /// What the stages took, in order; none is left.
+    Timings take() { return std::exchange(timings_s_, {}); }
+
+private:
+    Run const& run_;
+    Timings timings_s_;
+};
+
+// Which stages a plan asks for: make runs them by these questions, and the forecast names them by the same.
+
+/// Whether coastlines of the rivers' file bound the land.
+bool has_coastlines(Plan const& plan);
+
+/// Whether rivers are grown for a land in equilibrium: these run as in nature, which bends them.
+bool grown_for_land(Plan const& plan);
+
+/// Whether rivers go through the stage that bends them.
+bool bends_rivers(Plan const& plan);
+
+/// Whether rivers have no heights until the land gives them theirs.
+bool follows_land(Recipe const& recipe);
+
+/// Whether random points lie between the rivers, or in the land.
+bool scatters(Recipe const& recipe);
+
+/// Whether ridges are drawn between the rivers.
+bool has_ridges(Recipe const& recipe);
+
+/// Whether rivers, ridges and points are triangulated.
+bool needs_tin(Recipe const& recipe);
+
+/// Whether the land is made to drain.
+bool conditions(Recipe const& recipe);
+
+/// Whether the land's own side valleys become arcs.
+bool fills_space(Recipe const& recipe);
+
+// Networks that branch by Tokunaga's law.
+
+/// What helps where links find no room.
+inline constexpr char const* more_room =
+    "lower network.tokunaga.order or spacing, or take a larger grid (or smaller cells)";
+
+/// The tree that a recipe grows by Tokunaga's law.
+network::TokunagaParams tree_of(Recipe const& recipe);
+
+} // namespace thalweg::pipeline

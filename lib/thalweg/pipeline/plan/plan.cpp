@@ -1,0 +1,458 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/plan/plan.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <string>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/network/growth/forest/plant_forest.hpp>
+#include <thalweg/network/growth/forest/shape_island.hpp>
+#include <thalweg/network/growth/forest/spread_outlets.hpp>
+#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/planform/rotate.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+namespace thalweg::pipeline {
+
+void Diary::say(std::string const& words) const {
+    auto const& [name, seconds] = timings_s_.back();
+    run_.tell(name, fmt::format("{:<56}{:6.1f} s", words, seconds));
+}
+
+bool has_coastlines(Plan const& plan) {
+    NetworkRecipe const& rivers = *plan.recipe.network;
+    std::vector<SecondaryLine> const& lines = plan.lines.secondary;
+    return rivers.source == Source::lines && rivers.lines.coastlines == Coastlines::sea &&
+           std::any_of(lines.begin(), lines.end(),
+                       [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
+}
+
+bool grown_for_land(Plan const& plan) {
+    return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe);
+}
+
+bool bends_rivers(Plan const& plan) {
+    return *plan.recipe.network->meander != 0.0 || grown_for_land(plan);
+}
+
+bool follows_land(Recipe const& recipe) {
+    return in_equilibrium(recipe) && recipe.network->heights == Heights::graded;
+}
+
+bool scatters(Recipe const& recipe) {
+    return recipe.skeleton && recipe.skeleton->scatter > 0;
+}
+
+bool has_ridges(Recipe const& recipe) {
+    return recipe.skeleton && recipe.skeleton->ridges != Ridges::none;
+}
+
+bool needs_tin(Recipe const& recipe) {
+    SurfaceRecipe const& wanted = *recipe.surface;
+    bool const over_tin = wanted.method == Method::tin || (wanted.method == Method::dilate && wanted.base == Base::tin);
+    return over_tin || (recipe.skeleton && recipe.skeleton->tin);
+}
+
+bool conditions(Recipe const& recipe) {
+    return recipe.surface && *recipe.surface->drain != flow::Conditioning::none;
+}
+
+bool fills_space(Recipe const& recipe) {
+    return recipe.network && recipe.network->fill_space;
+}
+
+namespace {
+
+/// The land on its grid: the region's polygons, an island, or all of it.
+Mask land_of(Recipe const& recipe, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    if (wanted.region.empty()) {
+        Grid const grid = frame_tree(1, recipe.grid);
+        return wanted.shape == LandShape::island ? network::shape_island(grid, {wanted.ruggedness, recipe.seed}, run)
+                                                 : Mask(grid, 1);
+    }
+    Polygons const polygons = io::read_polygons(file_in(recipe, wanted.region), recipe.grid.crs, run);
+    return blend::mask_polygons(polygons, frame_polygons(polygons, recipe.grid));
+}
+
+/// Which of some cells lie near marked ones.
+std::vector<Cell> near_to(Mask const& marked, std::vector<Cell> const& cells, std::int64_t reach) {
+    std::vector<Cell> found;
+    for (Cell const c : cells) {
+        bool near = false;
+        cells_around(marked.grid(), c, reach, [&](Cell other) { near = near || marked[other] != 0; });
+        if (near) {
+            found.push_back(c);
+        }
+    }
+    return found;
+}
+
+std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cell> const& coast, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    constexpr std::int64_t spacings = 6;
+    std::int64_t const every =
+        wanted.outlet_spacing_cells > 0 ? wanted.outlet_spacing_cells : spacings * wanted.spacing_cells;
+    return network::spread_outlets(land, coast, {wanted.seeds, static_cast<double>(every), recipe.seed}, run);
+}
+
+/// The cells of the coast nearest to the points of a file.
+std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<Finding>& notes, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    Grid const& grid = land.grid();
+    if (wanted.seeds > 0) {
+        throw BadInput(
+            fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
+                        wanted.outlets));
+    }
+    if (wanted.outlet_spacing_cells > 0 && recipe.set_at.contains("network.forest.outlet_spacing")) {
+        throw BadInput(fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave "
+                                   "network.forest.outlet_spacing out",
+                                   wanted.outlets));
+    }
+    io::ReadPointsParams params;
+    params.path = file_in(recipe, wanted.outlets);
+    params.crs = grid.crs;
+    params.heights = io::PointHeights::passed_over;
+    std::vector<Cell> const coast = network::coast_cells(land);
+    std::vector<Cell> outlets;
+    for (Vec3 const& p : io::read_points(params, run).points) {
+        run.check();
+        Vec2 const at{p.x, p.y};
+        auto const nearest = std::ranges::min_element(coast, {}, [&](Cell c) {
+            Vec2 const there = grid.centre(c);
+            return (there.x - at.x) * (there.x - at.x) + (there.y - at.y) * (there.y - at.y);
+        });
+        if (nearest == coast.end()) {
+            return {}; // no land: that is told where the forest is planted
+        }
+        double const moved = distance(at, grid.centre(*nearest));
+        if (moved > grid.cell_m) {
+            notes.push_back({"moved_outlet", 0, grid.centre(*nearest), moved,
+                             fmt::format("the outlet at ({:.1f}, {:.1f}) lies off the coast and was moved {:.0f} m to "
+                                         "cell ({}, {})",
+                                         at.x, at.y, moved, nearest->col, nearest->row)});
+        }
+        outlets.push_back(*nearest);
+    }
+    return outlets;
+}
+
+/// The coast along the lines of a file, or along its polygons, which become water.
+std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    Grid const& grid = land.grid();
+    std::string const path = file_in(recipe, wanted.outlets);
+    Mask marked;
+    std::int64_t reach = 1;
+    if (io::holds_polygons(path)) {
+        marked = blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            land[i] = marked[i] != 0 ? 0 : land[i];
+        }
+    } else {
+        RiverLines const lines = io::read_rivers({.path = path, .crs = grid.crs}, run);
+        marked = cells_under(network::clip_lines(lines, grid), grid, wanted.outlets);
+        reach = wanted.spacing_cells; // coasts are drawn in more or less detail
+    }
+    std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);
+    if (coast.empty()) {
+        throw BadInput(fmt::format("network.forest.outlets: no coast of the land lies within {} cells of {}; give "
+                                   "outlets on the coast, or the region whose coast they lie on",
+                                   reach, wanted.outlets));
+    }
+    return coast;
+}
+
+std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Finding>& notes, Run const& run) {
+    ForestRecipe const& wanted = recipe.network->forest;
+    std::string const path = file_in(recipe, wanted.outlets);
+    if (wanted.outlets.empty()) {
+        std::vector<Cell> const coast = network::coast_cells(land);
+        return coast.empty() ? coast : spread(recipe, land, coast, run);
+    }
+    bool const points = io::is_text_of_points(path) ||
+                        (!io::holds_polygons(path) && io::content_of(path).kind == io::FileContent::Kind::points);
+    return points ? at_points(recipe, land, notes, run)
+                  : spread(recipe, land, coast_along_file(recipe, land, run), run);
+}
+
+// The recipe with the CRS of its grid, which a region may give.
+Recipe on_crs_of_region(Recipe recipe) {
+    std::string const& region = recipe.network->forest.region;
+    std::string& crs = recipe.grid.crs;
+    crs = !crs.empty()     ? io::projected_crs(crs)
+          : region.empty() ? io::projected_crs("EPSG:32631")
+                           : io::crs_for_polygons(file_in(recipe, region));
+    return recipe;
+}
+
+// The land of a recipe with its CRS: the region's polygons, an island, or all of the grid; and its outlets.
+ForestLand forest_land(Recipe const& recipe, Diary& diary, Run const& run) {
+    ForestLand found;
+    found.land = diary.stage("shape", [&] { return land_of(recipe, run); });
+    found.outlets = outlets_of(recipe, found.land, found.notes, run);
+    found.has_sea = std::ranges::any_of(found.land.values(), [](std::uint8_t v) { return v == 0; });
+    return found;
+}
+
+/// Throws before a network is laid out that has no chance: links would lie at less than half the distance they keep.
+void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
+    double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
+    double const kept = std::max(spacing_cells, 1.0);
+    if (links > 1 && apart < 0.5 * kept) {
+        throw BadInput(fmt::format("[network.tokunaga]: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} "
+                                   "cells from one another: {}",
+                                   links, grid.width, grid.height, apart, kept, more_room));
+    }
+}
+
+} // namespace
+
+network::TokunagaParams tree_of(Recipe const& recipe) {
+    TokunagaRecipe const& wanted = recipe.network->tokunaga;
+    network::TokunagaParams params;
+    params.seed = recipe.seed;
+    params.generator = wanted.generator;
+    params.order = wanted.order;
+    params.rule = wanted.rule;
+    return params;
+}
+
+namespace {
+
+// Plans a tree that fills the grid or a region.
+Plan plan_tree(Recipe recipe, Diary& diary, Run const& run) {
+    TokunagaRecipe const& wanted = recipe.network->tokunaga;
+    recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
+    Plan plan;
+    plan.tree = diary.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
+    diary.say(fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, plan.tree->links.size()));
+    if (!wanted.region.empty()) {
+        plan.region = io::read_polygons(file_in(recipe, wanted.region), recipe.grid.crs, run);
+    }
+    auto const links = static_cast<std::int64_t>(plan.tree->links.size());
+    plan.grid = plan.region ? frame_polygons(*plan.region, recipe.grid) : frame_tree(links, recipe.grid);
+    require_room(links, *plan.grid, wanted.spacing_cells);
+    plan.recipe = std::move(recipe);
+    return plan;
+}
+
+// Plans a tree along each stroke of a file.
+Plan plan_strokes(Recipe recipe, Diary& diary, Run const& run) {
+    TokunagaRecipe const& wanted = recipe.network->tokunaga;
+    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    RiverLines strokes = diary.stage("read", [&] {
+        return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
+    });
+    if (!strokes.findings.empty()) { // who draws strokes means each of them
+        Finding const& none = strokes.findings.front();
+        throw BadInput(
+            fmt::format("pipeline.plan_tokunaga: stroke {} of {} at ({:.3f}, {:.3f}) is a single point or has no "
+                        "geometry; remove it",
+                        none.feature, strokes.name, none.where.x, none.where.y));
+    }
+    recipe.grid.crs = strokes.crs;
+    diary.say(fmt::format("{} strokes from {}", strokes.lines.size(), strokes.name));
+    Plan plan;
+    plan.grid = frame_lines(strokes, recipe.grid);
+    plan.lines = std::move(strokes);
+    plan.recipe = std::move(recipe);
+    return plan;
+}
+
+void require_files(Recipe const& recipe) {
+    for (NamedFile const& file : files_of(recipe)) {
+        std::error_code ignored;
+        if (!std::filesystem::exists(file_in(recipe, file.name), ignored)) {
+            throw BadInput(fmt::format("pipeline.resolve: {} = \"{}\": there is no such file",
+                                       file.key->place(file.item), file.name));
+        }
+    }
+}
+
+/// A cluster, whose grid is known only where it is asked for.
+Plan plan_cluster(Recipe recipe) {
+    NetworkRecipe& wanted = *recipe.network;
+    recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
+    Plan plan;
+    if (recipe.grid.width > 0) {
+        plan.grid = frame_tree(1, recipe.grid);
+    }
+    check_memory_of_cluster(wanted.dla.particles);
+    network::require_growth(wanted.dla);
+    wanted.dla.seed = recipe.seed;
+    wanted.rotate_deg = wanted.rotate_deg.value_or(in_equilibrium(recipe) ? network::random_turn(recipe.seed) : 0.0);
+    plan.recipe = std::move(recipe);
+    return plan;
+}
+
+Plan plan_forest(Recipe recipe, Diary& diary, Run const& run) {
+    Plan plan;
+    plan.recipe = on_crs_of_region(std::move(recipe));
+    plan.forest = forest_land(plan.recipe, diary, run);
+    plan.grid = plan.forest->land.grid();
+    return plan;
+}
+
+/// Lines in their grid.
+RiverLines clipped(RiverLines lines, Grid const& grid) {
+    lines = network::clip_lines(lines, grid);
+    if (lines.lines.empty()) {
+        throw BadInput(fmt::format("grid: no river of {} runs inside the grid", lines.name));
+    }
+    return lines;
+}
+
+Plan plan_lines(Recipe recipe, Diary& diary, Run const& run) {
+    RiverLines lines = diary.stage("read", [&] { return read_lines(recipe, run); });
+    diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
+    OnLines settled = settle_on_lines(std::move(recipe), lines, run);
+    Plan plan;
+    plan.recipe = std::move(settled.recipe);
+    Grid const grid = frame_lines(lines, plan.recipe.grid);
+    run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why));
+    plan.grid = grid;
+    plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid) : std::move(lines);
+    LinesRecipe const& wanted = plan.recipe.network->lines;
+    if (wanted.orientation == network::Orientation::automatic) {
+        plan.line_dem = read_dem_in(file_in(plan.recipe, wanted.dem), grid.crs, "network.lines.dem", {}, run);
+    }
+    if (plan.recipe.network->heights == Heights::automatic && plan.lines.has_z) {
+        plan.heights_of_file = true;
+        plan.recipe.network->heights = Heights::file;
+    }
+    if (plan.recipe.network->heights == Heights::file && !plan.lines.has_z) {
+        throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
+                                   plan.lines.name));
+    }
+    return plan;
+}
+
+// The points of [skeleton]: of a file, or none. Their CRS is that of the grid, also where there are none.
+FeaturePoints given_points(Recipe const& recipe, Run const& run) {
+    FeaturePoints points;
+    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
+        std::string const& name = recipe.skeleton->points;
+        std::string const path = file_in(recipe, name);
+        points = io::read_points({.path = path, .crs = crs}, run);
+    }
+    if (points.crs.empty()) {
+        points.crs = io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
+    }
+    return points;
+}
+
+/// Land without rivers.
+Plan plan_points(Recipe recipe, Run const& run) {
+    Plan plan;
+    plan.points = given_points(recipe, run);
+    recipe.grid.crs = plan.points.crs;
+    plan.grid = frame_land(plan.points, recipe.grid);
+    plan.recipe = std::move(recipe);
+    return plan;
+}
+
+/// The plan by what rivers and land come from.
+Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
+    if (!recipe.network) {
+        return plan_points(recipe, run);
+    }
+    switch (recipe.network->source) {
+    case Source::dla: return plan_cluster(recipe);
+    case Source::forest: return plan_forest(recipe, diary, run);
+    case Source::lines: return plan_lines(recipe, diary, run);
+    case Source::tokunaga: break;
+    }
+    return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, diary, run) : plan_strokes(recipe, diary, run);
+}
+
+/// How far rivers bend that a recipe says nothing of: on a coast short ones fall to the sea, which bend less.
+double meander_of(Plan const& plan) {
+    bool const has_sea = plan.forest && plan.forest->has_sea;
+    return !grown_for_land(plan) ? 0.0 : has_sea ? 0.3 : 1.0;
+}
+
+/// With what a recipe leaves to the source of its rivers, and the points beside them.
+Plan with_rivers_settled(Plan plan, Run const& run) {
+    if (!plan.recipe.network) {
+        return plan;
+    }
+    NetworkRecipe& rivers = *plan.recipe.network;
+    if (rivers.heights == Heights::automatic) {
+        rivers.heights = in_equilibrium(plan.recipe) ? Heights::graded : Heights::straight_repaired;
+    }
+    bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
+    rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
+    rivers.meander = rivers.meander.value_or(meander_of(plan));
+    refuse_unused_keys(plan.recipe); // now that the rivers' heights are known
+    plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
+    return plan;
+}
+
+/// With what it leaves to the method of its surface.
+Plan with_surface_settled(Plan plan) {
+    if (!plan.recipe.surface) {
+        return plan;
+    }
+    SurfaceRecipe& wanted = *plan.recipe.surface;
+    EquilibriumRecipe& land = wanted.equilibrium;
+    bool const has_rivers = plan.recipe.network.has_value();
+    if (has_rivers && follows_land(plan.recipe) && !land.mean_slope_deg && !(wanted.dilate.relief_m > 0.0)) {
+        land.mean_slope_deg = plan.recipe.network->source == Source::lines
+                                  ? usual_slope_deg(plan.recipe.grid.cell_m)
+                                  : surface::EquilibriumParams{}.mean_slope_deg;
+    }
+    wanted.drain = wanted.drain.value_or(has_rivers ? flow::Conditioning::carve : flow::Conditioning::none);
+    return plan;
+}
+
+/// Throws where the grid, if it is known, cannot take what the plan puts on it.
+void require_fit(Plan const& plan) {
+    if (!plan.grid) {
+        return;
+    }
+    check_memory(plan.grid->width, plan.grid->height);
+    check_detail(plan.recipe, plan.grid->width, plan.grid->height);
+    if (plan.recipe.skeleton) {
+        require_on_grid(plan.points, *plan.grid, plan.recipe.skeleton->points);
+    }
+}
+
+} // namespace
+
+Plan resolve(Recipe const& recipe, Run const& run) {
+    check_recipe(recipe);
+    io::RecipeFiles const confined;
+    Diary diary(run);
+    Plan plan = by_source(recipe, diary, run);
+    plan = with_rivers_settled(std::move(plan), run);
+    plan = with_surface_settled(std::move(plan));
+    require_files(plan.recipe);
+    require_fit(plan);
+    plan.timings_s = diary.take();
+    return plan;
+}
+
+} // namespace thalweg::pipeline

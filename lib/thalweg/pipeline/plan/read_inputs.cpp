@@ -1,0 +1,244 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/network/import/choose_cell.hpp>
+#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/import/fill_heights.hpp>
+#include <thalweg/network/import/keep_connectors.hpp>
+#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {
+    Raster<std::int32_t> const number = blend::number_polygons(polygons, grid);
+    Raster<float> field(grid, 1.0F);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (number[i] > 0) {
+            field[i] = static_cast<float>(polygons.polygons[static_cast<std::size_t>(number[i] - 1)].value);
+        }
+    }
+    return field;
+}
+
+} // namespace
+
+Mask read_part(std::string const& path, Grid const& grid, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    return io::holds_polygons(path) ? blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid)
+                                    : io::read_mask(path, grid, run);
+}
+
+Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what) {
+    Mask under(grid);
+    for (RiverLine const& line : lines.lines) {
+        std::vector<Vec2> plan;
+        for (Vec3 const& v : line.vertices) {
+            plan.push_back({v.x, v.y});
+        }
+        for (Cell const c : cells_along(plan, grid, what)) {
+            under[c] = 1;
+        }
+    }
+    return under;
+}
+
+Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    io::FileContent const content = io::content_of(path);
+    if (content.kind == io::FileContent::Kind::raster) {
+        return io::read_mask(content.path, grid, run);
+    }
+    if (content.kind != io::FileContent::Kind::lines) {
+        throw BadInput(fmt::format("pipeline.make_blend: {} holds points: cells to keep come from lines or a raster on "
+                                   "the target's grid",
+                                   content.path));
+    }
+    RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
+    io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
+    Mask kept = cells_under(network::clip_lines(rivers, grid), grid, content.path);
+    if (std::ranges::find(kept.values(), 1) == kept.values().end()) {
+        throw BadInput(fmt::format("pipeline.make_blend: no line of {} crosses the target, which reaches from "
+                                   "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
+                                   content.path, grid.west, grid.south(), grid.east(), grid.north));
+    }
+    return kept;
+}
+
+Mask read_mask_of_land(std::string const& path, Grid const& grid) {
+    if (path.empty()) {
+        return {};
+    }
+    Raster<float> const given = io::read_dem(path, {.values = io::CellValues::numbers});
+    if (given.width() != grid.width || given.height() != grid.height) {
+        throw BadInput(fmt::format("surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", path, given.width(),
+                                   given.height(), grid.width, grid.height));
+    }
+    Mask inside(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        inside[i] = !std::isnan(given[i]) && given[i] != 0.0F ? 1 : 0;
+    }
+    return inside;
+}
+
+Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    Raster<float> field;
+    if (io::holds_polygons(path)) {
+        field = valued_polygons(io::read_polygons(path, grid.crs, "erodibility", run), grid);
+    } else {
+        Raster<float> const given = io::warp_to_grid(io::read_dem(path, {.values = io::CellValues::numbers}, run), grid,
+                                                     fmt::format("{} = \"{}\"", what, path), run);
+        field = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            Cell const at = given.grid().cell_of(grid.centre(grid.at(i)));
+            field[i] = given.grid().contains(at) ? given[at] : field[i];
+        }
+    }
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (!(field[i] > 0.0F)) {
+            Cell const c = grid.at(i);
+            throw BadInput(fmt::format("{} = \"{}\" has {} in cell ({}, {}) of the grid: every value must be above "
+                                       "0",
+                                       what, path, std::isnan(field[i]) ? "none" : fmt::format("{}", field[i]), c.col,
+                                       c.row));
+        }
+    }
+    return field;
+}
+
+Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::string const& what,
+                          std::optional<double> nodata, Run const& run) {
+    if (path.empty()) {
+        return {};
+    }
+    Raster<float> dem = io::read_dem(path, {.nodata = nodata}, run);
+    Grid lattice;
+    lattice.cell_m = io::ground_cell(dem.grid()).side_m;
+    lattice.crs = crs;
+    return io::warp_to_grid(dem, lattice, fmt::format("{} = \"{}\"", what, path), run);
+}
+
+namespace {
+
+/// Why the cell size is what it is.
+std::string reason(network::ChosenCell const& chosen) {
+    std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
+                                    chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
+    return words;
+}
+
+/// Says where rivers lie too close together for the cells.
+void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
+    constexpr double worth_a_word = 0.002;
+    if (chosen.crowded_share <= worth_a_word) {
+        return;
+    }
+    run.say(fmt::format("warning: {:.1f} % of the river cells lie beside another river. {}",
+                        100.0 * chosen.crowded_share,
+                        chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart.", chosen.enough_m)
+                                              : "Take a part of the rivers, or set a smaller grid.cell."));
+}
+
+/// A recipe with a mean slope, where it has neither one nor a relief, nor the rivers heights.
+Recipe with_slope(Recipe recipe, bool has_z) {
+    if (!in_equilibrium(recipe)) {
+        return recipe;
+    }
+    Heights const heights = recipe.network->heights;
+    bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
+    EquilibriumRecipe& wanted = recipe.surface->equilibrium;
+    double const usual = usual_slope_deg(recipe.grid.cell_m);
+    if (graded && !wanted.mean_slope_deg && !(recipe.surface->dilate.relief_m > 0.0) &&
+        usual != surface::EquilibriumParams{}.mean_slope_deg) {
+        wanted.mean_slope_deg = usual;
+    }
+    return recipe;
+}
+
+} // namespace
+
+double usual_slope_deg(double cell_m) {
+    constexpr double finest_m = 30.0;
+    constexpr double half_m = 400.0;
+    double const fine_deg = surface::EquilibriumParams{}.mean_slope_deg;
+    if (cell_m <= finest_m) {
+        return fine_deg;
+    }
+    auto const share = [](double m) { return 1.0 / (1.0 + portable::pow(m / half_m, 0.9)); };
+    double const fine = fine_deg / 180.0 * portable::pi;
+    double const tangent = portable::sin(fine) / portable::cos(fine) * share(cell_m) / share(finest_m);
+    double const degrees = portable::atan2(tangent, 1.0) / portable::pi * 180.0;
+    return std::max(0.5, std::round(2.0 * degrees) / 2.0);
+}
+
+RiverLines read_lines(Recipe const& recipe, Run const& run) {
+    LinesRecipe const& wanted = recipe.network->lines;
+    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    RiverLines lines = io::read_rivers({.path = file_in(recipe, wanted.path),
+                                        .layer = wanted.layer,
+                                        .type_field = wanted.type_field,
+                                        .rank_field = wanted.rank_field,
+                                        .crs = crs,
+                                        .filter = wanted.filter,
+                                        .id_field = wanted.id_field,
+                                        .down_field = wanted.down_field,
+                                        .source_crs = wanted.source_crs},
+                                       run);
+    for (Finding const& finding : lines.findings) {
+        if (finding.kind == "not_a_line") {
+            run.tell("note", finding.text);
+        }
+    }
+    lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
+    auto const count = lines.lines.size();
+    network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
+    if (filled.filled > 0) {
+        run.say(fmt::format("warning: {} of {} lines in {} have no heights, the first is feature {}. They get heights "
+                            "from the lines they meet, with network.slope where they meet only one.",
+                            filled.filled, count, filled.lines.name, filled.first));
+    }
+    return std::move(filled.lines);
+}
+
+OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) {
+    recipe.grid.crs = lines.crs;
+    if (recipe.grid.cell_m > 0.0) {
+        return {with_slope(std::move(recipe), lines.has_z), ""};
+    }
+    if (recipe.grid.width == 0) {
+        require_no_stray_vertex(lines);
+    }
+    network::ChosenCell const chosen =
+        network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
+    recipe.grid.cell_m = chosen.cell_m;
+    warn_of_crowding(chosen, run);
+    return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
+}
+
+} // namespace thalweg::pipeline
