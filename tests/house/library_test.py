@@ -21,7 +21,7 @@ REFERRING = {
     "measure/relief/relief.hpp": "names are literals, and tables of them",
     "flow/catchments.hpp": "names are literals",
     "pipeline/make/relief.hpp": "names are literals",
-    "pipeline/report/law_rows.hpp": "names are literals, and a row of a table of them",
+    "pipeline/make/laws.hpp": "names are literals, and a row of a table of them",
     "pipeline/commands/convert.hpp": "names are literals",
 }
 # A member: indented by one level, without parentheses, of a type that owns nothing.

@@ -4,6 +4,9 @@
 
 #include <cstdint>
 #include <optional>
+#include <string_view>
+#include <utility>
+#include <vector>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -11,6 +14,7 @@
 #include <thalweg/flow/extract_streams.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
+#include <thalweg/measure/relief/relief.hpp>
 
 namespace thalweg::pipeline {
 
@@ -40,17 +44,12 @@ struct DemLawsParams {
 /// \param dem [m] heights by cell; NaN: no data
 /// \param drainage the flow field of the DEM
 /// \param flow_length [m] by cell, longest flow path down to it
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return Hack's lengths from the divide; directions at junctions over ten cells.
 /// \throws BadInput when the DEM has no data; as extract_streams does
-/// \throws Cancelled
 DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Raster<float> const& flow_length,
                     DemLawsParams const& params = {}, Run const& run = {});
 
 /// \param dem [m] heights by cell; NaN: no data
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the same of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a
 /// geographic one's too.
 /// \throws Error also as ground_cell
@@ -62,10 +61,23 @@ struct Terrain;
 /// \param terrain land and rivers; where it has no drainage, Hack's lengths are from the sources
 /// \param areas of the rivers
 /// \param land_cells that have heights, or the grid's
-/// \param run progress, log, stop token and number of threads
 /// \return the DEM's rivers as long together as those drawn, where there are any.
 /// \throws Error as laws_of_dem
 RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const& areas, std::int64_t land_cells,
                           Run const& run = {});
+
+/// A law's figure as report.json and the page tell it.
+struct LawRow {
+    std::string_view key;
+    std::string_view name;
+    std::string_view unit;
+    std::optional<double> value;                              ///< none where the network is too small to tell
+    std::vector<std::pair<std::string_view, double>> details; ///< how it was found: r2, error, counts; NaN for unknown
+    measure::NaturalRange const* nature = nullptr;            ///< null where no range was published
+};
+
+/// \param laws the laws
+/// \return the laws one by one, always the same rows in the same order.
+std::vector<LawRow> law_rows(measure::NetworkLaws const& laws);
 
 } // namespace thalweg::pipeline

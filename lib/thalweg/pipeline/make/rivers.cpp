@@ -2,6 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/rivers.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <utility>
+
+#include <fmt/format.h>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/gdal/access.hpp>
@@ -20,13 +26,25 @@
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <utility>
-
 namespace thalweg::pipeline {
+
+Typed type_rivers(StreamNetwork plan, NetworkRecipe const& wanted, Run const& run) {
+    Typed typed{std::move(plan), {}};
+    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
+        return typed;
+    }
+    network::AssignTypesParams params;
+    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
+    params.one = wanted.rosgen.value_or(params.one);
+    params.coast_m = wanted.coast_m;
+    typed.types = network::assign_types(typed.plan, network::order(typed.plan), params, run);
+    NetworkDraft draft = typed.plan.draft();
+    for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
+        draft.arcs[a].arc.type = network::name_of(typed.types.type[a]);
+    }
+    typed.plan = std::move(draft);
+    return typed;
+}
 
 namespace {
 
@@ -169,6 +187,29 @@ network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, do
     return pruned;
 }
 
+// A note for each outlet of one network that another, which was pruned, has no more.
+std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {
+    auto const places = [](StreamNetwork const& network) {
+        std::vector<Vec2> at;
+        for (NodeId const n : network.outlets()) {
+            at.push_back(network.node(n).at);
+        }
+        std::ranges::sort(at, [](Vec2 a, Vec2 b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
+        return at;
+    };
+    std::vector<Vec2> const left = places(after);
+    std::vector<Finding> notes;
+    for (Vec2 const p : places(before)) {
+        if (std::ranges::find(left, p) == left.end()) {
+            notes.push_back({"pruned_outlet", 0, p, 0.0,
+                             fmt::format("the river that ended at ({:.1f}, {:.1f}) was pruned away, its branches are "
+                                         "all too short",
+                                         p.x, p.y)});
+        }
+    }
+    return notes;
+}
+
 /// Short branches pruned away, as the recipe wants it.
 RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
     NetworkRecipe const& rivers = *plan.recipe.network;
@@ -187,17 +228,6 @@ RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run co
     planned.network = std::move(kept.network);
     planned.file.adopted = planned.network;
     return planned;
-}
-
-/// Rivers where their source has them.
-RiversInPlan drawn_in_plan(Plan const& plan, Diary& diary, Run const& run) {
-    switch (plan.recipe.network->source) {
-    case Source::dla: return rivers_of_cluster(plan, diary, run);
-    case Source::tokunaga: return rivers_of_tree(plan, diary, run);
-    case Source::forest: return rivers_of_forest(plan, diary, run);
-    case Source::lines: break;
-    }
-    return rivers_of_lines(plan, diary, run);
 }
 
 /// With a note on each conversion that their grid takes.
@@ -241,7 +271,7 @@ Rivers make_rivers(Plan const& plan, Run const& run) {
     }
     io::RecipeFiles const confined;
     Diary diary(run);
-    RiversInPlan planned = drawn_in_plan(plan, diary, run);
+    RiversInPlan planned = rivers_in_plan(plan, diary, run);
     planned = with_conversions(plan, std::move(planned), run);
     planned = pruned(plan, std::move(planned), diary, run);
     planned = with_outlets_carried(plan, std::move(planned), run);

@@ -9,9 +9,11 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/flow/catchments.hpp>
 
-/// What rivers say of the DEM around them, alike in make and check. Private to this module.
 namespace thalweg::pipeline {
+
+// What rivers say of the DEM around them, alike in make and check.
 
 /// Cells in which rivers stand: those under parts of arcs that are drawn level. Without cells where there are none.
 Mask still_cells(NetworkFile const& network, Grid const& grid);
@@ -39,5 +41,19 @@ Mask river_mask(Valley const& valley);
 
 /// A valley without the cells in which the DEM has other heights, and without what lies upstream of these.
 Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem);
+
+/// What the arcs of a network file are to the land of a DEM.
+struct FileReaches {
+    flow::Reaches reaches;            ///< an arc's parts in the grid
+    std::vector<std::int64_t> basins; ///< by reach: that of the file, else 1, 2, ... by outlet
+    std::int64_t cut = 0;             ///< reaches that leave the grid
+    std::int64_t outside = 0;         ///< reaches that have no part in it
+    std::int64_t nowhere = 0;         ///< lines with a vertex that is no number, which count as outside
+};
+
+/// The reaches of anyone's network. It need not be a set of trees: only ids and arcs downstream are asked for. One
+/// downstream that the file does not hold makes an outlet; arcs of one id with the same one are parts of one reach.
+/// Throws: BadInput: arcs of one id with several downstream, rivers that run in a circle, no arc in the grid.
+FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid);
 
 } // namespace thalweg::pipeline

@@ -7,11 +7,9 @@
 
 #include <thalweg/network/import/import_lines.hpp>
 
-/// What is said of the directions of lines. Private to this module.
 namespace thalweg::pipeline {
 
-/// A length for readers: "12.3 km", and metres below 50 m.
-std::string in_km(double m);
+// What is said of the directions of lines.
 
 /// "12.3 km reversed: 10.1 km by angles at confluences, 2.2 km by the file's links"; "" where nothing was.
 std::string turned_in_words(network::Directions const& directions);

@@ -1,9 +1,16 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/terrain.hpp>
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include <thalweg/blend/mask_polygons.hpp>
+#include <thalweg/core/channels.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/polygons.hpp>
@@ -16,24 +23,71 @@
 #include <thalweg/network/elevation/elevate_from_dem.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/pipeline/make/internal/equilibrium_fields.hpp>
 #include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/make/internal/terrain.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <utility>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace thalweg::pipeline {
-
 namespace {
+
+/// Cells that are land by both masks, of which either may be empty; and those of rivers.
+Mask land_of(Mask one, Mask const& other, Channels const& channels) {
+    if (one.values().empty()) {
+        one = other;
+    } else if (!other.values().empty()) {
+        for (std::int64_t i = 0; i < one.cells(); ++i) {
+            one[i] = one[i] != 0 && other[i] != 0 ? 1 : 0;
+        }
+    }
+    if (!one.values().empty()) {
+        for (std::int64_t const cell : channels.cell) {
+            one[cell] = 1;
+        }
+    }
+    return one;
+}
+
+/// Uplift of a file, which may be empty, times that of the pattern asked for.
+Raster<float> with_pattern(Raster<float> of_file, Recipe const& recipe, Grid const& grid, Run const& run) {
+    EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+    if (!wanted.uplift_pattern) {
+        return of_file;
+    }
+    Raster<float> uplift =
+        surface::uplift_pattern(grid,
+                                {.pattern = *wanted.uplift_pattern,
+                                 .contrast = wanted.uplift_contrast,
+                                 .wave_m = wanted.uplift_wave_m,
+                                 .strike_deg = wanted.strike_deg.value_or(surface::random_strike_deg(recipe.seed)),
+                                 .seed = recipe.seed},
+                                run);
+    for (std::int64_t i = 0; i < of_file.cells(); ++i) {
+        uplift[i] *= of_file[i];
+    }
+    return uplift;
+}
+
+// Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its pattern of uplift.
+surface::EquilibriumFields equilibrium_fields(Plan const& plan, Terrain const& terrain, Channels const& channels,
+                                              Run const& run) {
+    Recipe const& recipe = plan.recipe;
+    Grid const& grid = terrain.grid;
+    SurfaceRecipe const& wanted = *recipe.surface;
+    surface::EquilibriumFields fields;
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), terrain.land, channels);
+    fields.uplift = with_pattern(read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run),
+                                 recipe, grid, run);
+    fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
+    return fields;
+}
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 

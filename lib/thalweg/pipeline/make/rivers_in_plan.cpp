@@ -1,0 +1,400 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/network/elevation/keep_heights.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/growth/forest/plant_forest.hpp>
+#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
+#include <thalweg/network/growth/tokunaga/grow_strokes.hpp>
+#include <thalweg/network/import/import_lines.hpp>
+#include <thalweg/network/import/land_and_sea.hpp>
+#include <thalweg/network/planform/rotate.hpp>
+#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/pipeline/make/internal/given.hpp>
+#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+/// A frame for what will be turned before it is put into the grid that is asked for.
+GridRecipe loosely_framed(GridRecipe frame) {
+    frame.width = 0;
+    frame.height = 0;
+    return frame;
+}
+
+/// The grid asked for, or one with room for the whole branch as it was picked: when that is asked for, the branch is
+/// cut no shorter.
+Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& wanted, double turn_deg) {
+    frame.width = wanted.width;
+    frame.height = wanted.height;
+    if (frame.width == 0) {
+        double const c = portable::cos(turn_deg / 180.0 * portable::pi);
+        double const s = portable::sin(turn_deg / 180.0 * portable::pi);
+        Vec2 low{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+        Vec2 high{-low.x, -low.y};
+        for (Cell const& cell : branch.cells) {
+            auto const x = static_cast<double>(cell.col);
+            auto const y = static_cast<double>(cell.row);
+            Vec2 const at{c * x + s * y, c * y - s * x};
+            low = {std::min(low.x, at.x), std::min(low.y, at.y)};
+            high = {std::max(high.x, at.x), std::max(high.y, at.y)};
+        }
+        auto const wide = static_cast<std::int64_t>(std::ceil(high.x - low.x + 1.0));
+        auto const tall = static_cast<std::int64_t>(std::ceil(high.y - low.y + 1.0));
+        std::int64_t const margin = margin_around(std::max(wide, tall));
+        frame.width = wide + 2 * margin;
+        frame.height = tall + 2 * margin;
+    }
+    check_memory(frame.width, frame.height);
+    return frame;
+}
+
+/// The arm of a cluster that becomes the rivers.
+network::Branch branch_of(network::Cluster const& cluster, Recipe const& recipe) {
+    network::BranchParams params{recipe.network->branch, 0, 0, *recipe.network->rotate_deg};
+    if (recipe.grid.width > 0) {
+        params.max_width = room_for_network(recipe.grid.width);
+        params.max_height = room_for_network(recipe.grid.height);
+    }
+    return network::pick_branch(cluster, params);
+}
+
+// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
+RiversInPlan rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
+    Recipe const& recipe = plan.recipe;
+    NetworkRecipe const& wanted = *recipe.network;
+    NetworkStory story;
+    run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
+    network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
+    story.wide = cluster.stop == network::GrowthStop::radius;
+    diary.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
+                          cluster.radius, story.wide ? ", where it stops" : ""));
+    story.particles = static_cast<std::int64_t>(cluster.cells.size());
+    story.walkers = cluster.walkers;
+
+    network::Branch const branch = branch_of(cluster, recipe);
+    story.cut = branch.cut;
+    double const turn_deg = *wanted.rotate_deg;
+    FramedBranch const framed = frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
+    Mask const skeleton = diary.stage("thin", [&] { return network::thin(framed.mask, run); });
+    StreamNetwork network = diary.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
+    Grid grid = framed.mask.grid();
+    if (turn_deg != 0.0) {
+        network::Rotated turned =
+            network::rotate(network, turned_frame(branch, grid, recipe.grid, turn_deg), {turn_deg});
+        network = std::move(turned.network);
+        grid = turned.grid;
+    }
+    return {.network = std::move(network), .grid = grid, .story = std::move(story)};
+}
+
+/// The land a network fills, and where it leaves it.
+struct Region {
+    std::vector<Vec2> ring;
+    Vec2 mouth;
+};
+
+/// The grid but for a margin of 2 %, so that no river runs along its edge.
+Region within(Grid const& grid, Side mouth) {
+    double const margin = 0.02 * std::min(grid.east() - grid.west, grid.north - grid.south());
+    double const west = grid.west + margin;
+    double const east = grid.east() - margin;
+    double const south = grid.south() + margin;
+    double const north = grid.north - margin;
+    Vec2 const middle{0.5 * (west + east), 0.5 * (south + north)};
+    Region region{{{west, south}, {east, south}, {east, north}, {west, north}}, middle};
+    switch (mouth) {
+    case Side::north: region.mouth.y = north; break;
+    case Side::east: region.mouth.x = east; break;
+    case Side::south: region.mouth.y = south; break;
+    case Side::west: region.mouth.x = west; break;
+    }
+    return region;
+}
+
+/// A polygon of a file; the river leaves it where it reaches farthest to the side.
+Region inside(Polygons const& polygons, Side mouth) {
+    if (polygons.polygons.size() != 1 || polygons.polygons.front().rings.size() != 1) {
+        std::size_t rings = 0;
+        for (Polygon const& polygon : polygons.polygons) {
+            rings += polygon.rings.size();
+        }
+        throw BadInput(
+            fmt::format("network.tokunaga.region = \"{}\" holds {} polygons of {} rings; a network fills one "
+                        "without holes",
+                        polygons.name, polygons.polygons.size(), rings));
+    }
+    Region region{polygons.polygons.front().rings.front(), {}};
+    if (region.ring.size() > 1 && region.ring.front() == region.ring.back()) {
+        region.ring.pop_back();
+    }
+    auto const reach = [mouth](Vec2 p) {
+        switch (mouth) {
+        case Side::north: return p.y;
+        case Side::east: return p.x;
+        case Side::south: return -p.y;
+        case Side::west: break;
+        }
+        return -p.x;
+    };
+    region.mouth =
+        *std::max_element(region.ring.begin(), region.ring.end(), [&](Vec2 a, Vec2 b) { return reach(a) < reach(b); });
+    return region;
+}
+
+std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
+    std::vector<std::int64_t> down;
+    down.reserve(tree.links.size());
+    for (network::TreeLink const& link : tree.links) {
+        down.push_back(link.down);
+    }
+    return down;
+}
+
+/// Throws where less than half of a network found room; warns where much of it did not.
+void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run const& run) {
+    std::int64_t const all = placed + dropped;
+    std::string const found = fmt::format("{} of {} links found no room on {} x {} cells: {}", dropped, all, grid.width,
+                                          grid.height, more_room);
+    if (2 * placed < all || placed == 0) {
+        throw BadInput("[network.tokunaga]: " + found);
+    }
+    if (10 * placed < 9 * all) {
+        run.say("warning: [network.tokunaga]: " + found);
+    }
+}
+
+RiversInPlan fill_region(Plan const& plan, Diary& diary, Run const& run) {
+    TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
+    network::TokunagaTree const& tree = *plan.tree;
+    Grid const& grid = *plan.grid;
+    TokunagaStory story;
+    story.tree = network::count_streams(downstream(tree));
+    Region const region = plan.region ? inside(*plan.region, wanted.mouth) : within(grid, wanted.mouth);
+    network::EmbedParams params;
+    params.seed = plan.recipe.seed;
+    params.region = region.ring;
+    params.mouth = region.mouth;
+    params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
+    network::EmbeddedTree embedded = diary.stage("embed", [&] { return network::embed_tree(tree, params, run); });
+    story.placed = embedded.placed;
+    story.dropped = embedded.dropped;
+    diary.say(
+        fmt::format("{} of {} links placed, {:.0f} m apart", embedded.placed, tree.links.size(), embedded.spacing_m));
+    judge_room(embedded.placed, embedded.dropped, grid, run);
+    return {.network = std::move(embedded.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
+}
+
+RiversInPlan follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
+    TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
+    Grid const& grid = *plan.grid;
+    network::StrokesParams params;
+    params.tree = tree_of(plan.recipe);
+    params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
+    params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
+    network::GrownStrokes grown =
+        diary.stage("grow", [&] { return network::grow_strokes(plan.lines, grid, params, run); });
+    TokunagaStory story;
+    story.placed = grown.placed;
+    story.dropped = grown.dropped;
+    diary.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
+    judge_room(grown.placed, grown.dropped, grid, run);
+    return {.network = std::move(grown.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
+}
+
+// Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
+RiversInPlan rivers_of_tree(Plan const& plan, Diary& diary, Run const& run) {
+    return plan.tree ? fill_region(plan, diary, run) : follow_strokes(plan, diary, run);
+}
+
+// Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
+RiversInPlan rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
+    Recipe const& recipe = plan.recipe;
+    ForestRecipe const& wanted = recipe.network->forest;
+    ForestLand const& on = *plan.forest;
+    network::ForestParams params = wanted.growth;
+    params.step_cells = wanted.spacing_cells / 2;
+    params.seed = recipe.seed;
+    network::PlantedForest planted =
+        diary.stage("grow", [&] { return network::plant_forest(on.land, on.outlets, params, run); });
+    diary.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
+    NetworkStory story;
+    story.repairs = on.notes;
+    story.repairs.insert(story.repairs.end(), planted.notes.begin(), planted.notes.end());
+    story.particles = planted.particles;
+    story.walkers = planted.walkers;
+    story.full = planted.stop == network::ForestStop::full;
+    return {.network = std::move(planted.network),
+            .grid = on.land.grid(),
+            .land = on.has_sea ? on.land : Mask{},
+            .story = std::move(story)};
+}
+
+/// What the file holds that is not a river.
+std::vector<Finding> left_out(RiverLines const& lines) {
+    std::vector<Finding> findings = lines.findings;
+    for (SecondaryLine const& one : lines.secondary) {
+        if (one.cause == LeftOut::grid) {
+            continue;
+        }
+        std::vector<Vec2> plan;
+        for (Vec3 const v : one.vertices) {
+            plan.push_back({v.x, v.y});
+        }
+        findings.push_back({"secondary", one.feature, plan.front(), length_of(plan),
+                            fmt::format("line {} is not a river: {}", one.feature, one.reason)});
+    }
+    return findings;
+}
+
+/// A word where rivers end so near to the course of others, not to their mouths, that they were meant to meet them.
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, Run const& run) {
+    constexpr std::int64_t near_cells = 2;
+    constexpr std::int64_t mouth_cells = 5;
+    Raster<std::int64_t> basin(grid, 0);
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        for (Cell const c : cells_along(network.arc(a).line, grid, "a river")) {
+            basin[c] = network.basin(network.to(a));
+        }
+    }
+    auto const end_of = [&](NodeId outlet) { return cells_along({network.node(outlet).at}, grid).front(); };
+    std::int64_t gaps = 0;
+    for (NodeId const outlet : network.outlets()) {
+        bool is_near = false;
+        cells_around(grid, end_of(outlet), near_cells, [&](Cell c) {
+            if (basin[c] != 0 && basin[c] != network.basin(outlet)) {
+                Cell const mouth = end_of(network.outlets()[static_cast<std::size_t>(basin[c] - 1)]);
+                is_near = is_near || squared_cells(mouth, end_of(outlet)) > mouth_cells * mouth_cells;
+            }
+        });
+        gaps += is_near ? 1 : 0;
+    }
+    if (gaps > 0) {
+        // Centres two cells apart along a diagonal are nearly three sides apart.
+        double const reach_m = static_cast<double>(near_cells + 1) * grid.cell_m;
+        run.say(fmt::format("warning: {} within {} cells of another river without meeting it. {}",
+                            gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells,
+                            snapped_m < reach_m
+                                ? fmt::format("If they should meet: --set network.lines.snap={}.", reach_m)
+                                : fmt::format("Finer cells keep them apart: --set grid.cell={}.", grid.cell_m / 2.0)));
+    }
+}
+
+/// The land beside the sea that coastlines of a file bound; without cells where there is none.
+Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
+    if (!has_coastlines(plan)) {
+        return {};
+    }
+    RiverLines coast;
+    for (SecondaryLine const& line : plan.lines.secondary) {
+        if (line.cause == LeftOut::coast) {
+            RiverLine& one = coast.lines.emplace_back();
+            one.feature = line.feature;
+            one.vertices = line.vertices;
+        }
+    }
+    Grid const& grid = *plan.grid;
+    network::LandAndSea divided =
+        diary.stage("sea", [&] { return network::land_and_sea(coast, plan.lines, grid, run); });
+    diary.say(fmt::format("{:.3g} % of the grid, by {} coastlines",
+                          100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
+                          coast.lines.size()));
+    if (4 * divided.beyond > divided.behind) {
+        run.say(fmt::format("warning: rivers lie on both sides of the coastlines of {} ({} cells, and {} on the side "
+                            "that became sea); --set network.lines.coastlines=none leaves the coastlines out.",
+                            plan.lines.name, divided.behind, divided.beyond));
+    }
+    return std::move(divided.land);
+}
+
+/// What the file holds beside the network.
+RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
+    RiverFile file;
+    file.secondary = lines.secondary;
+    file.attributes = lines.attributes;
+    file.sources = LineSources(imported.network, imported.stretches);
+    file.secondary.insert(file.secondary.end(), imported.secondary.begin(), imported.secondary.end());
+    file.adopted = imported.network;
+    for (RiverLine const& line : lines.lines) {
+        file.taken_m += length_in_plan(line.vertices);
+    }
+    return file;
+}
+
+/// What was turned, and what is doubtful.
+void say_directions(network::Directions const& directions, bool has_dem, Run const& run) {
+    if (std::string const turned = turned_in_words(directions); !turned.empty()) {
+        run.tell("directions", turned);
+    }
+    for (std::string const& doubt :
+         direction_doubts(directions, has_dem ? "" : "--set network.lines.dem=FILE",
+                          "--set network.lines.orientation=as_drawn (or height, rank, topology)")) {
+        run.say("warning: " + doubt);
+    }
+}
+
+/// The heights of the file, where the recipe takes them.
+std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported) {
+    Heights const heights = plan.recipe.network->heights;
+    bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
+    if (heights == Heights::file || (or_straight && plan.lines.has_z)) {
+        return network::take_file_heights({imported.network, imported.arc_z, {}}, plan.lines);
+    }
+    return std::nullopt;
+}
+
+// The lines of a file.
+RiversInPlan rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
+    LinesRecipe const& wanted = plan.recipe.network->lines;
+    network::ImportParams const params{.snap_m = wanted.snap_m,
+                                       .orientation = wanted.orientation,
+                                       .divergences = wanted.divergences,
+                                       .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr};
+    network::Imported imported = diary.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
+    RiversInPlan rivers;
+    rivers.grid = *plan.grid;
+    rivers.story.heights_of_file = plan.heights_of_file;
+    std::vector<Finding>& repairs = rivers.story.repairs;
+    repairs = left_out(plan.lines);
+    repairs.insert(repairs.end(), imported.repairs.begin(), imported.repairs.end());
+    rivers.file = file_of(plan.lines, imported);
+    std::size_t const secondary = rivers.file.secondary.size();
+    diary.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(), repairs.size(),
+                          secondary == 0 ? "" : fmt::format(", {} secondary", secondary)));
+    say_directions(imported.directions, params.dem != nullptr, run);
+    repairs.insert(repairs.end(), imported.directions.doubts.begin(), imported.directions.doubts.end());
+    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, run);
+    rivers.land = land_of_coastlines(plan, diary, run);
+    rivers.file_heights = heights_of_file(plan, imported);
+    rivers.network = std::move(imported.network);
+    return rivers;
+}
+
+} // namespace
+
+RiversInPlan rivers_in_plan(Plan const& plan, Diary& diary, Run const& run) {
+    switch (plan.recipe.network->source) {
+    case Source::dla: return rivers_of_cluster(plan, diary, run);
+    case Source::tokunaga: return rivers_of_tree(plan, diary, run);
+    case Source::forest: return rivers_of_forest(plan, diary, run);
+    case Source::lines: break;
+    }
+    return rivers_of_lines(plan, diary, run);
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,459 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <optional>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/features.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/tin.hpp>
+#include <thalweg/fractal/match_statistics.hpp>
+#include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/geometry/natural_neighbours.hpp>
+#include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/internal/terrain.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/skeleton/draw_skeleton.hpp>
+#include <thalweg/skeleton/random_fields.hpp>
+#include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/scatter.hpp>
+#include <thalweg/solver/spectral/circulant.hpp>
+#include <thalweg/solver/statistics/field_statistics.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/tin/rasterise_tin.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+constexpr double default_length_cells = 20.0;
+constexpr double default_dimension = 2.4;
+constexpr double default_std_m = 100.0;
+
+// What [statistics] asks for, nothing where there is none.
+StatisticsRecipe const& asked(Recipe const& recipe) {
+    static StatisticsRecipe const nothing_asked;
+    return recipe.statistics ? *recipe.statistics : nothing_asked;
+}
+
+// The mean height asked for, or the middle between the extremes.
+double mean_of(StatisticsRecipe const& s) {
+    if (s.mean) {
+        return *s.mean;
+    }
+    return s.max && s.min ? 0.5 * ((*s.max)[0] + (*s.min)[0]) : 0.0;
+}
+
+// How heights go together in a land of these statistics, on cells so many times larger.
+solver::StableCovariance covariance_of(StatisticsRecipe const& s, double step) {
+    solver::StableCovariance covariance;
+    covariance.lx_cells = (s.length ? (*s.length)[0] : default_length_cells) / step;
+    covariance.ly_cells = (s.length ? (*s.length)[1] : default_length_cells) / step;
+    covariance.dimension = s.dimension.value_or(default_dimension);
+    // Slopes are counted between neighbours: they say nothing of coarser cells.
+    return s.slope && step == 1.0 ? solver::with_slope(covariance, s.std.value_or(default_std_m), *s.slope)
+                                  : covariance;
+}
+
+Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, int levels) {
+    double const step = static_cast<double>(std::int64_t{1} << levels);
+    for (auto const& extreme : {s.max, s.min}) {
+        if (!extreme || s.reach_cells <= 0.0) {
+            continue;
+        }
+        auto const nearest = [&](double fine, std::int64_t side) {
+            return std::min(side - 1, static_cast<std::int64_t>(std::floor(fine / step + 0.5)));
+        };
+        Cell const centre{nearest((*extreme)[1], land.width()), nearest((*extreme)[2], land.height())};
+        land =
+            skeleton::attract(std::move(land), {centre, (*extreme)[0], std::max(1.0, s.reach_cells / step), s.falloff});
+    }
+    return s.mean ? skeleton::shift_mean(std::move(land), *s.mean) : land;
+}
+
+// A random land by this prior, on cells that detail will halve so many times.
+Raster<float> random_land(Recipe const& recipe, Prior prior, Grid const& coarse, int levels, Run const& run) {
+    StatisticsRecipe const& s = asked(recipe);
+    double const step = static_cast<double>(std::int64_t{1} << levels);
+    double const lx = (s.length ? (*s.length)[0] : default_length_cells) / step;
+    double const ly = (s.length ? (*s.length)[1] : default_length_cells) / step;
+    double const std = s.std.value_or(default_std_m);
+    skeleton::FieldParams const field{mean_of(s), std, lx, ly, recipe.seed};
+    switch (prior) {
+    case Prior::separable: return drawn_to_extremes(skeleton::separable_ar(coarse, field, run), s, levels);
+    case Prior::markov3: return drawn_to_extremes(skeleton::markov3(coarse, field, run), s, levels);
+    default: break;
+    }
+    skeleton::GrfParams params;
+    params.mean = mean_of(s);
+    params.std = std;
+    params.covariance = covariance_of(s, step);
+    params.seed = recipe.seed;
+    return skeleton::grf(coarse, params, run).dem;
+}
+
+/// What points without [surface] are drawn by.
+SurfaceRecipe over_triangles() {
+    SurfaceRecipe surface;
+    surface.method = Method::tin;
+    return surface;
+}
+
+// The points that the land goes through: those of the file, or drawn at random with the extremes among them.
+skeleton::Scattered points_of(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Run const& run) {
+    if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
+        return {.points = given};
+    }
+    StatisticsRecipe const& s = asked(recipe);
+    skeleton::ScatterParams params;
+    params.seed = recipe.seed;
+    params.count = recipe.skeleton->scatter;
+    params.spacing_cells = recipe.skeleton->spacing_cells;
+    params.law = recipe.skeleton->law;
+    params.mean_m = mean_of(s);
+    params.std_m = s.std.value_or(default_std_m);
+    params.reach_cells = s.reach_cells;
+    params.deviation = recipe.skeleton->deviation;
+    params.falloff = recipe.skeleton->falloff;
+    auto const place = [&](std::optional<std::array<double, 3>> const& e) -> std::optional<Vec3> {
+        if (!e) {
+            return std::nullopt;
+        }
+        Vec2 const at = grid.centre({static_cast<std::int64_t>((*e)[1]), static_cast<std::int64_t>((*e)[2])});
+        return Vec3{at.x, at.y, (*e)[0]};
+    };
+    params.highest = place(s.max);
+    params.lowest = place(s.min);
+    return skeleton::scatter(grid, params, run);
+}
+
+// Land through points, and what it was made with.
+struct LandOfPoints {
+    Raster<float> land;
+    std::optional<Tin> tin = {};
+    std::optional<SolverStory> diffusion = {};
+};
+
+// Takes: grid: that of the land, whose cells may be coarser than the recipe's, of cell_m.
+LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints const& points, Grid const& grid,
+                            Run const& run) {
+    SurfaceRecipe const wanted = recipe.surface.value_or(over_triangles());
+    StatisticsRecipe const& s = asked(recipe);
+    if (wanted.method == Method::regress) {
+        skeleton::RegressParams params = wanted.regress;
+        double const step = grid.cell_m / cell_m;
+        params.length_x = (s.length ? (*s.length)[0] : default_length_cells) / step;
+        params.length_y = (s.length ? (*s.length)[1] : default_length_cells) / step;
+        params.slope_rad = s.slope.value_or(0.0);
+        skeleton::Regression regression = skeleton::regress(points, grid, params, run);
+        if (regression.rank < regression.terms) {
+            run.say(fmt::format("warning: the points determine {} of {} terms of the regression", regression.rank,
+                                regression.terms));
+        }
+        return {std::move(regression.surface)};
+    }
+    if (wanted.method == Method::diffuse) {
+        Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
+        surface::DiffuseParams params = wanted.diffuse;
+        params.seed = recipe.seed;
+        params.tolerance = wanted.tolerance.value_or(params.tolerance);
+        surface::Diffused land =
+            surface::diffuse(skeleton::draw_skeleton(no_rivers, {}, points, {}, run).skeleton, params, run);
+        return {std::move(land.dem), {}, SolverStory{land.iterations, land.residual}};
+    }
+    Tin tin = geometry::triangulate(points.points, {}, run).tin;
+    bool const natural = wanted.interpolation == Interpolation::natural;
+    Raster<float> land = natural
+                             ? geometry::natural_neighbours(points.points, grid,
+                                                            {geometry::NaturalNeighboursParams::Outside::nearest}, run)
+                             : surface::rasterise_tin(tin, grid, {surface::RasteriseTinParams::Outside::nearest}, run);
+    return {std::move(land), std::move(tin)};
+}
+
+constexpr double most_fine_cells = 8.0;
+constexpr double allowed_error = 0.01;
+constexpr double allowed_dimension_error = 0.02;
+
+// A land projected on the statistics.
+struct Brought {
+    fractal::MatchedDem projection;
+    double fine_forms_cells = 0.0; // [cells] as Terrain
+};
+
+fractal::Targets targets_of(StatisticsRecipe const& s) {
+    fractal::Targets targets;
+    targets.mean = s.mean;
+    targets.std = s.std;
+    auto const fixed = [](std::array<double, 3> const& e) {
+        return fractal::FixedHeight{{static_cast<std::int64_t>(e[1]), static_cast<std::int64_t>(e[2])}, e[0]};
+    };
+    if (s.max) {
+        targets.max = fixed(*s.max);
+    }
+    if (s.min) {
+        targets.min = fixed(*s.min);
+    }
+    if (s.length) {
+        targets.lx_cells = (*s.length)[0];
+        targets.ly_cells = (*s.length)[1];
+    }
+    targets.slope_rad = s.slope;
+    targets.dimension = s.dimension;
+    return targets;
+}
+
+/// Calls the keys of [statistics] by their names in what a faulty target throws.
+template <class Work> auto naming_keys(Work const& work) {
+    try {
+        return work();
+    } catch (BadParameter const& fault) {
+        static constexpr std::array<std::pair<char const*, char const*>, 7> keys{{{"mean", "mean"},
+                                                                                  {"deviation", "std"},
+                                                                                  {"highest", "max"},
+                                                                                  {"lowest", "min"},
+                                                                                  {"correlation length", "length"},
+                                                                                  {"slope", "slope"},
+                                                                                  {"dimension", "dimension"}}};
+        std::string const words = fault.what();
+        std::string names;
+        for (auto const& [word, key] : keys) {
+            if (words.find(word) != std::string::npos) {
+                names += fmt::format("{}statistics.{}", names.empty() ? "" : ", ", key);
+            }
+        }
+        throw BadParameter(fmt::format("{}: {}", names.empty() ? "[statistics]" : names, words));
+    }
+}
+
+/// The land moved and stretched to the mean and deviation asked for, so that the projection begins near by.
+Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run const& run) {
+    measure::Statistics const now = measure::statistics(land, run);
+    double const stretch = s.std && now.std > 0.0 ? *s.std / now.std : 1.0;
+    double const mean = s.mean.value_or(now.mean);
+    for (float& z : land.values()) {
+        z = static_cast<float>(mean + (static_cast<double>(z) - now.mean) * stretch);
+    }
+    return land;
+}
+
+/// Heights of given points that the projection must keep: the first of each cell, none where an extreme lies.
+std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
+    std::vector<fractal::FixedHeight> kept;
+    if (recipe.statistics->skeleton != Prior::points) {
+        return kept;
+    }
+    std::set<std::int64_t> taken;
+    for (auto const& e : {recipe.statistics->max, recipe.statistics->min}) {
+        if (e) {
+            taken.insert(grid.index({static_cast<std::int64_t>((*e)[1]), static_cast<std::int64_t>((*e)[2])}));
+        }
+    }
+    for (Vec3 const& p : given.points) {
+        Cell const cell = grid.cell_of({p.x, p.y});
+        if (grid.contains(cell) && taken.insert(grid.index(cell)).second) {
+            kept.push_back({cell, p.z});
+        }
+    }
+    return kept;
+}
+
+/// Says which lengths only a fit can tell: correlation is measured over lags of up to half an axis.
+void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run) {
+    if (!s.length) {
+        return;
+    }
+    auto const warn = [&](char const* name, double length, char const* axis, std::int64_t cells) {
+        if (length > 0.5 * static_cast<double>(cells)) {
+            run.say(
+                fmt::format("warning: statistics.length: {} of {} cells is more than half of the {} {}: the grid is "
+                            "too small to show it, and a fit stands for it",
+                            name, length, cells, axis));
+        }
+    };
+    warn("Lx", (*s.length)[0], "columns", grid.width);
+    warn("Ly", (*s.length)[1], "rows", grid.height);
+}
+
+// Throws, before any work, where the statistics cannot be reached on this grid; says which lengths only a fit can tell.
+void require_targets(StatisticsRecipe const& wanted, Grid const& grid, Run const& run) {
+    naming_keys([&] { fractal::check_targets(Raster<float>(grid), targets_of(wanted)); });
+    warn_of_lengths(wanted, grid, run);
+}
+
+// Projects a land on the statistics. One from which they cannot be reached, smoother or more jagged between neighbours
+// than they ask for, takes its fine forms from a Gaussian land: as few of them as will do. given: points whose heights
+// stay.
+Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, FeaturePoints const& given, Run const& run) {
+    StatisticsRecipe const& s = *recipe.statistics;
+    Grid const grid = land.grid();
+    std::vector<fractal::FixedHeight> const kept = heights_to_keep(recipe, given, grid);
+    fractal::MatchParams params;
+    params.prior = covariance_of(s, 1.0);
+    Brought brought{naming_keys([&] { return fractal::match_statistics(land, targets_of(s), kept, params, run); })};
+    if (!brought.projection.converged && s.skeleton != Prior::grf) {
+        land = standardised(std::move(land), s, run);
+        Raster<float> const gaussian = standardised(random_land(recipe, Prior::grf, grid, 0, run), s, run);
+        for (double cells = 1.0; cells <= most_fine_cells; cells *= 2.0) {
+            fractal::MatchedDem again = fractal::match_statistics(fractal::with_fine_forms(land, gaussian, cells, run),
+                                                                  targets_of(s), kept, params, run);
+            if (again.converged) {
+                brought.fine_forms_cells = cells;
+                brought.projection = std::move(again);
+                break;
+            }
+        }
+    }
+    return brought;
+}
+
+// Whether the statistics came out as they were asked for.
+std::vector<Check> residual_checks(fractal::MatchedDem const& projection) {
+    std::vector<Check> checks;
+    for (fractal::Residual const& r : projection.residuals) {
+        bool const dimension = r.name == "dimension";
+        double const error = dimension ? std::fabs(r.got - r.asked) : std::fabs(r.error);
+        double const limit = dimension ? allowed_dimension_error : allowed_error;
+        checks.push_back({"statistics_" + r.name, error, limit, error <= limit});
+    }
+    return checks;
+}
+
+Detailed displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<float> const& coarse, Grid const& grid,
+                   Run const& run) {
+    params.width = grid.width;
+    params.height = grid.height;
+    params.seed = seed;
+    fractal::Displaced const made = fractal::midpoint(coarse, params, run);
+    Raster<float> land(grid); // the very frame, not one reckoned back from the coarse cells
+    std::copy(made.dem.values().begin(), made.dem.values().end(), land.values().begin());
+    return {{made.hurst, made.sigma}, std::move(land)};
+}
+
+// Adds the detail that the plan wants to coarse land.
+Detailed with_detail(Plan const& plan, Raster<float> const& coarse, Grid const& grid, Run const& run) {
+    return displaced(plan.recipe.detail->midpoint, plan.recipe.seed, coarse, grid, run);
+}
+
+} // namespace
+
+Detailed detail_alone(Plan const& plan, Grid const& grid, Run const& run) {
+    fractal::MidpointParams wanted = plan.recipe.detail->midpoint;
+    wanted.hurst = wanted.hurst.value_or(3.0 - default_dimension);
+    Raster<float> const flat(coarse_grid(grid, levels_of(plan.recipe)), 0.0F);
+    return displaced(wanted, plan.recipe.seed, flat, grid, run);
+}
+
+namespace {
+
+/// Cells that the mask of [surface] leaves out get no height.
+Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
+    if (!recipe.surface || recipe.surface->mask.empty()) {
+        return land;
+    }
+    Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid());
+    if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
+        throw BadInput(fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
+    }
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        land[i] = inside[i] != 0 ? land[i] : std::numeric_limits<float>::quiet_NaN();
+    }
+    return land;
+}
+
+/// The coarse land that detail starts from, through points or at random.
+Terrain begun(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+    Recipe const& recipe = plan.recipe;
+    int const levels = levels_of(recipe);
+    Grid const coarse = coarse_grid(terrain.grid, levels);
+    terrain.surface.emplace();
+    if (recipe.statistics && recipe.statistics->skeleton != Prior::points) {
+        terrain.surface->dem =
+            diary.stage("land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); });
+        diary.say(fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
+        return terrain;
+    }
+    skeleton::Scattered const points = points_of(recipe, terrain.grid, plan.points, run);
+    if (scatters(recipe)) {
+        terrain.checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
+    }
+    LandOfPoints made =
+        diary.stage("land", [&] { return land_of_points(recipe, terrain.grid.cell_m, points.points, coarse, run); });
+    diary.say(fmt::format("{} points", points.points.points.size()));
+    terrain.surface->dem = std::move(made.land);
+    terrain.tin = std::move(made.tin);
+    terrain.diffusion = made.diffusion;
+    return terrain;
+}
+
+/// The land with fractal detail, where the plan wants it.
+Terrain detailed(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+    int const levels = levels_of(plan.recipe);
+    if (levels == 0) {
+        return terrain;
+    }
+    Detailed made = diary.stage("detail", [&] { return with_detail(plan, terrain.surface->dem, terrain.grid, run); });
+    terrain.detail = made.story;
+    terrain.surface->dem = std::move(made.land);
+    diary.say(fmt::format("midpoint displacement, {} levels", levels));
+    return terrain;
+}
+
+/// The land with the statistics asked for.
+Terrain projected(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+    Brought brought = diary.stage("project", [&] {
+        return brought_to_statistics(plan.recipe, std::move(terrain.surface->dem), plan.points, run);
+    });
+    diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
+                          100.0 * brought.projection.largest_error, brought.projection.iterations,
+                          brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
+    append(terrain.checks, residual_checks(brought.projection));
+    terrain.surface->dem = std::move(brought.projection.dem);
+    brought.projection.dem = Raster<float>();
+    terrain.projection = std::move(brought.projection);
+    terrain.fine_forms_cells = brought.fine_forms_cells;
+    return terrain;
+}
+
+} // namespace
+
+Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run) {
+    if (missing > 0) {
+        run.say(fmt::format("warning: {} of {} points found no room; a smaller skeleton.spacing or skeleton.scatter "
+                            "leaves them some",
+                            missing, wanted));
+    }
+    return {"points_missing", static_cast<double>(missing), 0.0, missing == 0};
+}
+
+Terrain make_land(Plan const& plan, Diary& diary, Run const& run) {
+    Terrain terrain;
+    terrain.grid = *plan.grid;
+    if (plan.recipe.statistics) { // before any work
+        require_targets(*plan.recipe.statistics, terrain.grid, run);
+    }
+    terrain = begun(plan, std::move(terrain), diary, run);
+    terrain = detailed(plan, std::move(terrain), diary, run);
+    if (plan.recipe.statistics) {
+        return projected(plan, std::move(terrain), diary, run);
+    }
+    terrain.surface->dem = left_out(std::move(terrain.surface->dem), plan.recipe);
+    return terrain;
+}
+
+} // namespace thalweg::pipeline
