@@ -2,12 +2,289 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/internal/page.hpp>
 
-#include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/report/internal/page_template.hpp>
+#include <algorithm>
+#include <array>
+#include <bit>
+#include <cmath>
+#include <limits>
+#include <span>
+#include <stdexcept>
+#include <utility>
 
+#include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
+#include <thalweg/io/gdal/packed.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/pipeline/report/internal/page_template.hpp>
+
 namespace thalweg::pipeline {
+namespace {
+
+constexpr std::int64_t most_values = 1'500'000;
+constexpr std::int64_t longest_side = 4096;
+constexpr double steps = 65534.0; // values 1 .. 65535, 0 is no data
+constexpr std::size_t predictors = 4;
+
+std::int64_t parts(std::int64_t cells, std::int64_t of) {
+    return (cells + of - 1) / of;
+}
+
+/// Means of the squares, row-major; NaN for none.
+std::vector<double> means(Raster<float> const& dem, PageHeights const& page, Run const& run) {
+    auto const width = static_cast<std::size_t>(page.width);
+    auto const side = static_cast<std::size_t>(page.cells);
+    std::vector<double> mean(width * static_cast<std::size_t>(page.height));
+    std::vector<double> sum(width);
+    std::vector<std::int64_t> count(width);
+    for (std::int64_t value_row = 0; value_row < page.height; ++value_row) {
+        run.check();
+        std::fill(sum.begin(), sum.end(), 0.0);
+        std::fill(count.begin(), count.end(), 0);
+        std::int64_t const end = std::min((value_row + 1) * page.cells, dem.height());
+        for (std::int64_t r = value_row * page.cells; r < end; ++r) {
+            auto const row = dem.row(r);
+            for (std::size_t c = 0; c < row.size(); ++c) {
+                if (std::isinf(row[c])) {
+                    throw BadInput(fmt::format("pipeline.page_heights: the height at column {}, row {} is infinite; "
+                                               "mark cells without data as NaN",
+                                               c, r));
+                }
+                if (!std::isnan(row[c])) {
+                    sum[c / side] += static_cast<double>(row[c]);
+                    ++count[c / side];
+                }
+            }
+        }
+        for (std::size_t v = 0; v < width; ++v) {
+            mean[static_cast<std::size_t>(value_row) * width + v] =
+                count[v] > 0 ? sum[v] / static_cast<double>(count[v]) : std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    return mean;
+}
+
+std::vector<std::uint16_t> quantised(std::vector<double> const& mean, PageHeights const& page) {
+    std::vector<std::uint16_t> values(mean.size(), 0);
+    double const range = page.max - page.min;
+    for (std::size_t i = 0; i < mean.size(); ++i) {
+        if (!std::isnan(mean[i])) {
+            double const share = range > 0.0 ? (mean[i] - page.min) / range : 0.0;
+            values[i] = static_cast<std::uint16_t>(1.0 + std::floor(share * steps + 0.5));
+        }
+    }
+    return values;
+}
+
+/// Predictions for a value with its neighbours in the west, north and north-west, before they are taken modulo 2^16.
+std::array<std::uint32_t, predictors> predictions(std::uint32_t west, std::uint32_t north, std::uint32_t corner) {
+    return {north, west, west + north - corner, (west + north) / 2};
+}
+
+std::uint16_t zigzag(std::uint32_t difference) {
+    auto const wrapped = static_cast<std::uint16_t>(difference);
+    auto const doubled = static_cast<std::uint16_t>(wrapped << 1U);
+    return wrapped < 0x8000U ? doubled : static_cast<std::uint16_t>(~doubled);
+}
+
+/// Residuals of one row under each predictor.
+using Residuals = std::array<std::vector<std::uint16_t>, predictors>;
+
+/// Fills in the residuals of a row and gives the predictor that leaves the fewest binary digits in them.
+std::size_t predict(std::span<std::uint16_t const> row, std::span<std::uint16_t const> above, Residuals& residuals) {
+    std::array<std::int64_t, predictors> cost{};
+    std::uint32_t west = 0;
+    std::uint32_t corner = 0;
+    for (std::size_t c = 0; c < row.size(); ++c) {
+        std::uint32_t const north = above.empty() ? 0 : above[c];
+        auto const predicted = predictions(west, north, corner);
+        for (std::size_t p = 0; p < predictors; ++p) {
+            residuals[p][c] = zigzag(row[c] - predicted[p]);
+            cost[p] += std::bit_width(residuals[p][c]);
+        }
+        west = row[c];
+        corner = north;
+    }
+    return static_cast<std::size_t>(std::min_element(cost.begin(), cost.end()) - cost.begin());
+}
+
+std::vector<std::uint8_t> coded(std::vector<std::uint16_t> const& values, PageHeights const& page) {
+    auto const width = static_cast<std::size_t>(page.width);
+    auto const height = static_cast<std::size_t>(page.height);
+    std::vector<std::uint8_t> bytes(height + 2 * values.size());
+    std::span<std::uint16_t const> const all(values);
+    Residuals residuals;
+    residuals.fill(std::vector<std::uint16_t>(width));
+    for (std::size_t r = 0; r < height; ++r) {
+        auto const above = r > 0 ? all.subspan((r - 1) * width, width) : std::span<std::uint16_t const>{};
+        std::size_t const best = predict(all.subspan(r * width, width), above, residuals);
+        bytes[r] = static_cast<std::uint8_t>(best);
+        for (std::size_t c = 0; c < width; ++c) {
+            bytes[height + r * width + c] = static_cast<std::uint8_t>(residuals[best][c] & 0xFFU);
+            bytes[height + values.size() + r * width + c] = static_cast<std::uint8_t>(residuals[best][c] >> 8U);
+        }
+    }
+    return bytes;
+}
+
+} // namespace
+
+std::int64_t page_cells(Grid const& grid) {
+    std::int64_t cells = 1;
+    auto const too_many = [&] {
+        std::int64_t const width = parts(grid.width, cells);
+        std::int64_t const height = parts(grid.height, cells);
+        return width > longest_side || height > longest_side || width * height > most_values;
+    };
+    while (too_many()) {
+        ++cells;
+    }
+    return cells;
+}
+
+std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run) {
+    PageHeights page;
+    page.cells = page_cells(dem.grid());
+    page.width = parts(dem.width(), page.cells);
+    page.height = parts(dem.height(), page.cells);
+    std::vector<double> const mean = means(dem, page, run);
+    bool first = true;
+    for (double const z : mean) {
+        if (std::isnan(z)) {
+            ++page.nodata;
+            continue;
+        }
+        page.min = first ? z : std::min(page.min, z);
+        page.max = first ? z : std::max(page.max, z);
+        first = false;
+    }
+    if (first) {
+        return std::nullopt;
+    }
+    page.bytes = coded(quantised(mean, page), page);
+    return page;
+}
+
+namespace {
+
+constexpr double steps_a_square = 16.0;
+constexpr double farthest = 0x1p29; // products of two differences then stay below 2^62
+
+/// A position in whole steps, x to the east and y to the south.
+struct Point {
+    std::int64_t x = 0;
+    std::int64_t y = 0;
+    friend bool operator==(Point const&, Point const&) = default;
+};
+
+/// Whether b lies on the straight way from a to c.
+bool on_the_way(Point a, Point b, Point c) {
+    Point const there{b.x - a.x, b.y - a.y};
+    Point const on{c.x - b.x, c.y - b.y};
+    return there.x * on.y == there.y * on.x && there.x * on.x + there.y * on.y > 0;
+}
+
+std::vector<Point> points_of(std::span<Vec2 const> line, Grid const& grid, double step_m, std::size_t number) {
+    if (line.size() < 2) {
+        throw BadInput(
+            fmt::format("pipeline.page_lines: line {} has {} vertices; give two or more", number, line.size()));
+    }
+    std::vector<Point> points;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        double const x = std::floor((line[i].x - grid.west) / step_m + 0.5);
+        double const y = std::floor((grid.north - line[i].y) / step_m + 0.5);
+        if (!(std::fabs(x) < farthest && std::fabs(y) < farthest)) {
+            throw BadInput(fmt::format("pipeline.page_lines: vertex {} of line {} lies at ({}, {}), far from the grid",
+                                       i, number, line[i].x, line[i].y));
+        }
+        Point const p{static_cast<std::int64_t>(x), static_cast<std::int64_t>(y)};
+        if (!points.empty() && points.back() == p) {
+            continue;
+        }
+        if (points.size() > 1 && on_the_way(points[points.size() - 2], points.back(), p)) {
+            points.back() = p;
+        } else {
+            points.push_back(p);
+        }
+    }
+    if (points.size() == 1) {
+        points.push_back(points.front());
+    }
+    return points;
+}
+
+void put(std::int64_t difference, std::vector<std::uint8_t>& bytes) {
+    auto const magnitude = static_cast<std::uint64_t>(difference < 0 ? -(difference + 1) : difference);
+    std::uint64_t rest = 2 * magnitude + (difference < 0 ? 1U : 0U);
+    while (rest >= 0x80U) {
+        bytes.push_back(static_cast<std::uint8_t>((rest & 0x7FU) | 0x80U));
+        rest >>= 7U;
+    }
+    bytes.push_back(static_cast<std::uint8_t>(rest));
+}
+
+} // namespace
+
+PageLines page_lines(std::span<std::span<Vec2 const> const> lines, Grid const& grid) {
+    PageLines page;
+    page.step = static_cast<double>(page_cells(grid)) / steps_a_square;
+    Point last;
+    for (std::size_t number = 1; auto const line : lines) {
+        std::vector<Point> const points = points_of(line, grid, page.step * grid.cell_m, number++);
+        page.vertices.push_back(static_cast<std::int64_t>(points.size()));
+        for (Point const p : points) {
+            put(p.x - last.x, page.bytes);
+            put(p.y - last.y, page.bytes);
+            last = p;
+        }
+    }
+    return page;
+}
+
+namespace {
+
+struct Place {
+    std::size_t at;
+    std::string_view marker;
+    std::string const* part;
+};
+
+std::size_t find_once(std::string_view page, std::string_view marker) {
+    std::size_t const at = page.find(marker);
+    if (at == std::string_view::npos || page.find(marker, at + 1) != std::string_view::npos) {
+        throw std::logic_error(fmt::format("pipeline.fill_page: the page holds {} {}; rebuild web/dist/report.html",
+                                           at == std::string_view::npos ? "no" : "more than one", marker));
+    }
+    return at;
+}
+
+} // namespace
+
+std::string fill_page(std::string_view page, PageParts const& parts) {
+    std::array<Place, 4> places{{{0, "@@TITLE@@", &parts.title},
+                                 {0, "@@DATA@@", &parts.data},
+                                 {0, "@@HEIGHTS@@", &parts.heights},
+                                 {0, "@@LINES@@", &parts.lines}}};
+    std::size_t size = page.size();
+    for (Place& place : places) {
+        place.at = find_once(page, place.marker);
+        size += place.part->size();
+    }
+    std::sort(places.begin(), places.end(), [](Place const& a, Place const& b) { return a.at < b.at; });
+    std::string out;
+    out.reserve(size);
+    std::size_t done = 0;
+    for (Place const& place : places) {
+        out += page.substr(done, place.at - done);
+        out += *place.part;
+        done = place.at + place.marker.size();
+    }
+    out += page.substr(done);
+    return out;
+}
 
 namespace {
 
@@ -62,6 +339,77 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);
     return fill_page(page_template(), parts);
+}
+
+namespace {
+
+/// Whether every vertex of the network lies on the DEM's grid, as areas by its drainage need.
+bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
+    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
+        auto const& line = network.plan.arc(arc).line;
+        if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
+            return false;
+        }
+    }
+    return true;
+}
+
+/// What a scene shows of a terrain.
+Terrain terrain_of(Scene const& scene, Run const& run) {
+    Terrain terrain;
+    terrain.grid = scene.dem->grid();
+    terrain.surface.emplace();
+    terrain.surface->dem = *scene.dem;
+    terrain.drainage = flow::route(*scene.dem, run);
+    if (scene.network) {
+        terrain.network = *scene.network;
+        terrain.orders = scene.orders;
+    }
+    return terrain;
+}
+
+/// What is measured of it.
+Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& run) {
+    Assessment found;
+    found.statistics = measure::statistics(*scene.dem, run);
+    found.hypsometry = measure::hypsometry(*scene.dem, run);
+    found.pits = terrain.drainage->pits;
+    found.pit_volume_m3 = terrain.drainage->pit_volume_m3;
+    if (scene.network) {
+        StreamNetwork const& network = terrain.network.plan;
+        if (lies_on(terrain.network, terrain.grid)) {
+            found.areas = flow::areas_d8(network, *terrain.drainage, run);
+        } else {
+            found.areas.us_area_m2.assign(network.arc_count(), 0.0);
+            found.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+            found.areas.node_m2.assign(network.node_count(), 0.0);
+        }
+        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
+        found.checks = topology.checks;
+        found.findings = topology.findings;
+    }
+    found.laws = laws_of_terrain(terrain, found.areas, found.statistics->cells, run);
+    found.relief = relief_of_dem(*scene.dem, run);
+    return found;
+}
+
+} // namespace
+
+std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
+                       Run const& run) {
+    if (!scene.dem) {
+        throw BadInput("pipeline.scene_page: there is no DEM to show");
+    }
+    Made made;
+    made.recipe.output.title = scene.title;
+    made.terrain = terrain_of(scene, run);
+    made.assessment = assessment_of(scene, made.terrain, run);
+    double const relief = made.assessment.statistics->max.z - made.assessment.statistics->min.z;
+    PageParams params;
+    params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);
+    params.command = command;
+    params.notes = notes;
+    return page(made, params, run);
 }
 
 } // namespace thalweg::pipeline

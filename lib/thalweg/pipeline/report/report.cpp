@@ -2,6 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/report.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <sstream>
+#include <utility>
+
+#include <nlohmann/json.hpp>
+#include <toml++/toml.h>
+
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
@@ -9,18 +17,25 @@
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/report/internal/report.hpp>
 
-#include <nlohmann/json.hpp>
-#include <toml++/toml.h>
-
-#include <algorithm>
-#include <cmath>
-#include <sstream>
-
 namespace thalweg::pipeline {
-
 namespace {
 
 using nlohmann::ordered_json;
+
+// Water that enters the grid as a JSON array, the largest first.
+std::string inflows_json(Grid const& grid, std::vector<surface::RegionInflow> inflows) {
+    std::sort(inflows.begin(), inflows.end(), [](auto const& a, auto const& b) {
+        return std::pair{-a.area_cells, a.cell} < std::pair{-b.area_cells, b.cell};
+    });
+    nlohmann::ordered_json array = nlohmann::ordered_json::array();
+    for (surface::RegionInflow const& in : inflows) {
+        Vec2 const at = grid.centre(grid.at(in.cell));
+        array.push_back({{"x", at.x},
+                         {"y", at.y},
+                         {"area_km2", static_cast<double>(in.area_cells) * grid.cell_m * grid.cell_m * 1e-6}});
+    }
+    return array.dump();
+}
 
 ordered_json extreme(measure::Extreme const& e) {
     return {{"z", e.z}, {"col", e.cell.col}, {"row", e.cell.row}};
