@@ -3,29 +3,118 @@
 #include <thalweg/pipeline/commands/check_files.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <limits>
+#include <optional>
+#include <string>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/commands/internal/certify_files.hpp>
 #include <thalweg/pipeline/commands/internal/mend_network.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/report/internal/report.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
+namespace {
+
+// Rasters beside a network, of which cells above 0 count; "" for none. Those on another grid than the DEM's are passed
+// over.
+struct RiverRasters {
+    std::string drawn = {}; // cells into which rivers were drawn
+    std::string lakes = {}; // cells of lakes
+    bool waive = false;     // only drawn cells are to be honoured: patches took the place of others
+};
+
+// A DEM.
+struct DemFile {
+    std::string path;
+    std::optional<double> nodata = {}; // as in io::ReadDemParams
+};
+
+/// By reach, the contributing area the file gives its lower end.
+std::vector<double> areas_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches) {
+    std::unordered_map<std::int64_t, double> by_id;
+    for (NetworkFile::FileArc const& arc : file.arcs) {
+        by_id.try_emplace(arc.id, arc.ds_area_m2);
+    }
+    std::vector<double> areas;
+    areas.reserve(reaches.size());
+    for (flow::Reach const& reach : reaches) {
+        areas.push_back(file.says.areas ? by_id.at(reach.id) : std::numeric_limits<double>::quiet_NaN());
+    }
+    return areas;
+}
+
+/// The cells of a raster above 0; without cells where there is none on this grid.
+Mask cells_in(std::string const& raster, Grid const& grid) {
+    if (raster.empty()) {
+        return {};
+    }
+    Raster<float> const values = io::read_stored_dem(raster, {.values = io::CellValues::numbers});
+    if (values.grid() != grid) {
+        return {};
+    }
+    Mask cells(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        cells[i] = values[i] > 0.0F ? 1 : 0;
+    }
+    return cells;
+}
+
+// The drainage certificate of a DEM file and a network, anyone's. Parts of the network beside the DEM are findings
+// (outside_dem), and do not count otherwise. Parts of rivers that are drawn level stand as lakes do; nodes of the kind
+// "sink" end their rivers. Throws: BadInput when a raster cannot be read, the network and the DEM have different CRS or
+// only one has any, or no arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError.
+measure::Certificate certify_files(NetworkFile const& network, DemFile const& file, RiverRasters const& rasters = {},
+                                   Run const& run = {}) {
+    std::string const& dem = file.path;
+    Raster<float> const land =
+        io::read_stored_dem(dem, {.nodata = file.nodata}, run); // in feet or metres its water runs alike
+    if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
+        std::string const lines = network.crs.substr(0, 60);
+        throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
+                                   "(ogr2ogr -t_srs, gdalwarp -t_srs {} {} OUT.tif)",
+                                   lines, dem, land.grid().crs.substr(0, 60), lines, dem));
+    }
+    FileReaches const found = reaches_of_file(network, land.grid());
+    measure::Claims claims;
+    claims.ds_area_m2 = areas_of(network, found.reaches);
+    claims.still = either(still_cells(network, land.grid()), cells_in(rasters.lakes, land.grid()));
+    claims.drawn = cells_in(rasters.drawn, land.grid());
+    claims.honoured = rasters.waive ? claims.drawn : Mask{};
+    flow::FlowField const drainage = flow::route(land, sinks_of(network, land), run);
+    measure::Certificate certificate = measure::certify(land, drainage, found.reaches, claims, run);
+    for (flow::Reach const& reach : found.reaches) {
+        if (reach.lines.empty()) {
+            certificate.findings.push_back(
+                {"outside_dem", reach.id, {}, 0.0, fmt::format("arc {} lies outside the DEM", reach.id)});
+        }
+    }
+    return certificate;
+}
 
 namespace fs = std::filesystem;
-
-namespace {
 
 /// A file to be written, or the files of two shapefiles, which appear together.
 class CheckOutput {
@@ -232,6 +321,23 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
         }));
     }
     return checked;
+}
+
+std::string as_json(CheckedFiles const& checked) {
+    using nlohmann::ordered_json;
+    ordered_json out{{"ok", checked.ok()},
+                     {"arcs", checked.arcs},
+                     {"nodes", checked.nodes},
+                     {"schema", checked.schema},
+                     {"checks", ordered_json::parse(checks_json(checked.checks))},
+                     {"findings", ordered_json::parse(findings_json(checked.findings))},
+                     {"notes", ordered_json::parse(findings_json(checked.notes))},
+                     {"mended", ordered_json::parse(findings_json(checked.mended))},
+                     {"written", checked.written}};
+    if (checked.certificate) {
+        out["certificate"] = ordered_json::parse(certificate_json(*checked.certificate));
+    }
+    return out.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
 } // namespace thalweg::pipeline

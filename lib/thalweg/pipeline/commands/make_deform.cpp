@@ -2,9 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/commands/make_deform.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <utility>
+
 #include <fmt/format.h>
 
+#include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/mesh/tin.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
@@ -29,6 +38,107 @@ blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
     }
     run.at(0.0, "deform");
     return blend::deform(target, region, handles, {.scale = params.scale}, run);
+}
+
+namespace {
+
+/// Whether an odd number of a polygon's rings surrounds a place.
+bool surrounds(Polygon const& polygon, Vec2 p) {
+    bool inside = false;
+    for (std::vector<Vec2> const& ring : polygon.rings) {
+        for (std::size_t i = 0; i < ring.size(); ++i) {
+            Vec2 const a = ring[i];
+            Vec2 const b = ring[(i + 1) % ring.size()];
+            if ((a.y > p.y) != (b.y > p.y) && p.x < a.x + (p.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+                inside = !inside;
+            }
+        }
+    }
+    return inside;
+}
+
+std::vector<char> vertices_inside(Tin const& tin, Polygons const& region) {
+    std::vector<char> inside;
+    for (Vec3 const& v : tin.vertices) {
+        inside.push_back(
+            static_cast<char>(std::any_of(region.polygons.begin(), region.polygons.end(), [&](Polygon const& polygon) {
+                return surrounds(polygon, {v.x, v.y});
+            })));
+    }
+    return inside;
+}
+
+std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Vec3 const& handle) {
+    std::size_t best = 0;
+    double least = std::numeric_limits<double>::infinity();
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        double const away = distance({tin.vertices[i].x, tin.vertices[i].y}, {handle.x, handle.y});
+        if (inside[i] != 0 && away < least) {
+            least = away;
+            best = i;
+        }
+    }
+    return static_cast<std::uint32_t>(best);
+}
+
+/// The CRS of a mesh that names none: its mask's; "" where that has none either.
+std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
+    io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
+    if (!mask.crs.empty() && !mask.in_metres) {
+        throw BadInput(fmt::format("pipeline.make_deform_tin: {} is in {:.60}, {} has no CRS: name it (--source-crs "
+                                   "EPSG:n)",
+                                   params.mask, mask.crs, params.target));
+    }
+    if (!mask.crs.empty()) {
+        run.say(fmt::format("note: {} has no CRS: it is taken to be in {:.60}, as {}.", params.target, mask.crs,
+                            params.mask));
+    }
+    return std::move(mask.crs);
+}
+
+} // namespace
+
+DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
+    if (params.scale == 1.0 && params.rotate_deg == 0.0 && params.handles.empty()) {
+        throw BadParameter("pipeline.make_deform_tin: nothing to do: give a scale, a rotation or heights to pull to");
+    }
+    io::TinFile file = io::read_tin(params.target, run);
+    if (file.crs.empty()) {
+        file.crs = params.source_crs.empty() ? crs_of_mask(params, run) : io::projected_crs(params.source_crs);
+    }
+    Tin const& tin = file.tin;
+    std::vector<char> const inside = vertices_inside(tin, io::read_polygons(params.mask, file.crs, run));
+    DeformedTin made;
+    made.vertices = std::count(inside.begin(), inside.end(), char{1});
+    if (made.vertices == 0) {
+        throw BadInput(fmt::format("pipeline.make_deform_tin: no vertex of {} lies in {}", params.target, params.mask));
+    }
+    bool const turns = params.rotate_deg != 0.0;
+    auto const measured = turns ? geometry::Measured::on_surface : geometry::Measured::in_plan;
+    blend::LinearMap const map = blend::rotation(params.axis, params.rotate_deg, params.scale);
+    std::vector<blend::CoordinateGradients> guidance = blend::gradients_of(tin, tin.vertices, measured);
+    for (std::size_t t = 0; t < guidance.size(); ++t) {
+        auto const& corners = tin.triangles[t];
+        if (std::all_of(corners.begin(), corners.end(), [&](std::uint32_t v) { return inside[v] != 0; })) {
+            guidance[t] = blend::mapped(map, guidance[t]);
+        }
+    }
+    std::vector<blend::FixedVertex> fixed;
+    for (std::size_t i = 0; i < inside.size(); ++i) {
+        if (inside[i] == 0) {
+            fixed.push_back({static_cast<std::uint32_t>(i), tin.vertices[i]});
+        }
+    }
+    for (Vec3 const& handle : params.handles) {
+        std::uint32_t const vertex = nearest_inside(tin, inside, handle);
+        fixed.push_back({vertex, {tin.vertices[vertex].x, tin.vertices[vertex].y, handle.z}});
+    }
+    run.at(0.0, "deform");
+    blend::PastedTin pasted = blend::paste_tin(tin, guidance, fixed, measured, run);
+    made.tin = std::move(pasted.tin);
+    made.residual = pasted.residual;
+    made.crs = std::move(file.crs);
+    return made;
 }
 
 } // namespace thalweg::pipeline

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <optional>
 #include <string>
 #include <vector>
 
 #include <thalweg/blend/deform.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::pipeline {
@@ -23,13 +25,36 @@ struct MakeDeformParams {
 
 /// Reads a DEM and bends a region of it.
 /// \param params files
-/// \param run progress, log, stop token and number of threads
 /// \return as blend::deform.
-/// \throws BadParameter
 /// \throws BadInput as the stage and the doors do, also when a handle lies outside the target or no change is set
-/// \throws NotConverged
-/// \throws IoError
-/// \throws Cancelled
 blend::Deformed make_deform(MakeDeformParams const& params, Run const& run = {});
+
+/// Options of make_deform_tin().
+struct MakeDeformTinParams {
+    std::string target = {};        ///< a mesh: 2DM, OBJ or OFF
+    std::string mask = {};          ///< polygons around the vertices that move
+    double scale = 1.0;             ///< of the region's slopes; with a rotation of all its lengths
+    double rotate_deg = 0.0;        ///< [degrees] counterclockwise about the axis
+    Vec3 axis = {0.0, 0.0, 1.0};    ///< of the rotation; any that is not upright turns the region out of the plane
+    std::vector<Vec3> handles = {}; ///< [m] places whose nearest vertex in the region is pulled to the height
+    std::string source_crs = {};    ///< of a mesh that names none, projected, in metres; "": the mask's
+};
+
+/// What make_deform_tin() returns.
+struct DeformedTin {
+    Tin tin;
+    std::string crs;
+    std::int64_t vertices = 0; ///< in the region
+    double residual = 0.0;     ///< as blend::PastedTin
+};
+
+/// Reads a mesh and bends a region of it: the gradients of the triangles whose corners all lie in the region are turned
+/// and scaled, and the mesh is put together again around the vertices outside and the handles, which are fixed.
+/// \return vertices outside the region bit for bit; without a rotation all x and y too; as blend::paste_tin.
+/// \throws BadParameter no change is set
+/// \throws BadInput as read_tin, read_polygons and paste_tin do, no vertex in the region
+///
+/// Source: \cite nenu2015, section 4.2; \cite yu2004.
+DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -3,14 +3,16 @@
 #include <thalweg/pipeline/make/make.hpp>
 
 #include <thalweg/pipeline/plan/internal/append.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 #include <utility>
 
 namespace thalweg::pipeline {
 
 Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
-    Recipe recipe = framed(plan.recipe, terrain.grid);
+    Recipe recipe = plan.recipe;
+    recipe.grid.width = terrain.grid.width;
+    recipe.grid.height = terrain.grid.height;
+    recipe.grid.origin = {terrain.grid.west, terrain.grid.north};
     if (terrain.equilibrium) {
         recipe.surface->equilibrium.edge = terrain.equilibrium->edge;
     }

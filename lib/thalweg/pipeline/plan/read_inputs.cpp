@@ -19,7 +19,6 @@
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
-#include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/network/import/fill_heights.hpp>
 #include <thalweg/network/import/keep_connectors.hpp>
 #include <thalweg/pipeline/plan/internal/frame.hpp>
@@ -62,30 +61,6 @@ Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& w
         }
     }
     return under;
-}
-
-Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
-    if (path.empty()) {
-        return {};
-    }
-    io::FileContent const content = io::content_of(path);
-    if (content.kind == io::FileContent::Kind::raster) {
-        return io::read_mask(content.path, grid, run);
-    }
-    if (content.kind != io::FileContent::Kind::lines) {
-        throw BadInput(fmt::format("pipeline.make_blend: {} holds points: cells to keep come from lines or a raster on "
-                                   "the target's grid",
-                                   content.path));
-    }
-    RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
-    io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
-    Mask kept = cells_under(network::clip_lines(rivers, grid), grid, content.path);
-    if (std::ranges::find(kept.values(), 1) == kept.values().end()) {
-        throw BadInput(fmt::format("pipeline.make_blend: no line of {} crosses the target, which reaches from "
-                                   "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
-                                   content.path, grid.west, grid.south(), grid.east(), grid.north));
-    }
-    return kept;
 }
 
 Mask read_mask_of_land(std::string const& path, Grid const& grid) {
@@ -239,6 +214,21 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) 
     recipe.grid.cell_m = chosen.cell_m;
     warn_of_crowding(chosen, run);
     return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
+}
+
+void require_metres(Grid const& grid, std::string const& path, char const* who) {
+    io::GroundCell const ground = io::ground_cell(grid);
+    io::GridUnit const unit = ground.unit;
+    if (unit == io::GridUnit::distorted) {
+        throw BadInput(fmt::format("{}: the coordinates of {} are in {:.60}, whose metres are {:.3g} m on the ground "
+                                   "there: reproject it first (gdalwarp -t_srs {:.60} {} OUT.tif)",
+                                   who, path, grid.crs, ground.side_m / grid.cell_m, ground.crs, path));
+    }
+    if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
+        throw BadInput(fmt::format("{}: the coordinates of {} are {}: reproject it to a CRS in metres first "
+                                   "(gdalwarp -t_srs)",
+                                   who, path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
+    }
 }
 
 } // namespace thalweg::pipeline

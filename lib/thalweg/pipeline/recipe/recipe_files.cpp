@@ -53,13 +53,6 @@ Recipe with_absolute_files(Recipe recipe) {
     return recipe;
 }
 
-Recipe framed(Recipe recipe, Grid const& grid) {
-    recipe.grid.width = grid.width;
-    recipe.grid.height = grid.height;
-    recipe.grid.origin = {grid.west, grid.north};
-    return recipe;
-}
-
 namespace {
 
 /// Far from its central meridian a UTM zone measures other lengths than the ground has, as other projections do.

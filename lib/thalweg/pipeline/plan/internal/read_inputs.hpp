@@ -22,10 +22,6 @@ Mask read_part(std::string const& path, Grid const& grid, Run const& run);
 /// the grid.
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
 
-/// Cells of a raster on the grid, or under lines; empty for "". Throws: as the doors; BadInput for points, and when no
-/// line crosses the grid.
-Mask read_kept(std::string const& path, Grid const& grid, Run const& run);
-
 /// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "". Throws: as
 /// io::read_dem; BadInput when it has not as many cells as the grid.
 Mask read_mask_of_land(std::string const& path, Grid const& grid);
@@ -55,5 +51,9 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run);
 /// The usual mean slope [degrees] of land in cells of this size: the coarser, the gentler. Within 6 % of the mean
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
 double usual_slope_deg(double cell_m);
+
+/// Throws BadInput where a file's coordinates are known not to be metres.
+/// Takes: the grid read from the file at path; who asks, as messages begin: "pipeline.make_points".
+void require_metres(Grid const& grid, std::string const& path, char const* who);
 
 } // namespace thalweg::pipeline

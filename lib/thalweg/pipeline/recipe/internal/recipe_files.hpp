@@ -36,9 +36,6 @@ bool is_address(std::string const& name);
 /// The recipe with every file it names found from anywhere.
 Recipe with_absolute_files(Recipe recipe);
 
-/// The recipe of a terrain on this grid.
-Recipe framed(Recipe recipe, Grid const& grid);
-
 /// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.
 /// Gives: a note for each: "converted", "stretched".
 std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run);
