@@ -46,12 +46,9 @@ struct CheckedFiles {
 /// passes the check of the topology itself. For a mended copy lines of no known schema are taken as they are. The input
 /// is never touched.
 /// \param job the files and options
-/// \param run progress, log, stop token and number of threads
 /// \return findings, and the files written
 /// \throws BadInput when a file cannot be read as a network or DEM, or an output is there already
 /// \throws BadParameter also for an output that is the input or no .gpkg or .shp
-/// \throws IoError
-/// \throws Cancelled
 CheckedFiles check_files(CheckJob const& job, Run const& run = {});
 
 /// As one JSON object: ok, arcs, nodes, schema, checks, findings, notes, mended, written; certificate with a DEM.

@@ -42,18 +42,12 @@ struct Converted {
 };
 
 /// Reads a network and writes it in anyone's schema and format, into a file or a database ("PG:...").
-/// \param params options, each with its default, unit and range
 /// \param output path of the output
-/// \param existing what to do with an output that exists
-/// \param run progress, log, stop token and number of threads
 /// \return arcs in the order of their ids, renumbered from the schema's first; orders and basins of the network as it
 /// is; what the schema cannot hold is lost, unknown values are the schema's own mark for that. Unknown heights are 0.
 /// Everything appears or nothing; the source is never replaced.
-/// \throws BadParameter
 /// \throws BadInput when the source is not a set of trees, the DEM does not cover it, the output is taken and existing
 /// is refuse, or it is the source
-/// \throws IoError
-/// \throws Cancelled
 Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing = io::Existing::refuse,
                   Run const& run = {});
 

@@ -19,13 +19,9 @@ struct MetricDem {
 
 /// Reads a DEM; one in degrees, or in metres whose lengths are off by more than 1 % (Web Mercator), is warped into
 /// the UTM zone of its middle, onto cells as large as its own there; one with cells that are not square onto squares.
-/// \param path path of the file
 /// \param params as of io::read_dem
-/// \param run progress, log, stop token and number of threads
 /// \return the DEM, and the cell size it had
 /// \throws BadInput like read_dem, and where a geographic DEM lies in no UTM zone
-/// \throws IoError
-/// \throws Cancelled
 MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline

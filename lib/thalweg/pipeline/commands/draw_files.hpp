@@ -32,15 +32,11 @@ struct Drawn {
 /// \param source the file or DEM to take from
 /// \param output a folder, which may hold other things, for WHAT.FORMAT each and page.html; or the name of one picture,
 /// ending in .png, .svg or .pdf, or of a report page, ending in .html
-/// \param params options, each with its default, unit and range
 /// \param existing under replace a picture file of the same name is replaced, and nothing else
-/// \param run progress, log, stop token and number of threads
 /// \return the files written
 /// \throws BadParameter an unknown kind or format (did you mean), several pictures for one name
 /// \throws BadInput a picture that cannot be drawn, a file that is there already; what read_scene and the pictures
 /// throw
-/// \throws IoError
-/// \throws Cancelled
 Drawn draw_files(std::string const& source, std::string const& output, DrawParams const& params,
                  io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -22,7 +22,6 @@
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {
-
 namespace {
 
 namespace fs = std::filesystem;
@@ -48,6 +47,11 @@ Measured source_of(MakeMeasuresParams const& params) {
         }
     }
     return source;
+}
+
+// Returns the measures that can be asked for: d8, dinf, directions, catchments.
+std::vector<std::string> measure_names() {
+    return {d8, dinf, directions, outlines};
 }
 
 std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const& source) {
@@ -187,10 +191,6 @@ std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments co
 }
 
 } // namespace
-
-std::vector<std::string> measure_names() {
-    return {d8, dinf, directions, outlines};
-}
 
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output, io::Existing existing,
                            Run const& run) {

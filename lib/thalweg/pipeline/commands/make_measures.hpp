@@ -23,9 +23,6 @@ struct MakeMeasuresParams {
     std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
-/// \return the measures that can be asked for: d8, dinf, directions, catchments.
-std::vector<std::string> measure_names();
-
 /// How water leaves catchments aside.
 struct MeasuredCatchments {
     io::CatchmentCount count;
@@ -52,16 +49,12 @@ struct MadeMeasures {
 /// (contributing areas [m2], the cell itself included), direction_d8.tif (Byte: 1 2 4 8 16 32 64 128 from the east
 /// clockwise, 0 where water leaves, 255 without data) and direction_dinf.tif ([rad] counterclockwise from the east, -1
 /// where water leaves), catchments.gpkg (of anyone's network). Depressions stay: water is led through them.
-/// \param params options, each with its default, unit and range
 /// \param output a folder, which may hold other things
 /// \param existing under replace a file of the same name is replaced, and nothing else
-/// \param run progress, log, stop token and number of threads
 /// \return the files written
 /// \throws BadParameter a name that is none (did you mean)
 /// \throws BadInput catchments without a network, a DEM that is not in metres or has no CRS where the network has one,
 /// a network beside the DEM or whose rivers run in a circle, a file that is there already
-/// \throws IoError
-/// \throws Cancelled
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output,
                            io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -33,14 +33,10 @@ struct MadePoints {
 
 /// Reads a DEM and writes its cells as points, of a skeleton those of network.tif in the same folder and those under
 /// the ridges of its network.gpkg, with the heights of dem.tif.
-/// \param params options, each with its default, unit and range
 /// \param output a file that is not there yet
-/// \param run progress, log, stop token and number of threads
 /// \return what io::write_points does.
 /// \throws BadParameter also for a skeleton of what is not a folder
 /// \throws BadInput when a file is missing, the coordinates are not metres or the frames differ
-/// \throws IoError
-/// \throws Cancelled
 MadePoints make_points(MakePointsParams const& params, std::string const& output, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -42,12 +42,9 @@ struct MadeTin {
 
 /// Reads a file and makes a TIN of what it holds: a DEM within an error; points, with breaklines; lines as breaklines.
 /// \param params files; breaklines are reprojected to the CRS of the points
-/// \param run progress, log, stop token and number of threads
 /// \return as the stages do.
 /// \throws BadParameter when an option does not belong to what the file holds
 /// \throws BadInput also when lines have no heights
-/// \throws IoError
-/// \throws Cancelled
 MadeTin make_tin(MakeTinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -19,8 +19,6 @@ struct Replayed {
 
 /// Makes FOLDER/recipe.toml again beside it and compares the bytes of every file but report.*; the folder is not
 /// touched.
-/// \param folder the folder
-/// \param run progress, log, stop token and number of threads
 /// \return the files that differ
 /// \throws BadInput when there is no recipe; what make_terrain throws
 Replayed replay(std::string const& folder, Run const& run = {});

@@ -52,10 +52,8 @@ struct Assessment {
 };
 
 /// Measures and checks land and rivers.
-/// \param plan the plan
 /// \param rivers made of it
 /// \param terrain what came of them
-/// \param run progress, log, stop token and number of threads
 /// \return measures and checks
 Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Run const& run = {});
 

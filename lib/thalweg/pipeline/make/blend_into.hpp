@@ -49,14 +49,9 @@ struct MadeBlend {
 /// earth; else it is measured in its own CRS or, where that is not in metres, in its UTM zone.
 /// \param target [m] the DEM that is changed; NaN: no data
 /// \param keep its cells that are kept
-/// \param params options, each with its default, unit and range; target names it in messages, keep is not read
-/// \param run progress, log, stop token and number of threads
+/// \param params target names it in messages, keep is not read
 /// \return the target with the patch in it, as the stages do
-/// \throws BadParameter
 /// \throws BadInput as the stages and doors do, also when a target in degrees is asked to take a turned patch
-/// \throws NotConverged
-/// \throws IoError
-/// \throws Cancelled
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -45,7 +45,6 @@ char const* key_of(LeftOut cause);
 char const* words_of(LeftOut cause);
 
 /// Accounts for the lines of a plan.
-/// \param plan the plan
 /// \param rivers made of it
 /// \param terrain made of them
 /// \return nothing where rivers are not read from lines
@@ -61,7 +60,6 @@ struct GivenHeights {
 };
 
 /// Compares the heights of a plan's lines with the DEM.
-/// \param plan the plan
 /// \param rivers made of it
 /// \param terrain made of them
 /// \return nothing where the network does not take all heights of a file, or there is no DEM
@@ -77,7 +75,6 @@ struct GivenAreas {
 };
 
 /// Compares the drainage areas of a plan's lines with those of the terrain.
-/// \param plan the plan
 /// \param rivers made of it
 /// \param terrain made of them
 /// \param ds_area_m2 [m2] by arc, at its lower end

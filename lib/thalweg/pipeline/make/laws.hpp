@@ -76,7 +76,6 @@ struct LawRow {
     measure::NaturalRange const* nature = nullptr;            ///< null where no range was published
 };
 
-/// \param laws the laws
 /// \return the laws one by one, always the same rows in the same order.
 std::vector<LawRow> law_rows(measure::NetworkLaws const& laws);
 

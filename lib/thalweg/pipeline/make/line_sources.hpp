@@ -12,7 +12,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 
-/// Which features a network's arcs are made of, whatever became of the arcs. Private to this module.
+/// Which features a network's arcs are made of, whatever became of the arcs.
 namespace thalweg::pipeline {
 
 /// Remembers by the vertices of a network which feature drew them: stages join, cut and shorten arcs, but keep vertices
@@ -21,21 +21,17 @@ class LineSources {
 public:
     LineSources() = default;
     /// \pre by arc its stretches.
-    /// \param network the network
     /// \param stretches by arc, the stretches of features it is made of
     LineSources(StreamNetwork const& network, std::vector<std::vector<Stretch>> const& stretches);
 
     bool knows_any() const { return knows_any_; }
     /// What is drawn beyond them (an outlet carried to the border) came from no feature.
-    /// \param network the network
     /// \return the stretches of arcs that are made of the network's vertices.
     std::vector<std::vector<Stretch>> of(StreamNetwork const& network) const;
-    /// \param network the network
     /// \return [m] of these stretches.
     double length_m(StreamNetwork const& network) const;
     /// The stretches of arcs of which some are cut and some were redrawn, as split_confluences leaves them: what is
     /// redrawn came from the feature of what it replaced.
-    /// \param network the network
     /// \return arcs made of features wholly still are so.
     std::vector<std::vector<Stretch>> redrawn(StreamNetwork const& network) const;
     /// \pre the network as it was.

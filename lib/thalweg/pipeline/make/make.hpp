@@ -23,20 +23,13 @@ struct Made {
     Recipe recipe; ///< recipe_of() these
 };
 
-/// \param plan the plan
 /// \param terrain what came of it
 /// \return the recipe with every default as it came out, also the frame and what the surface has decided: made again,
 /// it gives the same terrain.
 Recipe recipe_of(Plan const& plan, Terrain const& terrain);
 
 /// From a recipe to a terrain: rivers first, then the land around them; or land from numbers and points alone.
-/// \param recipe the recipe
-/// \param run progress, log, stop token and number of threads
 /// \return the same terrain for the same recipe, whatever the Run.
-/// \throws BadParameter
-/// \throws BadInput
-/// \throws IoError
-/// \throws Cancelled
 Made make(Recipe const& recipe, Run const& run = {});
 
 /// \param made a terrain

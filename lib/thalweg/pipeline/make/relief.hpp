@@ -22,11 +22,9 @@ struct TerrainRelief {
 };
 
 /// \param dem [m] heights by cell; NaN: no data
-/// \param run progress, log, stop token and number of threads
 /// \return relief of any DEM, drained for it, with the side that its cells have on the ground (io::ground_cell): a
 /// geographic one's too, though its cells count as squares.
 /// \throws Error as measure::statistics and ground_cell do
-/// \throws Cancelled
 TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 
 struct Plan;
@@ -35,8 +33,6 @@ struct Terrain;
 /// Relief of a surface with its statistics.
 /// \param plan the plan of the terrain
 /// \param terrain one with a surface
-/// \param statistics its statistics
-/// \param run progress, log, stop token and number of threads
 /// \return perched where it has rivers: by the mean slope that the plan asks for, else that of the land.
 TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measure::Statistics const& statistics,
                                 Run const& run = {});
@@ -52,7 +48,6 @@ struct ReliefRow {
     bool ok() const { return !value || !range || (*value >= range->low && *value <= range->high); }
 };
 
-/// \param relief relief metrics
 /// \return the figures one by one: those of measure::relief_metrics, the distance of the geomorphons from the mean of
 /// the reference DEMs, and perched cells where there are rivers.
 std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
@@ -62,7 +57,6 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
 /// \return in words what of texture and forms leaves the range of the reference DEMs; "" for nothing.
 std::string unlike_land(std::vector<ReliefRow> const& rows, bool rivers_of_file);
 
-/// \param relief relief metrics
 /// \return all of it beside the reference DEMs, as one JSON object: dem.relief in report.json, and what the page draws.
 std::string relief_json(TerrainRelief const& relief);
 

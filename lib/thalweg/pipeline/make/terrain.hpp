@@ -96,14 +96,8 @@ struct Terrain {
 };
 
 /// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
-/// \param plan the plan
 /// \param rivers those of the plan; make_rivers()
-/// \param run progress, log, stop token and number of threads
 /// \return the same terrain for the same plan and rivers, whatever the Run.
-/// \throws BadParameter
-/// \throws BadInput
-/// \throws IoError
-/// \throws Cancelled
 Terrain make_terrain(Plan const& plan, Rivers const& rivers, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -32,12 +32,10 @@ struct FramedBranch {
 
 /// Puts a branch into the middle of the grid asked for, or of a grid 5 % larger than its box. The frame follows from
 /// the branch alone: pruning does not move it.
-/// \param branch the branch
 /// \param wanted the grid of the recipe; 0: chosen
 /// \return the branch on its grid
 FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted);
 
-/// \param lines the polylines
 /// \param wanted the grid of the recipe; 0: chosen
 /// \return the grid asked for, or the lines' box and 5 % around it on multiples of the cell.
 /// \throws BadInput naming the first line outside an asked grid, unless clip is set; like require_no_stray_vertex where
@@ -49,7 +47,6 @@ Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
 /// \return the grid asked for, or a square one in which so many links of a tree lie some twelve cells apart.
 Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
 
-/// \param polygons the polygons
 /// \param wanted the grid of the recipe; 0: chosen
 /// \return the grid asked for, or the polygons' box and 5 % around it on multiples of the cell.
 /// \throws BadInput naming the first polygon that leaves an asked grid, unless clip is set
@@ -64,7 +61,6 @@ std::int64_t bytes_needed(std::int64_t cells);
 /// \throws BadInput when a terrain on this grid needs more memory than is free
 void check_memory(std::int64_t width, std::int64_t height);
 
-/// \param particles number of particles
 /// \throws BadInput when a cluster of this many particles needs more memory than is free
 void check_memory_of_cluster(std::int64_t particles);
 

@@ -17,19 +17,13 @@ namespace thalweg::pipeline {
 /// \throws BadInput when the path is neither, saying what it is
 Recipe recipe_from(std::string const& path);
 
-/// \param path path of the file
 /// \return the recipe for terrain in equilibrium with the rivers of a file or folder: grid.cell is 0, which chooses it
 /// from the rivers.
 /// \throws BadInput like io::find_rivers
 Recipe rivers_recipe(std::string const& path);
 
 /// Writes into a recipe what make_terrain() would choose from its rivers: CRS and cell size; paths become absolute.
-/// \param recipe the recipe
-/// \param run progress, log, stop token and number of threads
 /// \return the recipe
-/// \throws BadParameter
-/// \throws BadInput
-/// \throws IoError
 /// \throws Cancelled like make_terrain()
 Recipe settled_recipe(Recipe const& recipe, Run const& run = {});
 

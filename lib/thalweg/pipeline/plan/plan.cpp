@@ -33,6 +33,14 @@
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 namespace thalweg::pipeline {
+namespace {
+
+// Whether rivers are grown for a land in equilibrium: these run as in nature, which bends them.
+bool grown_for_land(Plan const& plan) {
+    return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe);
+}
+
+} // namespace
 
 void Diary::say(std::string const& words) const {
     auto const& [name, seconds] = timings_s_.back();
@@ -45,10 +53,6 @@ bool has_coastlines(Plan const& plan) {
     return rivers.source == Source::lines && rivers.lines.coastlines == Coastlines::sea &&
            std::any_of(lines.begin(), lines.end(),
                        [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
-}
-
-bool grown_for_land(Plan const& plan) {
-    return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe);
 }
 
 bool bends_rivers(Plan const& plan) {

@@ -47,7 +47,6 @@ struct Plan {
 /// Checks a recipe and its input files and settles all that follows from them. Rivers, strokes, regions, outlets and
 /// points are read here and nowhere else; what lies over the surface (masks, fields, lakes, patches) has to be there,
 /// and is read when the surface is drawn.
-/// \param recipe the recipe
 /// \return the same plan for the same recipe and files, whatever the Run.
 /// \throws BadParameter naming what does not fit together, and every key that is set and has no effect
 /// \throws BadInput where a file is missing or not what its key needs, or the grid needs more memory than is free
@@ -62,12 +61,10 @@ struct Forecast {
     double seconds = 0.0;            ///< estimated, on one core of 2020
 };
 
-/// \param plan the plan
 /// \return the stages that make() times, in its order, and estimates.
 Forecast forecast(Plan const& plan);
 
 /// Plans a recipe and says what a run would do, without running it.
-/// \param recipe the recipe
 /// \return the forecast of its plan
 /// \throws Error as resolve()
 Forecast forecast(Recipe const& recipe, Run const& run = {});

@@ -87,19 +87,15 @@ Recipe read_recipe(std::string const& toml, std::string const& name);
 
 /// Sets one key from "section.key=value"; "patch.2.key=value" of the second patch, or a new one after the last. A file
 /// is found from the working folder, wherever the recipe lies.
-/// \param recipe the recipe
 /// \param assignment "section.key=value"
 void set_key(Recipe& recipe, std::string const& assignment);
 
-/// \param recipe the recipe
 /// \return the recipe as TOML: every key that has an effect, defaults too. read_recipe gives it back.
 std::string write_recipe(Recipe const& recipe);
 
-/// \param recipe the recipe
 /// \return the title of what a recipe makes: output.title, or "thalweg, seed 7" where that is "".
 std::string title_of(Recipe const& recipe);
 
-/// \param recipe the recipe
 /// \throws BadParameter naming all that does not fit together (a source without its file, ...), and every key that is
 /// set away from its default and has no effect
 void check_recipe(Recipe const& recipe);

@@ -16,10 +16,7 @@ namespace thalweg::pipeline {
 /// inputs/ needs no connection and no other file.
 class UserFiles {
 public:
-    /// \param recipe the recipe
-    /// \param run progress, log, stop token and number of threads
     /// \throws BadInput when a source cannot be read
-    /// \throws IoError
     UserFiles(Recipe& recipe, Run const& run = {});
 
 private:

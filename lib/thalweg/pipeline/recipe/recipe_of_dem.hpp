@@ -20,7 +20,6 @@ struct DemRecipe {
 /// The recipe of a land with the statistics of a DEM.
 /// \pre the DEM, its CRS of any kind or ""; its statistics
 /// \param dem [m] heights by cell; NaN: no data
-/// \param statistics its statistics
 /// \param source its file name, whose stem becomes the title
 /// \return sections [grid] and [statistics] with mean, std, max, min, length, slope and dimension; what the heights do
 /// not tell, or no recipe may ask for, is left out and said in notes. The grid is the DEM's whole rectangle, holes

@@ -47,10 +47,7 @@ struct Look {
 std::string missing_for(PictureKind kind, Scene const& scene);
 
 /// Draws one picture of a scene.
-/// \param kind the kind
 /// \param scene what is drawn
-/// \param look size and style
-/// \param run progress, log, stop token and number of threads
 /// \return the picture
 /// \throws BadInput when something is missing for it; what the pictures throw
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run = {});

@@ -11,7 +11,6 @@
 namespace thalweg::pipeline {
 
 /// \param made a terrain with all that led to it
-/// \param files names of the files
 /// \return report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
 std::string write_report(Made const& made, std::vector<std::string> const& files);
 
@@ -19,15 +18,11 @@ std::string write_report(Made const& made, std::vector<std::string> const& files
 /// \return the files an earlier report.json lists; empty where the text is none.
 std::vector<std::string> files_of_report(std::string const& json);
 
-/// \param statistics its statistics
-/// \param laws the laws
-/// \param relief relief metrics
 /// \return statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null;
 /// relief: or null.
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
                             TerrainRelief const* relief = nullptr);
 
-/// \param checks the checks
 /// \return Checks as one JSON array, as they stand under "checks" in report.json.
 std::string checks_json(std::vector<Check> const& checks);
 

@@ -11,16 +11,11 @@
 
 namespace thalweg::pipeline {
 
-/// \param folder the folder
-/// \param existing what to do with an output that exists
 /// \throws BadInput when the folder is taken and may not be replaced: asked before the work, not after
 void check_folder(std::string const& folder, io::Existing existing);
 
 /// Writes everything `make` leaves behind into a folder, whole or not at all.
 /// \param made a terrain with all that led to it
-/// \param folder the folder
-/// \param existing what to do with an output that exists
-/// \param run progress, log, stop token and number of threads
 /// \return the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing
 /// else.
 /// \throws BadInput (the folder is taken), IoError, Cancelled: then nothing has changed

@@ -42,9 +42,6 @@ private:
 /// Whether coastlines of the rivers' file bound the land.
 bool has_coastlines(Plan const& plan);
 
-/// Whether rivers are grown for a land in equilibrium: these run as in nature, which bends them.
-bool grown_for_land(Plan const& plan);
-
 /// Whether rivers go through the stage that bends them.
 bool bends_rivers(Plan const& plan);
 
