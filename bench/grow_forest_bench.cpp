@@ -2,9 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
-#include <thalweg/network/growth/forest/plant_forest.hpp>
-#include <thalweg/network/growth/forest/shape_island.hpp>
-#include <thalweg/network/growth/forest/spread_outlets.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
 
 #include <network/plain_forest.hpp>
 

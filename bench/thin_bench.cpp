@@ -8,8 +8,7 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
-#include <thalweg/network/vectorise/thin.hpp>
-#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 
 // Thinning beside its yardsticks, items = cells of the grid; allocation counts. Then what follows it.
 namespace {

@@ -6,11 +6,9 @@
 // fewer streams than the one below.
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/pick_branch.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/network/vectorise/thin.hpp>
-#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
 #include <cstdio>

@@ -17,7 +17,7 @@ PLANTED = [
     ("lib/thalweg/core/raster.hpp", "#include <boost/graph/adjacency_list.hpp>", "in a header"),
     ("lib/thalweg/core/stream_network.hpp", "#include <boost/graph/graph_traits.hpp>", "in a header"),
     ("lib/thalweg/network/order/order.hpp", "#include <thalweg/core/stream_network_graph.hpp>", "belongs in a .cpp file"),
-    ("lib/thalweg/core/run/run.cpp", "#include <thalweg/network/vectorise/thin.hpp>", "dependencies point one way"),
+    ("lib/thalweg/core/run/run.cpp", "#include <thalweg/network/vectorise/vectorise.hpp>", "dependencies point one way"),
     ("lib/thalweg/io/raster/read_dem.cpp", "#include <thalweg/pipeline/recipe/recipe.hpp>", "dependencies point one way"),
     ("lib/thalweg/geometry/crossings.cpp", "#include <gdal.h>", "does not belong to geometry"),
     ("tools/commands/make.cpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "is for the .cpp files of network alone"),
@@ -76,7 +76,7 @@ INNOCENT = [
     ("tests/core/b_test.cpp", '    ASSERT_TRUE(rc::check("a law", [] {'),
     ("lib/thalweg/geometry/crossings.cpp", "#include <CGAL/Arrangement_2.h>"),
     ("lib/thalweg/solver/spectral/fft.cpp", "#include <unsupported/Eigen/FFT>"),
-    ("lib/thalweg/pipeline/make/terrain.cpp", "#include <thalweg/surface/dilation/dilation.hpp>\n#include <thalweg/network/vectorise/thin.hpp>"),
+    ("lib/thalweg/pipeline/make/terrain.cpp", "#include <thalweg/surface/dilation/dilation.hpp>\n#include <thalweg/network/vectorise/vectorise.hpp>"),
     ("lib/thalweg/pipeline/report/report.cpp", "#include <thalweg/pipeline/recipe/recipe.hpp>\n"
      "#include <thalweg/pipeline/make/internal/user_data.hpp>\n#include <thalweg/pipeline/report/pictures.hpp>"),
     ("lib/thalweg/pipeline/make/rivers.cpp", "Terrain f(Terrain terrain, Recipe const& recipe, Plan&& plan);"),

@@ -11,8 +11,7 @@
 
 #include <network/masks.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/network/vectorise/thin.hpp>
-#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 
 /// Networks to prune, order and raise, drawn by hand or at random.
 namespace test {

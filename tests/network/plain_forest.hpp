@@ -10,7 +10,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
-#include <thalweg/network/growth/forest/internal/forest_growth.hpp>
+#include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 /// The rules of grow_forest written out: every step of a walker is a unit step, every question is asked of all
 /// particles.

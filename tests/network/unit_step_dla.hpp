@@ -11,7 +11,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
 
 /// The oracle and yardstick of the growth: the same birth circle, return from afar and occupancy test, but every step
 /// of a walker is a unit step.

@@ -18,13 +18,10 @@
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/pick_branch.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/network/order/streams.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/network/vectorise/thin.hpp>
-#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
 namespace ridges_test {

@@ -8,9 +8,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
-#include <thalweg/network/growth/tokunaga/rewrite.hpp>
-#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
-#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/order/order.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/channels/choose_lakes.hpp>
+#include <thalweg/network/channels/lakes.hpp>
 
 #include <algorithm>
 
@@ -9,7 +9,6 @@
 
 #include <network/networks.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/channels/flood_lakes.hpp>
 
 namespace choose_lakes_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/channels/flood_lakes.hpp>
+#include <thalweg/network/channels/lakes.hpp>
 
 #include <algorithm>
 #include <limits>

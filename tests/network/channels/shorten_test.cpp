@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/channels/shorten.hpp>
+#include <thalweg/network/channels/channels.hpp>
 
 #include <algorithm>
 #include <set>

@@ -8,8 +8,7 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/channels/channels.hpp>
-#include <thalweg/network/channels/shorten.hpp>
-#include <thalweg/network/elevation/elevate_from_dem.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 

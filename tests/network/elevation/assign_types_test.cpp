@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/assign_types.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/drape.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 
 #include <algorithm>
 #include <functional>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/elevate_from_dem.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 
 #include <algorithm>
 #include <limits>
@@ -12,7 +12,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/channels/channels.hpp>
-#include <thalweg/network/elevation/channel_heights.hpp>
+#include <thalweg/network/vectorise/rasterise.hpp>
 
 namespace elevate_from_dem_test {
 

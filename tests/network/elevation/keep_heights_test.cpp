@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/elevation/keep_heights.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 
 #include <gtest/gtest.h>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/set_heights_by_type.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/set_heights_graded.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,7 +13,6 @@
 #include <network/networks.hpp>
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/elevation/set_heights.hpp>
 
 namespace set_heights_graded_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/order/streams.hpp>
+#include <thalweg/network/order/order.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,6 @@
 #include <network/plain_streams.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
-#include <thalweg/network/order/order.hpp>
 
 namespace streams_test {
 

@@ -12,7 +12,6 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/pick_branch.hpp>
 
 namespace rotate_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/vectorise/cut_corners.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
 
 #include <cmath>
 #include <cstdlib>
@@ -11,7 +11,6 @@
 
 #include <network/networks.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/vectorise/prune.hpp>
 
 namespace cut_corners_test {
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -12,7 +12,6 @@
 
 #include <network/masks.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/vectorise/thin.hpp>
 
 namespace trace_test {
 

@@ -12,7 +12,7 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 
 namespace laws_test {

@@ -8,7 +8,6 @@
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/network/order/streams.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/ridges.hpp>

@@ -6,11 +6,9 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/pick_branch.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
-#include <thalweg/network/vectorise/thin.hpp>
-#include <thalweg/network/vectorise/trace.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 

@@ -35,15 +35,31 @@ struct ChannelsOfArcs {
 /// unless they are sources, until nothing changes.
 /// \param network a forest inside the grid
 /// \param grid gives the cells (cells_along)
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return channels that keep their law, without heights. No two diagonal steps cross; no cell has a neighbour among
 /// the next look_cells but its receiver, unless a diagonal lies between. Sources and outlets stay, outlets inside the
 /// grid too.
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for a vertex outside the grid or a network that is not a forest
-/// \throws Cancelled
 ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, ChannelsParams const& params = {},
                         Run const& run = {});
+
+/// What shorten() returns.
+struct Shortened {
+    StreamNetwork network;
+    ChannelsOfArcs drawn; ///< the remaining channels, with new numbers of cells and arcs
+    /// "shortened", one an arc; where: its new upper end, or its old one if nothing remains; amount: [m]
+    std::vector<Finding> notes;
+};
+
+/// Removes dry upper reaches from a network and its channels.
+/// \param network the network the channels were drawn from
+/// \param drawn its channels
+/// \param gone numbers of channel cells; with a cell all that flow into it
+/// \return arcs begin on their line in their first remaining cell; arcs with no cell left but their end node's are
+/// removed, and where two arcs remain at a node that had more they are merged, as in prune. Lines are kept bit for bit
+/// from the new beginning.
+/// \throws BadInput for a number that is not a channel's, a removed cell with inflow that stays, or channels of another
+/// network
+Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std::vector<std::int64_t> const& gone);
 
 } // namespace thalweg::network

@@ -13,20 +13,109 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/network/channels/internal/drawn_lines.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
-
 namespace {
+
+// A place on a given arc.
+struct PlaceOnArc {
+    std::size_t arc = 0;
+    std::size_t segment = 0;
+    double along = 0.0; // [0, 1) on the segment
+    Vec2 at;
+
+    friend bool operator<(PlaceOnArc const& a, PlaceOnArc const& b) {
+        return std::tie(a.arc, a.segment, a.along) < std::tie(b.arc, b.segment, b.along);
+    }
+};
+
+std::size_t segments_of(StreamNetwork const& plan) {
+    std::size_t segments = 0;
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        segments += plan.arc(arc).line.size() - 1;
+    }
+    return segments;
+}
+
+// The drawn lines of given rivers, to find what is near.
+class DrawnLines {
+public:
+    DrawnLines(StreamNetwork const& plan, Grid const& grid)
+        : plan_(plan), cell_m_(grid.cell_m),
+          segments_({grid.west, grid.south()}, {grid.east(), grid.north}, 4.0 * grid.cell_m, segments_of(plan)) {
+        for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+            std::vector<Vec2> const& line = plan.arc(a).line;
+            for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+                segments_.add(owners_.size(), {line[k], line[k + 1]});
+                owners_.emplace_back(a, k);
+            }
+        }
+    }
+
+    bool come_near(Segment const& s, double margin_cells) const {
+        double const margin = margin_cells * cell_m_;
+        return !segments_.near(s, margin,
+                               [&](std::size_t n) { return squared_distance(segments_[n], s) > margin * margin; });
+    }
+
+    // The place nearest to p (ties: the first); none within a few cells.
+    std::optional<PlaceOnArc> nearest(Vec2 p) const {
+        for (double reach = first_reach_cells; reach <= last_reach_cells; reach *= 2.0) {
+            double best = reach * cell_m_;
+            std::optional<std::size_t> found;
+            segments_.near({p, p}, best, [&](std::size_t n) {
+                double const d = distance(p, geometry::foot_on(segments_[n].a, segments_[n].b, p).at);
+                if (d < best || (d == best && found && owners_[n] < owners_[*found])) {
+                    best = d;
+                    found = n;
+                }
+                return true;
+            });
+            if (found) {
+                auto const [arc, segment] = owners_[*found];
+                geometry::Foot const foot = geometry::foot_on(segments_[*found].a, segments_[*found].b, p);
+                return settled({arc, segment, foot.along, foot.at});
+            }
+        }
+        return std::nullopt;
+    }
+
+private:
+    // The nearest line is looked for within these, doubling, so that few segments are looked at.
+    static constexpr double first_reach_cells = 1.5;
+    static constexpr double last_reach_cells = 12.0;
+    static constexpr double same_cells = 1e-3; // places as near are one
+
+    // The place moved to the vertex it is next to.
+    PlaceOnArc settled(PlaceOnArc place) const {
+        std::vector<Vec2> const& line = plan_.arc(place.arc).line;
+        double const near = same_cells * cell_m_;
+        if (distance(place.at, line[place.segment + 1]) <= near) {
+            return {place.arc, place.segment + 1, 0.0, line[place.segment + 1]};
+        }
+        return distance(place.at, line[place.segment]) <= near
+                   ? PlaceOnArc{place.arc, place.segment, 0.0, line[place.segment]}
+                   : place;
+    }
+
+    StreamNetwork const& plan_;
+    double cell_m_;
+    SegmentGrid segments_;
+    std::vector<std::pair<std::size_t, std::size_t>> owners_; // by segment: arc and segment of it
+};
 
 constexpr double on_line_cells = 0.3; ///< a cell whose centre is as near to a drawn line is that river's
 constexpr double least_fall_m = 1e-3;
 
-enum Kind : std::uint8_t { nothing, valley, last, outlet };
+enum CellKind : std::uint8_t { nothing, valley, last, outlet };
 
 /// A valley that the land has grown, between nodes.
 struct Grown {

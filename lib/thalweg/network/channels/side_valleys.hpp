@@ -32,15 +32,12 @@ struct SideValleys {
 /// \param channels channels of the input rivers
 /// \param dem [m] by cell; NaN: no data
 /// \param flow flow field of the DEM
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return input arcs first, split where valleys join, their vertices kept bit for bit; then side valleys
 /// (Arc::is_input is false) along the D8 flow paths of cells outside the channels with the support, to the nearest
 /// point of the input line they join, or to the border. Their heights are those of the cells, but not below the next
 /// one downstream. Arcs meet only at nodes.
 /// \throws BadParameter when support_cells is below 1
 /// \throws BadInput for rasters on different grids
-/// \throws Cancelled
 ///
 /// Source: \cite ocallaghan1984.
 SideValleys side_valleys(ElevatedNetwork const& given, Channels const& channels, Raster<float> const& dem,

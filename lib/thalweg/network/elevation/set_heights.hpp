@@ -3,9 +3,12 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
 
 namespace thalweg::network {
 
@@ -39,13 +42,61 @@ struct Elevated {
 
 /// Assigns heights above the outlet (z = 0) from one slope; vertices are interpolated by length.
 /// \param network a forest
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return with straight_repaired and along_stream every arc falls strictly; no node is lower than with `straight`
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for an arc of length 0 or a network that is not a forest
 ///
 /// Source: \cite cao2009, section 3.3, figure 5; specification 0.3 (majorant with least slope 0.01 s).
 Elevated set_heights(StreamNetwork const& network, HeightParams const& params = {}, Run const& run = {});
+
+/// Options of set_heights_graded().
+struct GradedParams {
+    double slope = 0.087;           ///< [m/m] > 0, mean slope of the main stem
+    double theta = 0.38;            ///< [0, 1] concavity index; 0: all rivers equally steep
+    Required<double> least_area_m2; ///< [m2] > 0, e.g. a cell's: smaller areas count as this
+};
+
+/// What set_heights_graded() returns.
+struct Graded {
+    ElevatedNetwork network;
+    double steepness = 0.0; ///< [m^(2 theta)] k_s; 0: no rivers
+};
+
+/// Assigns heights above the outlet (z = 0) by the slope-area law of graded rivers, S = k_s A^-theta.
+/// \param network a forest
+/// \param us_area_m2 [m2] by arc: drainage area at its upper end
+/// \param ds_area_m2 [m2] by arc: drainage area at its lower end
+/// \return the integral of S, with A linear by length along an arc. One k_s for all, such that the main stem (the
+/// longest flow path; ties: lower node) has the mean slope `slope`. Every arc falls strictly.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for an arc of length 0, a network that is not a forest, or areas that are not one number >= 0 per
+/// arc
+///
+/// Source: \cite flint1974, stream gradient as a function of order, magnitude and discharge.
+Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
+                          std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run = {});
+
+/// How an arc's slope is chosen from its type's range.
+enum class SlopeDraw : std::uint8_t {
+    middle, ///< the class's typical slope (SlopeRange::usual)
+    uniform ///< random, uniform over the range
+};
+
+/// Options of set_heights_by_type().
+struct HeightsByTypeParams {
+    SlopeDraw draw = SlopeDraw::middle;
+    std::uint64_t seed = 0; ///< random seed, for SlopeDraw::uniform
+};
+
+/// Assigns heights above the outlet (z = 0) from the slopes of river types; vertices are interpolated by length.
+/// \param network a forest
+/// \param types by arc
+/// \return an arc falls by a slope from its type's range times its length. Random slopes are a hash of the seed and the
+/// position of the arc's upper end.
+/// \throws BadInput for an arc of length 0, a network that is not a forest, or types of another network
+///
+/// Source: \cite nenu2015, section 3 and table 2; specification 3.3.
+ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
+                                    HeightsByTypeParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/import/fill_heights.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {

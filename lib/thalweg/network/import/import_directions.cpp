@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/import/internal/import_directions.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 #include <algorithm>
 #include <array>
@@ -13,7 +13,6 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/import/internal/import_reaches.hpp>
-#include <thalweg/network/import/internal/import_tree.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {

@@ -11,7 +11,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/import/internal/import_channels.hpp>
-#include <thalweg/network/import/internal/import_tree.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 // Every node gets one main branch out of it. These make trees but for circles, which are opened; of the other branches
 // those stay that nobody knows the direction of for certain and that close no loop: orient may turn them round.

@@ -11,9 +11,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/import/internal/import_directions.hpp>
-#include <thalweg/network/import/internal/import_steps.hpp>
-#include <thalweg/network/import/internal/import_tree.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network {
 namespace {

@@ -7,7 +7,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/import/internal/import_tree.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 // A component is a tree, so its outlet alone says which way every piece runs. Each kind of evidence is a vote of every
 // piece for one of its ends; the outlet is the node against which the least length votes.

@@ -9,7 +9,7 @@
 #include <tuple>
 #include <utility>
 
-#include <thalweg/network/import/internal/import_tree.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {

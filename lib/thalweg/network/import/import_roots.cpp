@@ -11,7 +11,7 @@
 #include <utility>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/network/import/internal/import_tree.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {

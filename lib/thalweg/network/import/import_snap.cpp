@@ -9,7 +9,7 @@
 
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {

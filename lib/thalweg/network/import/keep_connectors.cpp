@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/import/keep_connectors.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -16,7 +16,7 @@
 
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -137,10 +137,10 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
 }
 
 /// Artificial channels as a graph of their vertices.
-class Channels {
+class ChannelGraph {
 public:
-    Channels(std::vector<RiverLine> const& channels, std::vector<RiverLine> const& rivers, double snap_m,
-             Run const& run)
+    ChannelGraph(std::vector<RiverLine> const& channels, std::vector<RiverLine> const& rivers, double snap_m,
+                 Run const& run)
         : lines_(channels) {
         for (std::size_t l = 0; l < channels.size(); ++l) {
             auto const& v = channels[l].vertices;
@@ -299,7 +299,7 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
     if (!rivers.lines.empty()) {
         double const near_m = snap_m > 0.0 ? snap_m : 1e-6 * import_steps::diagonal_of(rivers.lines);
         Rivers found = rivers_in(rivers.lines, near_m, run);
-        Channels const graph(channels, rivers.lines, near_m, run);
+        ChannelGraph const graph(channels, rivers.lines, near_m, run);
         for (Rivers::Sink const& sink : found.sinks) {
             run.check();
             std::size_t into = nowhere;

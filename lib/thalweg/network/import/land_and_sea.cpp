@@ -3,7 +3,7 @@
 #include <thalweg/network/import/land_and_sea.hpp>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 
 #include <algorithm>

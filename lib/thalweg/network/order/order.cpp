@@ -3,10 +3,43 @@
 #include <thalweg/network/order/order.hpp>
 
 #include <algorithm>
+#include <cmath>
+#include <cstddef>
 
+#include <fmt/format.h>
+
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
+
+void require_trees(StreamNetwork const& network, std::string_view who) {
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        // A sum of square roots is a finite number only if every coordinate is one.
+        if (!std::isfinite(network.length_m(a))) {
+            throw BadInput(fmt::format("{}: arc {} has a coordinate that is not a number; mend the line", who, a + 1));
+        }
+    }
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.out_arcs(n).size() > 1) {
+            throw BadInput(fmt::format("{}: {} arcs leave the node at ({:.3f}, {:.3f}); a river may leave a node once, "
+                                       "remove the bifurcation",
+                                       who, network.out_arcs(n).size(), network.node(n).at.x, network.node(n).at.y));
+        }
+    }
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.out(n) != no_arc && network.basin(n) == 0) {
+            NodeId on_cycle = n;
+            for (std::size_t step = 0; step < network.node_count(); ++step) {
+                on_cycle = network.to(network.out(on_cycle));
+            }
+            throw BadInput(fmt::format("{}: the rivers run in a circle through the node at ({:.3f}, {:.3f}); turn or "
+                                       "remove one of them",
+                                       who, network.node(on_cycle).at.x, network.node(on_cycle).at.y));
+        }
+    }
+}
 
 namespace {
 
@@ -70,6 +103,100 @@ NetworkOrders order(StreamNetwork const& network) {
         }
     }
     return orders;
+}
+
+std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders) {
+    require_trees(network, "network.streams");
+    std::size_t const arcs = network.arc_count();
+    if (orders.strahler.size() != arcs) {
+        throw BadInput(
+            fmt::format("network.streams: {} orders for {} arcs; order this network", orders.strahler.size(), arcs));
+    }
+    std::vector<std::size_t> mouth(arcs); // the last arc of the stream
+    for (NodeId const n : network.upstream_order()) {
+        if (ArcId const a = network.out(n); a != no_arc) {
+            ArcId const below = network.out(network.to(a));
+            mouth[a] = below != no_arc && orders.strahler[below] == orders.strahler[a] ? mouth[below] : a;
+        }
+    }
+    std::vector<std::int64_t> number(arcs, 0);
+    std::int64_t count = 0;
+    for (std::size_t a = 0; a < arcs; ++a) {
+        if (mouth[a] == a) {
+            number[a] = ++count;
+        }
+    }
+    std::vector<std::int64_t> labels;
+    for (std::size_t a = 0; a < arcs; ++a) {
+        labels.push_back(number[mouth[a]]);
+    }
+    return labels;
+}
+
+StreamCounts count_streams(std::vector<std::int64_t> const& down) {
+    std::size_t const links = down.size();
+    StreamCounts counts;
+    counts.links = static_cast<std::int64_t>(links);
+    std::size_t orders = 0;
+    Indexed<std::int64_t, std::size_t> order(links, 1);
+    Indexed<std::int64_t, std::size_t> highest(links, 0); // of those above
+    Indexed<std::int64_t, int> equals(links, 0);          // of those above, of the highest order
+    for (std::size_t i = links; i-- > 0;) {
+        if (down[i] >= static_cast<std::int64_t>(i)) {
+            throw BadInput(fmt::format("network.count_streams: link {} flows into link {}; number them from the outlet",
+                                       i, down[i]));
+        }
+        counts.sources += highest[i] == 0 ? 1 : 0;
+        order[i] = std::max<std::size_t>(1, highest[i] + (equals[i] > 1 ? 1 : 0));
+        orders = std::max(orders, order[i]);
+        if (down[i] >= 0) {
+            std::int64_t const below = down[i];
+            if (order[i] > highest[below]) {
+                highest[below] = order[i];
+                equals[below] = 0;
+            }
+            equals[below] += order[i] == highest[below] ? 1 : 0;
+        }
+    }
+    counts.order = static_cast<int>(orders);
+    counts.streams.assign(orders, 0);
+    counts.branches.assign(orders, {});
+    for (std::size_t w = 0; w < orders; ++w) {
+        counts.branches[w].assign(w, 0);
+    }
+    for (std::size_t i = 0; i < links; ++i) {
+        bool const mouth = down[i] < 0;
+        if (mouth || order[down[i]] != order[i]) {
+            ++counts.streams[order[i] - 1];
+        }
+        // The two that make a stream of the next order are none of its side branches.
+        if (!mouth && order[down[i]] > order[i] && !(highest[down[i]] == order[i] && order[down[i]] == order[i] + 1)) {
+            ++counts.branches[order[down[i]] - 1][order[down[i]] - order[i] - 1];
+        }
+    }
+    for (std::size_t k = 1; k < orders; ++k) {
+        std::int64_t side = 0;
+        std::int64_t streams = 0;
+        for (std::size_t w = k; w < orders; ++w) {
+            side += counts.branches[w][k - 1];
+            streams += counts.streams[w];
+        }
+        counts.side.push_back(static_cast<double>(side) / static_cast<double>(streams));
+    }
+    return counts;
+}
+
+StreamCounts count_streams(StreamNetwork const& network) {
+    std::vector<std::int64_t> place(network.arc_count(), -1); // downstream before upstream
+    std::vector<std::int64_t> down;
+    for (NodeId const n : network.upstream_order()) {
+        if (ArcId const arc = network.out(n); arc != no_arc) {
+            ArcId const below = network.out(network.to(arc));
+            place[arc] = static_cast<std::int64_t>(down.size());
+            down.push_back(below == no_arc ? -1 : place[below]);
+        }
+    }
+    return count_streams(down);
 }
 
 } // namespace thalweg::network

@@ -2,6 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <vector>
+
 #include <thalweg/core/stream_network.hpp>
 
 namespace thalweg::network {
@@ -14,5 +17,39 @@ namespace thalweg::network {
 ///
 /// Source: \cite strahler1957; \cite shreve1966; \cite hack1957.
 NetworkOrders order(StreamNetwork const& network);
+
+/// Labels streams, chains of arcs of one Strahler order.
+/// \param network a forest
+/// \param orders orders of this network
+/// \return by arc: labels from 1 in the order of the streams' last arcs; an arc has the label of the arc it flows into
+/// exactly if both have one order and stream
+/// \throws BadInput for orders of another network or a network that is not a forest
+///
+/// Source: \cite strahler1957.
+std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders);
+
+/// Numbers of streams by Strahler order, and of side branches.
+struct StreamCounts {
+    std::int64_t links = 0;                          ///< all
+    std::int64_t sources = 0;                        ///< links without others upstream
+    int order = 0;                                   ///< of the outlet, the highest of several
+    std::vector<std::int64_t> streams;               ///< by order - 1: N_w
+    std::vector<std::vector<std::int64_t>> branches; ///< [w-1][k-1]: side branches of order w-k of streams of order w
+    std::vector<double> side; ///< by k - 1: T_k, side branches k orders lower, the mean over streams of all orders
+};
+
+/// Counts streams and their side branches. Where three or more links meet, all but one of the highest order are
+/// branches.
+/// \param down by link: the link downstream, a lower number; -1: none
+/// \return counts by Strahler's rule
+/// \throws BadInput when a link flows into one with a higher number
+///
+/// Source: \cite strahler1957; \cite tokunaga1978; \cite peckham1995.
+StreamCounts count_streams(std::vector<std::int64_t> const& down);
+
+/// Counts the streams of a network, whose arcs are the links.
+/// \param network a forest
+/// \return as above
+StreamCounts count_streams(StreamNetwork const& network);
 
 } // namespace thalweg::network

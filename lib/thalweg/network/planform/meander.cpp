@@ -15,9 +15,8 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
-#include <thalweg/network/planform/internal/bend.hpp>
 #include <thalweg/network/planform/internal/keep_apart.hpp>
-#include <thalweg/network/planform/internal/lean_in.hpp>
+#include <thalweg/network/planform/internal/meander.hpp>
 
 namespace thalweg::network {
 

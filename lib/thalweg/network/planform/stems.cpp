@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/planform/internal/stems.hpp>
+#include <thalweg/network/planform/internal/meander.hpp>
 
 #include <algorithm>
 #include <cmath>

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <queue>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,7 +16,6 @@
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
 
 namespace thalweg::network {
-
 namespace {
 
 /// Lengths are counted in whole units of 2^-24 cells a segment: then the sum of the pieces is the length of the merged
@@ -204,6 +204,88 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     pruned.network =
         least > 0 ? keep_arcs(std::move(with_thresholds), units, kept).network : std::move(with_thresholds);
     return pruned;
+}
+
+KeptArcs keep_arcs(StreamNetwork const& network, std::vector<std::int64_t> const& lengths,
+                   std::vector<std::uint8_t> const& kept, Merge merge) {
+    std::vector<std::int64_t> arriving(network.node_count(), 0);
+    for (std::size_t a = 0; a < kept.size(); ++a) {
+        arriving[network.to(a)] += kept[a];
+    }
+    auto const leaves = [&](NodeId n) { return network.out(n) != no_arc && kept[network.out(n)] != 0; };
+
+    auto const is_merged = [&](NodeId n) {
+        return arriving[n] == 1 && leaves(n) && (merge == Merge::all || network.in(n).size() > 1);
+    };
+
+    KeptArcs out;
+    std::vector<NodeId> node(network.node_count(), 0);
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if ((leaves(n) || arriving[n] > 0) && !is_merged(n)) {
+            node[n] = out.network.add_node(network.node(n).at);
+        }
+    }
+    for (std::size_t a = 0; a < kept.size(); ++a) {
+        if (kept[a] == 0 || is_merged(network.from(a))) {
+            continue;
+        }
+        Arc arc = network.arc(a);
+        std::size_t piece = a;
+        std::size_t longest = a;
+        std::vector<std::size_t>& pieces = out.pieces.emplace_back(1, a);
+        while (is_merged(network.to(piece))) {
+            piece = network.out(network.to(piece));
+            pieces.push_back(piece);
+            std::vector<Vec2> const& line = network.arc(piece).line;
+            arc.line.insert(arc.line.end(), line.begin() + 1, line.end());
+            longest = lengths[piece] > lengths[longest] ? piece : longest;
+        }
+        arc.feature = network.arc(longest).feature;
+        arc.type = network.arc(longest).type;
+        arc.is_input = network.arc(longest).is_input;
+        out.network.add_arc(node[network.from(a)], node[network.to(piece)], std::move(arc));
+    }
+    return out;
+}
+
+namespace {
+
+constexpr double of_cell = 1e-6; // centres of cells far from the origin are rounded
+
+bool is_one(double step, double cell_m) {
+    return std::fabs(std::fabs(step) - cell_m) <= of_cell * cell_m;
+}
+
+bool is_none(double step, double cell_m) {
+    return std::fabs(step) <= of_cell * cell_m;
+}
+
+bool is_corner(Vec2 a, Vec2 b, Vec2 c, double cell_m) {
+    bool const across = is_one(b.x - a.x, cell_m) && is_none(b.y - a.y, cell_m) && is_none(c.x - b.x, cell_m) &&
+                        is_one(c.y - b.y, cell_m);
+    bool const along = is_none(b.x - a.x, cell_m) && is_one(b.y - a.y, cell_m) && is_one(c.x - b.x, cell_m) &&
+                       is_none(c.y - b.y, cell_m);
+    return across || along;
+}
+
+} // namespace
+
+StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run) {
+    require_in("network.cut_corners", "cell", cell_m, Range::above(0.0), "m");
+    NetworkDraft shorter = network.draft();
+    for (DraftArc& drawn : shorter.arcs) {
+        run.check();
+        std::vector<Vec2>& line = drawn.arc.line;
+        std::vector<Vec2> cut;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            bool const inner = !cut.empty() && i + 1 < line.size();
+            if (!inner || !is_corner(cut.back(), line[i], line[i + 1], cell_m)) {
+                cut.push_back(line[i]);
+            }
+        }
+        line = std::move(cut);
+    }
+    return shorter;
 }
 
 } // namespace thalweg::network

@@ -26,8 +26,6 @@ struct Pruned {
 /// L. Of equal leaves the one with the northernmost, then westernmost source goes first. A merged arc keeps the feature
 /// and type of its longest piece; a basin whose arcs are all too short disappears.
 /// \param network a forest
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return no leaf is shorter than L, only outlets have degree two; kept(L2) is a subset of kept(L1) for L1 < L2.
 /// Persistence is the running maximum of removed lengths [cells]: an arc is kept exactly for L <= persistence * cell_m.
 /// Lengths are whole multiples of 2^-24 cells per segment; L is rounded up to one.
@@ -36,5 +34,16 @@ struct Pruned {
 ///
 /// Source: \cite cao2009, equation 2, applied to leaves to a fixpoint (specification 0.2).
 Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const& run = {});
+
+/// Cuts L-shaped corners of arcs that run from cell to cell, as pruning leaves them at former confluences: D8 flow
+/// takes the diagonal.
+/// \param network vertices at cell centres
+/// \param cell_m [m] > 0, cell size
+/// \return without the vertices whose neighbours on the arc are one cell to the side and one above or below; of
+/// successive corners every second is kept. Other vertices, nodes and arc numbers stay. Cutting again changes nothing.
+/// \throws BadParameter when cell_m is outside its range
+///
+/// Source: m-adjacency (specification 0.2) of the pruned network.
+StreamNetwork cut_corners(StreamNetwork const& network, double cell_m, Run const& run = {});
 
 } // namespace thalweg::network

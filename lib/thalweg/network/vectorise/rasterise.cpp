@@ -4,8 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <limits>
-#include <numeric>
 #include <utility>
 
 #include <fmt/format.h>
@@ -14,7 +14,6 @@
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::network {
-
 namespace {
 
 /// A cell of a reach and the one after it, both by index.
@@ -105,6 +104,22 @@ Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
     }
     lower_downstream(std::move(steps), out);
     return out;
+}
+
+std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels) {
+    Raster<float> const drawn = rasterise(network, channels.grid).valley.z;
+    Indexed<ChannelId, float> z;
+    z.reserve(channels.cell.size());
+    for (std::int64_t const cell : channels.cell) {
+        z.push_back(drawn[cell]);
+    }
+    for (std::size_t i = z.size(); i-- > 0;) { // donors before their receivers
+        if (channels.receiver[i] >= 0) {
+            float& below = z[channels.receiver[i]];
+            below = z[i] < below ? z[i] : below;
+        }
+    }
+    return z;
 }
 
 } // namespace thalweg::network

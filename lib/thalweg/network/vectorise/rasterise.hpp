@@ -3,7 +3,9 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
+#include <thalweg/core/channels.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 
@@ -25,5 +27,12 @@ struct Rasterised {
 ///
 /// Source: \cite cao2009, section 3.3; specification 0.3.
 Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid);
+
+/// Converts the heights of rivers to heights of channel cells.
+/// \param network the rivers, with heights
+/// \param channels channels of this network
+/// \return [m] by channel cell: as rasterise, lowered so that no receiver is above its donor; NaN where no arc runs
+/// \throws BadInput as rasterise
+std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels);
 
 } // namespace thalweg::network

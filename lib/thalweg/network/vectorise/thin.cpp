@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/vectorise/thin.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 
 #include <algorithm>
 #include <array>

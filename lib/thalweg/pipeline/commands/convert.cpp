@@ -19,7 +19,7 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/network/elevation/drape.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>

@@ -22,8 +22,8 @@
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
-#include <thalweg/network/import/clip_lines.hpp>
 #include <thalweg/network/import/import_lines.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>

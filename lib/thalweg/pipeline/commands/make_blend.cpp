@@ -16,7 +16,7 @@
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {

@@ -18,11 +18,10 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/network/elevation/lower_rises.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
-#include <thalweg/network/import/keep_connectors.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/network/vectorise/cut_loops.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
 

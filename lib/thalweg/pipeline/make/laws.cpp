@@ -9,7 +9,6 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 

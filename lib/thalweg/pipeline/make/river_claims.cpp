@@ -15,7 +15,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -11,14 +11,12 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/network/elevation/keep_heights.hpp>
-#include <thalweg/network/elevation/set_heights_graded.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
-#include <thalweg/network/order/count_streams.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
-#include <thalweg/network/vectorise/cut_corners.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/rivers.hpp>

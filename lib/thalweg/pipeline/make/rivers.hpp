@@ -10,9 +10,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
-#include <thalweg/network/elevation/assign_types.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 

@@ -15,7 +15,7 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/network/order/streams.hpp>
+#include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>

@@ -16,8 +16,8 @@
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
-#include <thalweg/network/elevation/assign_types.hpp>
-#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
+#include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>

@@ -15,14 +15,12 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
-#include <thalweg/network/channels/choose_lakes.hpp>
-#include <thalweg/network/channels/flood_lakes.hpp>
-#include <thalweg/network/channels/shorten.hpp>
+#include <thalweg/network/channels/lakes.hpp>
 #include <thalweg/network/channels/side_valleys.hpp>
-#include <thalweg/network/elevation/channel_heights.hpp>
-#include <thalweg/network/elevation/elevate_from_dem.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>

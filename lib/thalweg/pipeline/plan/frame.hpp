@@ -7,7 +7,7 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
-#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {

@@ -20,10 +20,9 @@
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/polygons.hpp>
-#include <thalweg/network/growth/forest/plant_forest.hpp>
-#include <thalweg/network/growth/forest/shape_island.hpp>
-#include <thalweg/network/growth/forest/spread_outlets.hpp>
-#include <thalweg/network/import/clip_lines.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/plan/internal/frame.hpp>

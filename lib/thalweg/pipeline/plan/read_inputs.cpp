@@ -19,8 +19,7 @@
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
-#include <thalweg/network/import/fill_heights.hpp>
-#include <thalweg/network/import/keep_connectors.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/pipeline/plan/internal/frame.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/flow/condition.hpp>
-#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/report/internal/report.hpp>

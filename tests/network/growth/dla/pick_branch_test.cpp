@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/dla/pick_branch.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 
 #include <thalweg/core/run/error.hpp>
 

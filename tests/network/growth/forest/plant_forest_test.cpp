@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/forest/plant_forest.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/forest/shape_island.hpp>
-#include <thalweg/network/growth/forest/spread_outlets.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
 #include <thalweg/network/order/order.hpp>
 
 #include <network/growth_params.hpp>

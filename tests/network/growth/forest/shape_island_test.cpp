@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/forest/shape_island.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/growth/forest/spread_outlets.hpp>
 
 #include <network/masks.hpp>
 #include <support.hpp>

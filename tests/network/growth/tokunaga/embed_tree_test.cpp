@@ -15,7 +15,7 @@
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/network/growth/tokunaga/internal/polygon.hpp>
+#include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
 
 namespace embed_tree_test {

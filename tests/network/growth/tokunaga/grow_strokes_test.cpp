@@ -15,9 +15,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
-#include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
-#include <thalweg/network/growth/tokunaga/internal/stroke_lands.hpp>
+#include <thalweg/network/growth/tokunaga/internal/grow_strokes.hpp>
 #include <thalweg/network/order/order.hpp>
 
 namespace grow_strokes_test {

@@ -10,7 +10,7 @@
 #include <network/plain_streams.hpp>
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/order/count_streams.hpp>
+#include <thalweg/network/order/order.hpp>
 
 namespace grow_tokunaga_test {
 

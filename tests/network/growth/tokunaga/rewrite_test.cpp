@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/tokunaga/rewrite.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>

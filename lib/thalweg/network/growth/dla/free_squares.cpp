@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/dla/internal/free_squares.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
 
 #include <algorithm>
 #include <array>

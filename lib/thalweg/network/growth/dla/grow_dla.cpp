@@ -13,7 +13,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/network/growth/dla/internal/tiled_bytes.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/network/growth/forest/internal/forest_growth.hpp>
+#include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 namespace thalweg::network {
 

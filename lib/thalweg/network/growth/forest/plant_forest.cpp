@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/forest/plant_forest.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
 
 #include <algorithm>
 #include <cstddef>
@@ -15,8 +15,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
-#include <thalweg/network/growth/forest/internal/room_in.hpp>
-#include <thalweg/network/growth/forest/spread_outlets.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
+#include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 namespace thalweg::network {
 

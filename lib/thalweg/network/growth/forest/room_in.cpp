@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/forest/internal/room_in.hpp>
+#include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 #include <algorithm>
 

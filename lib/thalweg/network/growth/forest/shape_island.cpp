@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/forest/shape_island.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
 
 #include <algorithm>
 #include <cmath>

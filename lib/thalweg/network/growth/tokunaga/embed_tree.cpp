@@ -14,10 +14,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/network/growth/tokunaga/internal/join_links.hpp>
-#include <thalweg/network/growth/tokunaga/internal/polygon.hpp>
-#include <thalweg/network/growth/tokunaga/internal/settle_links.hpp>
-#include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
+#include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 
 namespace thalweg::network {
 

@@ -7,13 +7,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
-#include <thalweg/network/growth/tokunaga/internal/balance_banks.hpp>
-#include <thalweg/network/growth/tokunaga/internal/join_links.hpp>
-#include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
-#include <thalweg/network/growth/tokunaga/internal/polygon.hpp>
-#include <thalweg/network/growth/tokunaga/internal/settle_links.hpp>
-#include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
-#include <thalweg/network/growth/tokunaga/internal/stroke_lands.hpp>
+#include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
+#include <thalweg/network/growth/tokunaga/internal/grow_strokes.hpp>
 
 #include <fmt/format.h>
 

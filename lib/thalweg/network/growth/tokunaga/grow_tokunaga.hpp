@@ -8,7 +8,6 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
 
 namespace thalweg::network {
 

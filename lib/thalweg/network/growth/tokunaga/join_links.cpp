@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/tokunaga/internal/join_links.hpp>
+#include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 
 #include <algorithm>
 #include <utility>

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
+#include <thalweg/network/growth/tokunaga/internal/grow_strokes.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/elevation/rosgen.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
 
 #include <fmt/format.h>
 

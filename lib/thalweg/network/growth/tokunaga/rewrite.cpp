@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/tokunaga/rewrite.hpp>
+#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 #include <charconv>
 #include <cmath>

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/tokunaga/internal/stroke_lands.hpp>
+#include <thalweg/network/growth/tokunaga/internal/grow_strokes.hpp>
 
 #include <thalweg/geometry/nearby.hpp>
 

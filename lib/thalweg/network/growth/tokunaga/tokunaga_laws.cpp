@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/tokunaga/tokunaga_laws.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 
 #include <cmath>
 

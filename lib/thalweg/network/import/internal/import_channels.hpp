@@ -5,7 +5,7 @@
 #include <cstddef>
 #include <vector>
 
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 /// Which of several channels is the main one. Private to this module.
 namespace thalweg::network::import_steps {

@@ -4,7 +4,7 @@
 
 #include <vector>
 
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 /// Which way pieces run where the file does not say. Private to this module.
 namespace thalweg::network::import_steps {

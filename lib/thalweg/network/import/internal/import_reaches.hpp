@@ -8,7 +8,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 /// Pieces as a graph of reaches, and the score of every root that its components could have:
 /// docs/algorithms/river_directions.md. Private to this module.

@@ -7,7 +7,7 @@
 #include <string>
 #include <vector>
 
-#include <thalweg/network/import/internal/import_steps.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
 
 /// Trees of pieces and what votes for their direction. Private to this module.
 namespace thalweg::network::import_steps {

@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/planform/internal/stems.hpp>
+#include <thalweg/network/planform/internal/meander.hpp>
 
 /// Steps of meander. Private to this module.
 namespace thalweg::network {

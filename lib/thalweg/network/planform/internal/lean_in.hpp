@@ -5,7 +5,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/network/planform/internal/stems.hpp>
+#include <thalweg/network/planform/internal/meander.hpp>
 
 /// One step of meander. Private to this module.
 namespace thalweg::network {

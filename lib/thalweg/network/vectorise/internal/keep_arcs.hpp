@@ -8,7 +8,7 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// What pruning and shortening share. Private to this module.
+/// What pruning and shortening share.
 namespace thalweg::network {
 
 /// Which nodes of one arc in and one out are merged.

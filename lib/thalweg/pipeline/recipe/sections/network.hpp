@@ -7,10 +7,9 @@
 #include <string>
 
 #include <thalweg/io/network/read_rivers.hpp>
-#include <thalweg/network/elevation/rosgen.hpp>
-#include <thalweg/network/elevation/set_heights_by_type.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
-#include <thalweg/network/growth/dla/pick_branch.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/import/import_lines.hpp>

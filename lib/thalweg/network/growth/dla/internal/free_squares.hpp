@@ -7,8 +7,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
-#include <thalweg/network/growth/dla/internal/tiled_bytes.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {
 

@@ -9,7 +9,7 @@
 #include <memory>
 #include <new>
 
-#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
+#include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {
 

@@ -9,9 +9,6 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/network/growth/dla/internal/exit_law.hpp>
-#include <thalweg/network/growth/dla/internal/free_squares.hpp>
-#include <thalweg/network/growth/dla/internal/launch_circle.hpp>
 
 namespace thalweg::network {
 

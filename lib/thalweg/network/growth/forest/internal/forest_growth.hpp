@@ -8,7 +8,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/growth/forest/internal/region_walk.hpp>
+#include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 namespace thalweg::network {
 

@@ -5,10 +5,8 @@
 #include <cstdint>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/growth/dla/internal/exit_law.hpp>
-#include <thalweg/network/growth/dla/internal/free_squares.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
-#include <thalweg/network/growth/forest/internal/room_in.hpp>
+#include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 namespace thalweg::network {
 

@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/vec.hpp>
-#include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
+#include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {

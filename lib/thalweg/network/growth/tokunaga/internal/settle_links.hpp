@@ -7,7 +7,7 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/network/growth/tokunaga/internal/spread_forest.hpp>
+#include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 
 namespace thalweg::network {
 

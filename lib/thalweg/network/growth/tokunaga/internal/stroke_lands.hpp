@@ -6,7 +6,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/network/growth/tokunaga/internal/join_strokes.hpp>
+#include <thalweg/network/growth/tokunaga/internal/grow_strokes.hpp>
 
 /// Private to this module.
 namespace thalweg::network {

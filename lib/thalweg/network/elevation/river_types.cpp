@@ -1,18 +1,66 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/assign_types.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <cstddef>
 #include <string>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
+namespace {
+
+constexpr double least = 0.001;   // of the classes open below: water must flow
+constexpr double greatest = 0.20; // of Aa+, open above
+
+struct Class {
+    char const* name;
+    SlopeRange slope;
+};
+
+// In the order of the enumeration.
+constexpr ByEnum<Rosgen, Class, rosgen_types.size()> classes{{{{"Aa+", {0.10, greatest, 0.12}},
+                                                               {"A", {0.04, 0.10, 0.07}},
+                                                               {"B", {0.02, 0.04, 0.03}},
+                                                               {"C", {least, 0.02, 0.01}},
+                                                               {"D", {least, 0.04, 0.02}},
+                                                               {"DA", {least, 0.005, 0.003}},
+                                                               {"E", {least, 0.02, 0.01}},
+                                                               {"F", {least, 0.02, 0.01}},
+                                                               {"G", {0.02, 0.04, 0.03}}}}};
+
+Class const& class_of(Rosgen type) {
+    return classes[type];
+}
+
+} // namespace
+
+SlopeRange slope_range(Rosgen type) {
+    return class_of(type).slope;
+}
+
+char const* name_of(Rosgen type) {
+    return class_of(type).name;
+}
+
+std::optional<Rosgen> rosgen_of(std::string_view name) {
+    for (Rosgen const type : rosgen_types) {
+        if (name == name_of(type)) {
+            return type;
+        }
+    }
+    return name == "A+" ? std::optional(Rosgen::aa_plus) : std::nullopt;
+}
+
+bool is_braided(Rosgen type) {
+    return type == Rosgen::d || type == Rosgen::da;
+}
 
 namespace {
 

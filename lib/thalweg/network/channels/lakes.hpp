@@ -12,6 +12,25 @@
 
 namespace thalweg::network {
 
+/// Options of choose_lakes().
+struct ChooseLakesParams {
+    double share = 0.1;             ///< [0, 1] share of the reaches with enough area that get a lake
+    double min_area_cells = 2000.0; ///< [cells] >= 0, drainage area from which a reach may have a lake
+    /// [4, ...] largest lake; a lake covers at least 16 cells and at most a fiftieth of its drainage area
+    std::int64_t max_cells = 2000;
+    std::uint64_t seed = 7;
+};
+
+/// Chooses reaches with lakes and shapes each lake: grown by noise from a river cell, faster along the river.
+/// \param drawn channels of the network
+/// \param area_m2 [m2] by arc: drainage area
+/// \return labels for flood_lakes, from 1 in the order of arcs, 0: no lake. Lakes keep three cells from one another and
+/// from the grid's edge, so some are smaller. Random numbers are a hash of (seed, arc).
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput when there is not one area per arc
+Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2,
+                                  ChooseLakesParams const& params = {}, Run const& run = {});
+
 /// A lake in the channels.
 struct Lake {
     std::int32_t label = 0;  ///< in the input raster
@@ -35,11 +54,9 @@ struct Flooded {
 /// them.
 /// \param drawn channels of the network
 /// \param labels by cell, on the channels' grid: 0: no lake; separate 8-connected parts of a label are separate lakes
-/// \param run progress, log, stop token and number of threads
 /// \return channels that keep their law; a lake's cells are 8-connected and drain by shortest paths to the outlet.
 /// Prescribed heights: a lake takes its outlet's, its inflows are raised to it.
 /// \throws BadInput for a raster on another grid or a label below 0
-/// \throws Cancelled
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run = {});
 
 } // namespace thalweg::network

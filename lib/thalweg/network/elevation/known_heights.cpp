@@ -1,11 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/elevation/elevate_from_dem.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <deque>
 #include <limits>
+#include <map>
 #include <unordered_set>
 #include <utility>
 #include <vector>
@@ -14,10 +17,91 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/elevation/lower_rises.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
+namespace {
+
+double height_at(Raster<float> const& dem, Vec2 p) {
+    Cell const cell = dem.grid().cell_of(p);
+    float const z = dem.grid().contains(cell) ? dem[cell] : std::nanf("");
+    if (!std::isfinite(z)) {
+        throw BadInput(fmt::format("network.drape: the DEM has no height at ({:.3f}, {:.3f}), where a river runs; give "
+                                   "one that covers the network",
+                                   p.x, p.y));
+    }
+    return static_cast<double>(z);
+}
+
+} // namespace
+
+Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
+    require_trees(network, "network.lower_rises");
+    bool whole = arc_z.size() == network.arc_count();
+    for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
+        whole = arc_z[a].size() == network.arc(a).line.size() && !arc_z[a].empty();
+    }
+    if (!whole) {
+        throw BadInput(
+            fmt::format("network.lower_rises: heights are not one for each vertex of {} arcs", network.arc_count()));
+    }
+    Lowered lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
+    auto& node_z = lowered.network.node_z;
+    node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
+    for (auto node = network.upstream_order().rbegin(); node != network.upstream_order().rend(); ++node) {
+        ArcId const a = network.out(*node);
+        if (a == no_arc) {
+            continue;
+        }
+        auto& z = lowered.network.arc_z[a];
+        double low = std::min(node_z[*node], z.front());
+        node_z[*node] = low;
+        for (double& vertex : z) {
+            low = std::min(low, vertex);
+            lowered.by_m[a] = std::max(lowered.by_m[a], vertex - low);
+            vertex = low;
+        }
+        double& below = node_z[network.to(a)];
+        below = std::min(below, low);
+    }
+    // The last vertex of an arc takes the height that its node got from all of them.
+    for (std::size_t a = 0; a < arc_z.size(); ++a) {
+        double& last = lowered.network.arc_z[a].back();
+        double const z = node_z[network.to(a)];
+        lowered.by_m[a] = std::max(lowered.by_m[a], last - z);
+        last = z;
+    }
+    for (double& z : node_z) {
+        z = z == std::numeric_limits<double>::infinity() ? 0.0 : z; // a node without arcs
+    }
+    return lowered;
+}
+
+ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
+    require_trees(network, "network.drape");
+    ElevatedNetwork raised{network, {}, {}};
+    raised.arc_z.resize(network.arc_count());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        raised.node_z.push_back(height_at(dem, network.node(n).at));
+    }
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
+        ArcId const a = network.out(*n);
+        if (a == no_arc) {
+            continue;
+        }
+        double z = raised.node_z[*n];
+        for (Vec2 const p : network.arc(a).line) {
+            z = std::min(z, height_at(dem, p));
+            raised.arc_z[a].push_back(z);
+        }
+        double& end = raised.node_z[network.to(a)];
+        end = std::min(end, z);
+    }
+    for (std::size_t a = 0; a < network.arc_count(); ++a) { // another arc may have come to the node lower
+        raised.arc_z[a].back() = raised.node_z[network.to(a)];
+    }
+    return raised;
+}
 
 namespace {
 
@@ -178,6 +262,98 @@ ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& c
                        "made around them");
     }
     return lower_rises(network, Heights(network, channels, land).filled()).network;
+}
+
+namespace {
+
+/// How a river falls over its last stretch of known heights, while it is followed downstream.
+class OwnSlope {
+public:
+    explicit OwnSlope(double slope) : slope_(slope) {}
+
+    void know(double z, double way_m) {
+        stretch_.push_back({z, way_m});
+        length_m_ += way_m;
+        while (stretch_.size() > 2 && length_m_ - stretch_[1].way_m >= long_enough_m) {
+            length_m_ -= stretch_[1].way_m;
+            stretch_.pop_front();
+        }
+        if (stretch_.size() > 1) {
+            slope_ = std::max((stretch_.front().z - z) / length_m_, 0.0);
+        } else {
+            length_m_ = 0.0;
+        }
+    }
+    double value() const { return slope_; }
+
+private:
+    static constexpr double long_enough_m = 1000.0; // noise of heights does not count
+    struct Known {
+        double z;
+        double way_m; ///< from the one before
+    };
+    std::deque<Known> stretch_;
+    double length_m_ = 0.0;
+    double slope_;
+};
+
+} // namespace
+
+ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known) {
+    std::map<std::pair<double, double>, double> height;
+    for (std::size_t a = 0; a < known.plan.arc_count(); ++a) {
+        auto const& line = known.plan.arc(a).line;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            height[{line[i].x, line[i].y}] = known.arc_z[a][i];
+        }
+    }
+    constexpr double none = std::numeric_limits<double>::quiet_NaN();
+    auto const height_at = [&](Vec2 p) {
+        auto const at = height.find({p.x, p.y});
+        return at == height.end() ? none : at->second;
+    };
+
+    ElevatedNetwork out;
+    out.plan = network;
+    out.arc_z.resize(network.arc_count());
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        out.node_z.push_back(height_at(network.node(n).at));
+    }
+    std::vector<double> slope_above(network.node_count(), 0.0); // of the lowest river that arrives
+    for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) { // sources first
+        ArcId const a = network.out(*n);
+        if (a == no_arc) {
+            continue;
+        }
+        auto const& line = network.arc(a).line;
+        auto& z = out.arc_z[a];
+        z.push_back(out.node_z[*n]);
+        OwnSlope slope(slope_above[*n]);
+        slope.know(z.back(), 0.0);
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            double const way_m = distance(line[i - 1], line[i]);
+            double const given = height_at(line[i]);
+            if (std::isnan(given)) {
+                z.push_back(z.back() - slope.value() * way_m);
+            } else {
+                z.push_back(given);
+                slope.know(given, way_m);
+            }
+        }
+        if (std::isnan(z.back())) {
+            throw BadInput("network.keep_heights: a river has no height at its source; give the lines Z, or choose "
+                           "another [network] heights");
+        }
+        double& end = out.node_z[network.to(a)];
+        if (std::isnan(end) || z.back() <= end) {
+            end = z.back();
+            slope_above[network.to(a)] = slope.value();
+        }
+    }
+    for (std::size_t a = 0; a < network.arc_count(); ++a) { // several arcs may carry on to one node: its lowest counts
+        out.arc_z[a].back() = out.node_z[network.to(a)];
+    }
+    return out;
 }
 
 } // namespace thalweg::network

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <vector>
+
+#include <thalweg/core/channels.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/stream_network.hpp>
+
+namespace thalweg::network {
+
+/// Takes a network's heights from a DEM.
+/// \param network a forest, in the DEM's coordinates
+/// \param dem [m] by cell; NaN: no data
+/// \return at each vertex the height of its cell or the minimum upstream, if lower: heights do not rise downstream
+/// \throws BadInput naming the position of a vertex without data; for a network that is not a forest
+ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem);
+
+/// Takes a network's heights from the terrain built around its channels. A line's first vertex in each channel cell,
+/// sources and outlets take the height of their cell; vertices between, and those that would rise, are interpolated by
+/// length.
+/// \param network a forest inside the grid
+/// \param channels channels of this network
+/// \param land [m] the DEM on the channels' grid
+/// \return the plan bit for bit; heights do not rise downstream, and where the terrain falls along every channel each
+/// arc falls, except in basins within one cell
+/// \throws BadInput for a network that is not a forest, a vertex outside the grid, a DEM on another grid or without a
+/// height at a river
+ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land);
+
+/// Copies heights between networks with the same vertices; new vertices, downstream of the known ones, go on with the
+/// slope of their river's last kilometre, or less where it is shorter.
+/// \param network has every vertex of `known`, and may continue downstream (carry_outlets)
+/// \param known a network with heights
+/// \return `network` with heights
+/// \throws BadInput when a vertex without a height has none upstream either
+ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known);
+
+/// What lower_rises() returns.
+struct Lowered {
+    ElevatedNetwork network;
+    std::vector<double> by_m; ///< [m] by arc: the largest lowering of its vertices; 0: none
+};
+
+/// Removes rises downstream by lowering the vertices below.
+/// \param network a forest
+/// \param arc_z [m] by arc, by vertex; arcs may differ at a node
+/// \return Law: the highest heights that nowhere exceed the input, do not rise downstream and agree at nodes
+/// \throws BadInput when there is not one height per vertex, or the network is not a forest
+Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z);
+
+} // namespace thalweg::network
