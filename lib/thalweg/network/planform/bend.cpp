@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/planform/internal/meander.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -10,9 +8,97 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/network/planform/internal/smooth_step.hpp>
+#include <thalweg/network/planform/internal/meander.hpp>
 
 namespace thalweg::network {
+namespace {
+
+double smooth_step(double t) {
+    double const u = std::clamp(t, 0.0, 1.0);
+    return u * u * (3.0 - 2.0 * u);
+}
+
+/// By node the arc whose river goes on below it, no_arc at sources.
+std::vector<ArcId> main_arcs(StreamNetwork const& network, std::vector<double> const& area_m2) {
+    std::vector<ArcId> out(network.node_count(), no_arc);
+    for (NodeId n = 0; n < out.size(); ++n) {
+        for (ArcId const a : network.in(n)) {
+            if (out[n] == no_arc || area_m2[a] > area_m2[out[n]]) {
+                out[n] = a;
+            }
+        }
+    }
+    return out;
+}
+
+void add_point(Stems& out, Vec2 at, double area_m2) {
+    bool const first = out.at.size() == out.stems.back().begin;
+    out.way_m.push_back(first ? 0.0 : out.way_m.back() + distance(out.at.back(), at));
+    out.at.push_back(at);
+    out.area_m2.push_back(area_m2);
+    out.stem_of.push_back(out.stems.size() - 1);
+}
+
+/// Adds an arc's points; its first is there already where the stem goes on.
+void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, double step_m) {
+    if (out.at.size() == out.stems.back().begin) {
+        add_point(out, line.front(), area_m2);
+    }
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        if (line[i] == line[i - 1]) {
+            continue;
+        }
+        auto const [count, step] = steps_between(line[i - 1], line[i], step_m);
+        for (double k = 1.0; k < count; k += 1.0) {
+            add_point(out, {line[i - 1].x + k * step.x, line[i - 1].y + k * step.y}, area_m2);
+        }
+        add_point(out, line[i], area_m2);
+    }
+}
+
+} // namespace
+
+EvenSteps steps_between(Vec2 from, Vec2 to, double step_m) {
+    // A lattice's diagonal steps stay whole.
+    double const count = std::ceil(distance(from, to) / (1.5 * step_m));
+    return {count, {(to.x - from.x) / count, (to.y - from.y) / count}};
+}
+
+Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2, double step_m) {
+    Stems out;
+    out.first_point.resize(network.arc_count());
+    out.last_point.resize(network.arc_count());
+    out.node_point.resize(network.node_count());
+    std::vector<ArcId> const main = main_arcs(network, area_m2);
+    for (NodeId const mouth : network.upstream_order()) { // every stem after what it joins
+        bool const is_outlet = network.out(mouth) == no_arc;
+        std::vector<ArcId> arriving(network.in(mouth).begin(), network.in(mouth).end());
+        std::stable_partition(arriving.begin(), arriving.end(), [&](ArcId a) { return a == main[mouth]; });
+        for (ArcId const last : arriving) {
+            if (!is_outlet && last == main[mouth]) {
+                continue; // it is the middle of a stem
+            }
+            std::vector<ArcId> arcs;
+            for (ArcId a = last; a != no_arc; a = main[network.from(a)]) {
+                arcs.push_back(a);
+            }
+            std::reverse(arcs.begin(), arcs.end());
+            bool const owns_mouth = is_outlet && last == main[mouth];
+            out.stems.push_back({out.at.size(), 0, network.from(arcs.front()), mouth, !owns_mouth});
+            for (std::size_t const a : arcs) {
+                add_arc_points(out, network.arc(a).line, area_m2[a], step_m);
+                out.last_point[a] = out.at.size() - 1;
+                out.first_point[a] = a == arcs.front() ? out.stems.back().begin : out.node_point[network.from(a)];
+                out.node_point[network.from(a)] = out.first_point[a];
+                if (a != arcs.back() || owns_mouth) {
+                    out.node_point[network.to(a)] = out.last_point[a];
+                }
+            }
+            out.stems.back().end = out.at.size();
+        }
+    }
+    return out;
+}
 
 namespace {
 
@@ -30,6 +116,35 @@ constexpr std::array<double, 3> long_waves = {160.0, 72.0, 32.0}; // [cells]
 constexpr std::uint64_t waves_each = 4;
 constexpr double shear = 0.22;  // slope of one wave
 constexpr double margin = 24.0; // [cells] in which the plain's waves fade
+
+/// A river's points, and what is made of them.
+struct River {
+    std::size_t begin;
+    std::size_t end;
+    std::vector<double> const& way_m;
+
+    /// The first point, and the one after the last, within a reach of a place along the river.
+    std::size_t first(double way) const {
+        auto const at = static_cast<std::ptrdiff_t>(begin);
+        return static_cast<std::size_t>(
+            std::lower_bound(way_m.begin() + at, way_m.begin() + static_cast<std::ptrdiff_t>(end), way) -
+            way_m.begin());
+    }
+};
+
+/// Unit vector to the left of a river, as it runs a quarter wave up and down from a point.
+Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
+            double reach) {
+    River const river{stem.begin, stem.end, way_m};
+    std::size_t const last = stem.end - 1;
+    std::size_t const up = std::min(river.first(way_m[i] - reach), i > stem.begin ? i - 1 : i);
+    std::size_t const down = std::max(std::min(river.first(way_m[i] + reach), last), std::min(i + 1, last));
+    double const length = distance(at[up], at[down]);
+    if (!(length > 0.0)) {
+        return {};
+    }
+    return {-(at[down].y - at[up].y) / length, (at[down].x - at[up].x) / length};
+}
 
 /// A wave that moves places along its crests: it shears, and leaves areas as they are.
 struct Wave {
@@ -72,21 +187,6 @@ double between_cells(Raster<std::uint8_t> const& raster, Vec2 p) {
     double const south = corner(0.0, 1.0) * (1.0 - (x - col)) + corner(1.0, 1.0) * (x - col);
     return north * (1.0 - (y - row)) + south * (y - row);
 }
-
-/// A river's points, and what is made of them.
-struct River {
-    std::size_t begin;
-    std::size_t end;
-    std::vector<double> const& way_m;
-
-    /// The first point, and the one after the last, within a reach of a place along the river.
-    std::size_t first(double way) const {
-        auto const at = static_cast<std::ptrdiff_t>(begin);
-        return static_cast<std::size_t>(
-            std::lower_bound(way_m.begin() + at, way_m.begin() + static_cast<std::ptrdiff_t>(end), way) -
-            way_m.begin());
-    }
-};
 
 /// Length of river that each point stands for [m].
 std::vector<double> weights(Stems const& stems) {
@@ -154,20 +254,6 @@ std::vector<double> wavelengths(Stems const& stems, std::vector<double> const& w
                   [&](std::size_t j, double share) { out[i] += share * own[j]; });
     }
     return out;
-}
-
-/// Unit vector to the left of a river, as it runs a quarter wave up and down from a point.
-Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
-            double reach) {
-    River const river{stem.begin, stem.end, way_m};
-    std::size_t const last = stem.end - 1;
-    std::size_t const up = std::min(river.first(way_m[i] - reach), i > stem.begin ? i - 1 : i);
-    std::size_t const down = std::max(std::min(river.first(way_m[i] + reach), last), std::min(i + 1, last));
-    double const length = distance(at[up], at[down]);
-    if (!(length > 0.0)) {
-        return {};
-    }
-    return {-(at[down].y - at[up].y) / length, (at[down].x - at[up].x) / length};
 }
 
 /// [0, 1] how straight a river runs on both sides of a point: 1 within half a cell of its chord, 0 beyond one and a
@@ -324,6 +410,57 @@ std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double
                               noise(half_waves, least, takes_turns, seed, stage, stem.source);
             Vec2 const left = across(stem, way_m, at, i, 0.25 * wave_m[i]);
             out[i] = {by * left.x, by * left.y};
+        }
+    }
+    return out;
+}
+
+namespace {
+
+constexpr std::uint64_t stage_lean = 0x6c65'616e; // "lean"
+constexpr double near_mouth = 10.0;               // [cells] over which angles are measured
+constexpr double far_from_mouth = 40.0;           // [cells]
+
+/// The nearest point of a river that lies so far above another one, or its first.
+std::size_t above(Stems const& stems, std::size_t from, std::size_t begin, double way) {
+    std::size_t i = from;
+    while (i > begin && stems.way_m[from] - stems.way_m[i] < way) {
+        --i;
+    }
+    return i;
+}
+
+/// Angle [radians] by which a tributary turns about its mouth, counterclockwise.
+double turn_of(Stems const& stems, std::vector<Vec2> const& at, Stem const& stem, double cell_m, double widest) {
+    std::size_t const mouth = stems.node_point[stem.mouth];
+    Stem const& larger = stems.stems[stems.stem_of[mouth]];
+    Vec2 const up_larger = at[above(stems, mouth, larger.begin, near_mouth * cell_m)];
+    Vec2 const up = at[above(stems, stem.end - 1, stem.begin, near_mouth * cell_m)];
+    double const angle = portable::atan2(cross(at[mouth], up, up_larger), dot(up - at[mouth], up_larger - at[mouth]));
+    double const over = std::fabs(angle) - widest;
+    return over > 0.0 ? std::copysign(over, angle) : 0.0;
+}
+
+} // namespace
+
+std::vector<Vec2> lean_in(Stems const& stems, std::vector<Vec2> const& at, double cell_m, std::uint64_t seed) {
+    std::vector<Vec2> out(at.size());
+    for (Stem const& stem : stems.stems) {
+        if (!stem.joins) {
+            continue;
+        }
+        double const widest =
+            (50.0 + 30.0 * unit(random_word(seed, stage_lean, stem.source, 0))) * portable::pi / 180.0;
+        double const turn = turn_of(stems, at, stem, cell_m, widest);
+        Vec2 const mouth = at[stem.end - 1];
+        double const end_m = stems.way_m[stem.end - 1];
+        for (std::size_t i = stem.end - 1; i-- > stem.begin && end_m - stems.way_m[i] < far_from_mouth * cell_m;) {
+            double const far = (end_m - stems.way_m[i]) / cell_m;
+            double const by = turn * (1.0 - smooth_step((far - near_mouth) / (far_from_mouth - near_mouth)));
+            Vec2 const arm = at[i] - mouth;
+            double const c = portable::cos(by);
+            double const s = portable::sin(by);
+            out[i] = {c * arm.x - s * arm.y - arm.x, s * arm.x + c * arm.y - arm.y};
         }
     }
     return out;

@@ -3,11 +3,18 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 
 #include <algorithm>
+#include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <map>
 #include <numeric>
+#include <queue>
+#include <string>
+#include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -15,13 +22,369 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
-#include <thalweg/network/planform/internal/carry_ground.hpp>
-#include <thalweg/network/planform/internal/way_out.hpp>
+#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
-
 namespace {
+
+// A vertex at which a river may be joined.
+struct Confluence {
+    Vec2 at;
+    std::int64_t basin = 0;
+};
+
+constexpr double slack_cells = 1e-9; ///< nearer than that, lines are taken to meet
+
+bool goes_diagonally(Cell a, Cell b) {
+    return a.col != b.col && a.row != b.row;
+}
+
+/// The cell whose south-east corner a diagonal step cuts.
+Cell corner_cell(Cell a, Cell b) {
+    return {std::min(a.col, b.col), std::min(a.row, b.row)};
+}
+
+/// Which diagonal a step takes: 1 from north-west to south-east, 2 from north-east to south-west.
+std::uint8_t diagonal(Cell a, Cell b) {
+    return (a.col < b.col) == (a.row < b.row) ? 1 : 2;
+}
+
+// A step into a cell d cells from a river costs 1 + repulsion / (d + 1/2)^2: a river that could run anywhere keeps to
+// the middle between others.
+constexpr double repulsion = 10.0;
+constexpr std::uint8_t beside_cells = 2; ///< within which water takes the other river
+
+/// Two segments from one point meet only there; within slack the answer is no.
+bool fan_out(Vec2 from, Vec2 a, Vec2 b, double slack) {
+    double const dot = (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y);
+    return dot < 0.0 || std::fabs(cross(from, a, b)) > slack * std::max(distance(from, a), distance(from, b));
+}
+
+bool apart(double a, double b, double c, double d, double slack) {
+    return std::max(a, b) + slack < std::min(c, d) || std::max(c, d) + slack < std::min(a, b);
+}
+
+/// a and b lie on one side of the line through s, farther from it than slack.
+bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
+    double const least = slack * distance(s.a, s.b);
+    double const left = cross(s.a, s.b, a);
+    double const right = cross(s.a, s.b, b);
+    return (left > least && right > least) || (left < -least && right < -least);
+}
+
+/// s and t do not meet; within slack [m] the answer is no.
+bool clear(Segment s, Segment t, double slack) {
+    return apart(s.a.x, s.b.x, t.a.x, t.b.x, slack) || apart(s.a.y, s.b.y, t.a.y, t.b.y, slack) ||
+           on_one_side(s, t.a, t.b, slack) || on_one_side(t, s.a, s.b, slack);
+}
+
+// Where rivers run: their cells, the corners they cut diagonally, and the segments near each cell.
+class CarryGround {
+public:
+    CarryGround(Grid const& grid, CarryParams const& params)
+        : grid_(grid), params_(params), slack_m_(slack_cells * grid.cell_m), distance_(grid, far), corner_(grid, 0) {}
+
+    Grid const& grid() const { return grid_; }
+    double cost_of_joining() const { return params_.join_cells; }
+
+    // basin: by whose number inner vertices may be joined.
+    void add(std::vector<Vec2> const& line, std::int64_t basin, std::string const& what) {
+        for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+            Cell const cell = cells_along({line[i]}, grid_, what).front();
+            confluences_.try_emplace(grid_.index(cell), Confluence{line[i], basin});
+        }
+        std::vector<Cell> const cells = cells_along(line, grid_, what);
+        std::vector<Cell> changed;
+        for (std::size_t i = 0; i < cells.size(); ++i) {
+            if (distance_[cells[i]] != 0) {
+                distance_[cells[i]] = 0;
+                changed.push_back(cells[i]);
+            }
+            if (i > 0 && goes_diagonally(cells[i - 1], cells[i])) {
+                corner_[corner_cell(cells[i - 1], cells[i])] |= diagonal(cells[i - 1], cells[i]);
+            }
+        }
+        spread(std::move(changed));
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            touch({line[i - 1], line[i]});
+        }
+    }
+
+    // What it costs to enter a cell: rivers repel.
+    double cost(Cell c) const {
+        double const d = static_cast<double>(distance_[c]) + 0.5;
+        return 1.0 + repulsion / (d * d) + (distance_[c] <= beside_cells ? params_.beside_cells : 0.0);
+    }
+
+    // What a river may run into in a cell, or null.
+    Confluence const* confluence_in(Cell c) const {
+        auto const found = confluences_.find(grid_.index(c));
+        return found == confluences_.end() ? nullptr : &found->second;
+    }
+
+    // Whether a river may run from p, a point of cell `from`, to the centre of its neighbour `to`. A river that ends
+    // in p may, too.
+    bool open(Vec2 p, Cell from, Cell to) const {
+        if (distance_[to] == 0 || cuts_a_corner(from, to)) {
+            return false;
+        }
+        Segment const step{p, grid_.centre(to)};
+        return all_near(from, to, [&](Segment s) {
+            return s.a == p   ? fan_out(p, step.b, s.b, slack_m_)
+                   : s.b == p ? fan_out(p, step.b, s.a, slack_m_)
+                              : clear(step, s, slack_m_);
+        });
+    }
+
+    // Whether a river may run from p, a point of cell `from`, to a vertex of the river in its neighbour `to`.
+    bool opens_to(Confluence const& confluence, Vec2 p, Cell from, Cell to) const {
+        if (cuts_a_corner(from, to)) {
+            return false;
+        }
+        Segment const step{p, confluence.at};
+        return all_near(from, to, [&](Segment s) {
+            return s.a == step.b   ? fan_out(step.b, p, s.b, slack_m_)
+                   : s.b == step.b ? fan_out(step.b, p, s.a, slack_m_)
+                   : s.a == p      ? fan_out(p, step.b, s.b, slack_m_)
+                   : s.b == p      ? fan_out(p, step.b, s.a, slack_m_)
+                                   : clear(step, s, slack_m_);
+        });
+    }
+
+private:
+    static constexpr std::uint8_t far = 255;
+
+    // Whether the step to a neighbour crosses a river that runs diagonally between the two others.
+    bool cuts_a_corner(Cell from, Cell to) const {
+        return goes_diagonally(from, to) && (corner_[corner_cell(from, to)] & ~diagonal(from, to)) != 0;
+    }
+
+    /// Whether something holds for all segments that touch the cells around a step.
+    template <class Holds> bool all_near(Cell from, Cell to, Holds const& holds) const {
+        for (std::int64_t row = std::min(from.row, to.row); row <= std::max(from.row, to.row); ++row) {
+            for (std::int64_t col = std::min(from.col, to.col); col <= std::max(from.col, to.col); ++col) {
+                auto const near = touching_.find(grid_.index({col, row}));
+                if (near != touching_.end() && !std::all_of(near->second.begin(), near->second.end(),
+                                                            [&](std::size_t k) { return holds(segments_[k]); })) {
+                    return false;
+                }
+            }
+        }
+        return true;
+    }
+
+    // Lowers the city-block distances around new river cells.
+    void spread(std::vector<Cell> front) {
+        for (std::uint8_t d = 1; d < far && !front.empty(); ++d) {
+            std::vector<Cell> next;
+            for (Cell const c : front) {
+                for (Cell const n :
+                     {Cell{c.col, c.row - 1}, Cell{c.col - 1, c.row}, Cell{c.col + 1, c.row}, Cell{c.col, c.row + 1}}) {
+                    if (grid_.contains(n) && distance_[n] > d) {
+                        distance_[n] = d;
+                        next.push_back(n);
+                    }
+                }
+            }
+            front = std::move(next);
+        }
+    }
+
+    // Notes a segment with every cell it passes or touches.
+    void touch(Segment s) {
+        std::size_t const number = segments_.size();
+        segments_.push_back(s);
+        double const h = grid_.cell_m;
+        double const eps = 1e-6 * h;
+        auto const row_of = [&](double y) { return static_cast<std::int64_t>(std::floor((grid_.north - y) / h)); };
+        auto const col_of = [&](double x) { return static_cast<std::int64_t>(std::floor((x - grid_.west) / h)); };
+        for (std::int64_t row = row_of(std::max(s.a.y, s.b.y) + eps); row <= row_of(std::min(s.a.y, s.b.y) - eps);
+             ++row) {
+            double begin = 0.0;
+            double end = 1.0;
+            if (s.a.y != s.b.y) {
+                double const top = grid_.north - static_cast<double>(row) * h + eps;
+                double const t = (top - s.a.y) / (s.b.y - s.a.y);
+                double const u = (top - h - 2.0 * eps - s.a.y) / (s.b.y - s.a.y);
+                begin = std::clamp(std::min(t, u), 0.0, 1.0);
+                end = std::clamp(std::max(t, u), 0.0, 1.0);
+            }
+            double const x0 = s.a.x + begin * (s.b.x - s.a.x);
+            double const x1 = s.a.x + end * (s.b.x - s.a.x);
+            for (std::int64_t col = col_of(std::min(x0, x1) - eps); col <= col_of(std::max(x0, x1) + eps); ++col) {
+                if (grid_.contains({col, row})) {
+                    touching_[grid_.index({col, row})].push_back(number);
+                }
+            }
+        }
+    }
+
+    Grid grid_;
+    CarryParams params_;
+    double slack_m_;
+    Raster<std::uint8_t> distance_; // [cells] city-block, to the nearest river cell; 255: that far or farther
+    Raster<std::uint8_t> corner_;   // by cell, for its south-east corner: 1 where a river runs NW-SE, 2 NE-SW
+    std::vector<Segment> segments_;
+    std::unordered_map<std::int64_t, Confluence> confluences_;            // by cell; looked up only, never walked
+    std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; // looked up only, never walked
+};
+
+// Where rivers may end: on the grid's border and beside the sea.
+class RiverEnds {
+public:
+    explicit RiverEnds(Grid grid) : grid_(std::move(grid)) {}
+    explicit RiverEnds(Mask const& land) : grid_(land.grid()), land_(land), steps_(land.grid(), unreached) {
+        std::vector<Cell> front;
+        for (std::int64_t i = 0; i < land.cells(); ++i) {
+            Cell const c = grid_.at(i);
+            bool at_sea = false;
+            cells_around(grid_, c, 1, [&](Cell n) { at_sea = at_sea || land[n] == 0; });
+            if (at_sea || grid_.on_border(c)) {
+                steps_[i] = 0;
+                front.push_back(c);
+            }
+        }
+        for (std::int32_t steps = 1; !front.empty(); ++steps) {
+            std::vector<Cell> next;
+            for (Cell const c : front) {
+                cells_around(grid_, c, 1, [&](Cell n) {
+                    if (steps_[n] == unreached) {
+                        steps_[n] = steps;
+                        next.push_back(n);
+                    }
+                });
+            }
+            front = std::move(next);
+        }
+    }
+
+    // King's moves to the nearest end.
+    std::int64_t steps(Cell c) const {
+        return steps_.cells() > 0 ? steps_[c]
+                                  : std::min({c.col, c.row, grid_.width - 1 - c.col, grid_.height - 1 - c.row});
+    }
+
+    bool is_land(Cell c) const { return !grid_.contains(c) || land_.cells() == 0 || land_[c] != 0; }
+    bool at_border(Cell c) const { return grid_.on_border(c); }
+
+private:
+    static constexpr std::int32_t unreached = -1;
+    Grid grid_;
+    Mask land_;
+    Raster<std::int32_t> steps_;
+};
+
+// A way of cells, the river's own first; empty where there is none.
+struct Way {
+    std::vector<Cell> cells;
+    Confluence const* into = nullptr; // in the last cell; null: it ends where rivers may end
+};
+
+constexpr double root_of_two = 1.41421356237309504880;
+
+class WaySearch {
+public:
+    WaySearch(Vec2 outlet, Cell start, CarryGround const& ground, RiverEnds const& ends,
+              std::function<bool(Confluence const&)> const& may_join)
+        : outlet_(outlet), start_(start), ground_(ground), grid_(ground.grid()), ends_(ends), may_join_(may_join) {}
+
+    Way find() {
+        reached_[grid_.index(start_)] = {};
+        queue_.emplace(static_cast<double>(ends_.steps(start_)), grid_.index(start_));
+        while (!queue_.empty()) {
+            std::int64_t const at = queue_.top().second;
+            queue_.pop();
+            if (reached_[at].settled) {
+                continue;
+            }
+            reached_[at].settled = true;
+            if (reached_[at].into != nullptr || ends_.steps(grid_.at(at)) == 0) {
+                return way_to(at);
+            }
+            go_on_from(at);
+        }
+        return {};
+    }
+
+private:
+    struct Reached {
+        double cost = 0.0;
+        std::int64_t from = -1;
+        bool settled = false;
+        Confluence const* into = nullptr;
+    };
+
+    Way way_to(std::int64_t at) {
+        Way way{{}, reached_[at].into};
+        for (std::int64_t i = at; i >= 0; i = reached_[i].from) {
+            way.cells.push_back(grid_.at(i));
+        }
+        std::reverse(way.cells.begin(), way.cells.end());
+        return way;
+    }
+
+    void go_on_from(std::int64_t at) {
+        Cell const c = grid_.at(at);
+        Vec2 const here = c == start_ ? outlet_ : grid_.centre(c);
+        for (std::int64_t dr = -1; dr <= 1; ++dr) {
+            for (std::int64_t dc = -1; dc <= 1; ++dc) {
+                Cell const next{c.col + dc, c.row + dr};
+                if ((dr == 0 && dc == 0) || !grid_.contains(next) || !ends_.is_land(next)) {
+                    continue;
+                }
+                Confluence const* const into = ground_.confluence_in(next);
+                if (into != nullptr && may_join_(*into) && ground_.opens_to(*into, here, c, next)) {
+                    join(at, next, into);
+                } else if (ground_.open(here, c, next)) {
+                    step(at, next, dr != 0 && dc != 0 ? root_of_two : 1.0);
+                }
+            }
+        }
+    }
+
+    void join(std::int64_t at, Cell next, Confluence const* into) {
+        std::int64_t const to = grid_.index(next);
+        double const cost = reached_[at].cost + ground_.cost_of_joining();
+        auto const [known, is_new] = reached_.try_emplace(to);
+        if (is_new || cost < known->second.cost) {
+            known->second = {cost, at, false, into};
+            queue_.emplace(cost, to); // beside the border it may be dearer than it looks from afar
+        }
+    }
+
+    void step(std::int64_t at, Cell next, double length) {
+        std::int64_t const to = grid_.index(next);
+        Reached const here = reached_[at]; // a copy: places move when more are reached
+        double const cost = here.cost + ground_.cost(next) * length;
+        auto const [known, is_new] = reached_.try_emplace(to);
+        bool const straight = here.from >= 0 && to - at == at - here.from;
+        if (is_new || cost < known->second.cost || (straight && cost == known->second.cost && !known->second.settled)) {
+            known->second = {cost, at, false, nullptr};
+            queue_.emplace(cost + static_cast<double>(ends_.steps(next)), to);
+        }
+    }
+
+    using Entry = std::pair<double, std::int64_t>; // the least that a way through this cell costs, the cell
+
+    Vec2 outlet_;
+    Cell start_;
+    CarryGround const& ground_;
+    Grid const& grid_;
+    RiverEnds const& ends_;
+    std::function<bool(Confluence const&)> const& may_join_;
+    std::unordered_map<std::int64_t, Reached> reached_; // looked up only, never walked
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
+};
+
+// The cheapest way from a river's end, in the cell start, to where rivers may end, or into a river that it may join. Of
+// equally cheap ways the one that goes straight on. Source: A*, Hart, Nilsson and Raphael 1968: each step costs at
+// least one and comes at most one cell nearer; what is joined counts as the end.
+Way way_out(Vec2 outlet, Cell start, CarryGround const& ground, RiverEnds const& ends,
+            std::function<bool(Confluence const&)> const& may_join) {
+    return WaySearch(outlet, start, ground, ends, may_join).find();
+}
 
 /// Which basins have become one.
 class Basins {

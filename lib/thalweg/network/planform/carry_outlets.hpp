@@ -31,7 +31,6 @@ struct Carried {
 /// city-block distance to rivers [cells], plus the costs in params (ties: the straighter path).
 /// \param network a forest inside the grid
 /// \param grid its border ends the paths
-/// \param params options, each with its default, unit and range
 /// \return drawn vertices are kept bit for bit; no crossings are added, of lines or of their cells. notes:
 /// "carried_outlet" or "joined_outlet" (amount: [m]), or "closed_basin": no path, left in place; feature: id of the
 /// line in its file, or the arc's number from 1.
@@ -42,7 +41,6 @@ Carried carry_outlets(StreamNetwork const& network, Grid const& grid, CarryParam
 /// \param network a forest on land
 /// \param land 0: sea
 /// \param reach_cells [cells] chessboard distance; outlets farther from both are left in place without a note
-/// \param params options, each with its default, unit and range
 /// \return as carry_outlets on a grid
 Carried carry_outlets(StreamNetwork const& network, Mask const& land, std::int64_t reach_cells,
                       CarryParams const& params = {});

@@ -34,8 +34,6 @@ struct Meandered {
 /// \param network a forest inside the grid; arcs meet only at nodes
 /// \param grid keeps the rivers inside
 /// \param area_m2 [m2] by arc: drainage area at its lower end
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return the same arcs between the same nodes, one vertex per cell; nodes move with the larger river, outlets on the
 /// grid's edge stay. Arcs meet only at nodes (exact). On the bent plain, what is gap_cells or more from a segment (on
 /// the same river: and eight cells along it) stays so, what is closer keeps a third of its distance: shifts are halved
@@ -43,7 +41,6 @@ struct Meandered {
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput when there is not one area per arc, a vertex is outside the grid, arcs meet away from nodes, or the
 /// network is not a forest
-/// \throws Cancelled
 ///
 /// Source: wavelengths of 10 to 14 widths, \cite leopold1960.
 Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
@@ -53,8 +50,6 @@ Meandered meander(StreamNetwork const& network, Grid const& grid, std::vector<do
 /// \param network a forest inside the mask's grid; arcs meet only at nodes
 /// \param land 0: sea
 /// \param area_m2 [m2] by arc: drainage area at its lower end
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return as meander on a grid
 Meandered meander(StreamNetwork const& network, Mask const& land, std::vector<double> const& area_m2,
                   MeanderParams const& params = {}, Run const& run = {});

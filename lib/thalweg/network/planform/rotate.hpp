@@ -29,7 +29,6 @@ double random_turn(std::uint64_t seed);
 /// \param network at least one arc
 /// \param frame the grid; width and height 0: the network's box, enlarged on each side by a twentieth of its longer
 /// side and at least two cells, with the frame's north-western corner
-/// \param params options, each with its default, unit and range
 /// \return distances are kept except for coordinates rounded to 1e-6 m; a rotation by 0 only translates
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for no arcs, a coordinate that is not a number, or a network larger than the grid

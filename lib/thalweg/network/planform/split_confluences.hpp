@@ -32,15 +32,12 @@ struct Split {
 /// Splits confluences of too many arcs: one tributary after another is led beside the river to its own node a distance
 /// downstream, or, at an outlet or without room, upstream.
 /// \param network a forest; heights do not rise downstream
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return at most max_upstream arcs end at a node. Arcs and nodes keep their numbers; new ones follow, one of each per
 /// piece, with the attributes of the arc they were split off. Lines change within distance_m times the number of moved
 /// tributaries around a node; nothing new meets (exact), no arc has length 0, heights still do not rise. The distance
 /// is shorter on short arcs.
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming the position, when the network is not a forest or lines leave no room
-/// \throws Cancelled
 Split split_confluences(ElevatedNetwork const& network, SplitParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network
