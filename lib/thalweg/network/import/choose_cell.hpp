@@ -30,14 +30,11 @@ struct ChosenCell {
 
 /// Chooses the cell size of a grid for rivers.
 /// \param rivers lines [m]
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return a round number (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5 or 9 times a power of ten): the smallest at which the
 /// rivers' box and a margin of 5 % have at most usual_cells, but, while the longer side has 1000 cells, not below a
 /// tenth of the median distance of vertices; smaller, within most_cells, if crowded_share exceeds 0.2 %. With width and
 /// height: the smallest with which the rivers fit.
 /// \throws BadInput without lines or when all vertices coincide
-/// \throws Cancelled
 ChosenCell choose_cell(RiverLines const& rivers, ChooseCellParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::network

@@ -2,21 +2,132 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
-#include <optional>
+#include <cstddef>
+#include <cstdint>
+#include <iterator>
+#include <limits>
 #include <queue>
+#include <string_view>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/import/internal/import_channels.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
+
+namespace thalweg::network::import_steps {
+namespace {
+
+bool arrives(Pieces const& p, Divided const& divided, std::size_t k, std::size_t node) {
+    auto const& piece = p.pieces[k];
+    return divided.reason[k] == nullptr && piece.from != piece.to &&
+           (divided.runs[k] > 0 ? piece.to : piece.from) == node;
+}
+
+bool departs(Pieces const& p, Divided const& divided, std::size_t k, std::size_t node) {
+    auto const& piece = p.pieces[k];
+    return divided.reason[k] == nullptr && piece.from != piece.to &&
+           (divided.runs[k] > 0 ? piece.from : piece.to) == node;
+}
+
+template <class Test> std::size_t count_if(Pieces const& p, std::size_t node, Test const& test) {
+    return static_cast<std::size_t>(std::ranges::count_if(p.at_node[node], test));
+}
+
+/// From a node along a piece, as far as a length: the direction in which it leads there.
+Vec2 chord(Piece const& piece, RiverLine const& line, std::size_t node, double length_m) {
+    auto const at = [&](std::size_t i) {
+        auto const& v = line.vertices[piece.from == node ? piece.first + i : piece.last - i];
+        return Vec2{v.x, v.y};
+    };
+    Vec2 const begin = at(0);
+    double left = length_m;
+    Vec2 end = begin;
+    for (std::size_t i = 1; i <= piece.last - piece.first && left > 0.0; ++i) {
+        double const step = distance(at(i - 1), at(i));
+        double const share = step > left ? left / step : 1.0;
+        end = {at(i - 1).x + share * (at(i).x - at(i - 1).x), at(i - 1).y + share * (at(i).y - at(i - 1).y)};
+        left -= step;
+    }
+    return {end.x - begin.x, end.y - begin.y};
+}
+
+/// 1 straight on, -1 straight back.
+double straightness(Pieces const& p, std::vector<RiverLine> const& lines, std::size_t node, std::size_t in,
+                    std::size_t out) {
+    auto const& a = p.pieces[in];
+    auto const& b = p.pieces[out];
+    double const along_m = 0.5 * std::min(a.length_m, b.length_m);
+    Vec2 const back = chord(a, lines[a.line], node, along_m);
+    Vec2 const on = chord(b, lines[b.line], node, along_m);
+    double const product = std::sqrt((back.x * back.x + back.y * back.y) * (on.x * on.x + on.y * on.y));
+    return product > 0.0 ? -(back.x * on.x + back.y * on.y) / product : 0.0;
+}
+
+// [m] By node: total length of the pieces upstream, which a place with several ways down shares out equally among them;
+// without what runs in a circle.
+std::vector<double> lengths_above(Pieces const& p, Divided const& divided) {
+    std::vector<double> above(p.nodes.size(), 0.0);
+    std::vector<std::size_t> awaited(p.nodes.size(), 0);
+    std::vector<std::size_t> ready;
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        awaited[n] = count_if(p, n, [&](std::size_t k) { return arrives(p, divided, k, n); });
+        if (awaited[n] == 0) {
+            ready.push_back(n);
+        }
+    }
+    for (std::size_t i = 0; i < ready.size(); ++i) {
+        std::size_t const n = ready[i];
+        auto const ways = static_cast<double>(count_if(p, n, [&](std::size_t k) { return departs(p, divided, k, n); }));
+        for (std::size_t const k : p.at_node[n]) {
+            if (departs(p, divided, k, n)) {
+                std::size_t const below = other_end(p.pieces[k], n);
+                above[below] += above[n] / ways + p.pieces[k].length_m;
+                if (--awaited[below] == 0) {
+                    ready.push_back(below);
+                }
+            }
+        }
+    }
+    return above;
+}
+
+// The piece that is the main branch among those that leave a node: see import_lines. Takes: lengths_above of it; the
+// branches, one at least, whose directions are known.
+std::size_t main_of(Pieces const& p, std::vector<RiverLine> const& lines, Divided const& divided,
+                    std::vector<double> const& length_above, std::size_t node,
+                    std::vector<std::size_t> const& branches) {
+    if (branches.size() == 1) {
+        return branches.front();
+    }
+    std::vector<std::size_t> in;
+    std::ranges::copy_if(p.at_node[node], std::back_inserter(in),
+                         [&](std::size_t k) { return arrives(p, divided, k, node); });
+    auto const line = [&](std::size_t k) -> RiverLine const& { return lines[p.pieces[k].line]; };
+    auto const greatest = std::ranges::max_element(in, {}, [&](std::size_t k) {
+        return std::tuple(line(k).size, length_above[other_end(p.pieces[k], node)] + p.pieces[k].length_m);
+    });
+    auto const any_in = [&](auto const& test) {
+        return std::ranges::any_of(in, [&](std::size_t k) { return test(line(k)); });
+    };
+    auto const key = [&](std::size_t k) {
+        RiverLine const& own = line(k);
+        int const marked = own.channel == Channel::main ? 1 : own.channel == Channel::minor ? -1 : 0;
+        bool const named = any_in([&](RiverLine const& up) { return up.down == own.feature && own.feature != 0; });
+        bool const goes_on = any_in([&](RiverLine const& up) { return &up == &own; });
+        bool const same_name = any_in([&](RiverLine const& up) { return !own.name.empty() && up.name == own.name; });
+        std::int64_t const low = own.rank == 0 ? std::numeric_limits<std::int64_t>::min() : -own.rank;
+        double const straight = in.empty() ? 0.0 : straightness(p, lines, node, *greatest, k);
+        Vec2 const end = p.nodes[other_end(p.pieces[k], node)];
+        return std::tuple(marked, named, goes_on, own.size, same_name, low, straight, -end.x, -end.y);
+    };
+    return *std::ranges::max_element(branches, {}, key);
+}
 
 // Every node gets one main branch out of it. These make trees but for circles, which are opened; of the other branches
 // those stay that nobody knows the direction of for certain and that close no loop: orient may turn them round.
-namespace thalweg::network::import_steps {
-namespace {
 
 constexpr char const* minor_channel = "minor channel";
 constexpr char const* closes_loop = "closes a loop";
@@ -367,6 +478,87 @@ private:
 Divided divide(Pieces& pieces, std::vector<RiverLine> const& lines, RiverLines const& file, Orientation orientation,
                std::vector<Evidence> const& evidence, Votes const& drawn, Run const& run) {
     return Divider(pieces, lines, file, orientation, evidence, drawn).divide(run);
+}
+
+namespace {
+
+constexpr char const* unfed = "goes on from a minor channel";
+
+/// By node: the pieces out of the network that touch it, rings left aside.
+std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, Divided const& divided) {
+    std::vector<std::vector<std::size_t>> at(p.nodes.size());
+    for (std::size_t k = 0; k < p.pieces.size(); ++k) {
+        if (divided.reason[k] != nullptr && p.pieces[k].from != p.pieces[k].to) {
+            at[p.pieces[k].from].push_back(k);
+            at[p.pieces[k].to].push_back(k);
+        }
+    }
+    return at;
+}
+
+} // namespace
+
+void drop_unfed(Pieces& p, Divided& divided, std::vector<PieceId>& leaves) {
+    auto const outside = outside_at(p, divided);
+    std::vector<int> arriving(p.nodes.size(), 0);
+    auto const below = [&](std::size_t n) { return other_end(p.pieces[leaves[n]], n); };
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        if (leaves[n] != no_piece) {
+            ++arriving[below(n)];
+        }
+    }
+    auto const runs_from = [&](std::size_t k, std::size_t n) {
+        return divided.runs[k] != 0 && (divided.runs[k] > 0 ? p.pieces[k].from : p.pieces[k].to) == n;
+    };
+    for (std::size_t start = 0; start < p.nodes.size(); ++start) {
+        bool const is_spring = leaves[start] != no_piece && runs_from(leaves[start], start) &&
+                               std::ranges::all_of(outside[start], [&](std::size_t k) { return runs_from(k, start); });
+        if (arriving[start] > 0 || outside[start].empty() || is_spring) {
+            continue;
+        }
+        for (std::size_t n = start; leaves[n] != no_piece && arriving[n] == 0;) {
+            PieceId const k = leaves[n];
+            std::size_t const next = below(n);
+            divided.reason[k] = unfed;
+            leaves[n] = no_piece;
+            std::erase(p.at_node[n], k);
+            std::erase(p.at_node[next], k);
+            --arriving[next];
+            n = next;
+        }
+    }
+}
+
+std::vector<SecondaryLine> secondary_lines(Pieces const& p, Divided const& divided, std::vector<RiverLine> const& lines,
+                                           std::vector<Finding>& repairs) {
+    std::vector<SecondaryLine> secondary;
+    for (std::size_t k = 0; k < p.pieces.size(); ++k) {
+        if (divided.reason[k] == nullptr) {
+            continue;
+        }
+        auto const& first = p.pieces[k];
+        double length_m = first.length_m;
+        std::size_t end = k;
+        auto const goes_on = [&] {
+            return end + 1 < p.pieces.size() && divided.reason[end + 1] != nullptr &&
+                   std::string_view(divided.reason[end + 1]) == divided.reason[k] &&
+                   p.pieces[end + 1].line == first.line && p.pieces[end + 1].first == p.pieces[end].last;
+        };
+        while (goes_on()) {
+            length_m += p.pieces[++end].length_m;
+        }
+        auto const& line = lines[first.line];
+        SecondaryLine one{line.feature, {}, divided.reason[k], line.feature};
+        one.vertices.assign(line.vertices.begin() + static_cast<std::ptrdiff_t>(first.first),
+                            line.vertices.begin() + static_cast<std::ptrdiff_t>(p.pieces[end].last) + 1);
+        Vec2 const at{one.vertices.front().x, one.vertices.front().y};
+        repairs.push_back({"secondary", line.number(), at, length_m,
+                           fmt::format("river {} is secondary for {:.6g} m from ({:.6f}, {:.6f}): {}", line.number(),
+                                       length_m, at.x, at.y, one.reason)});
+        secondary.push_back(std::move(one));
+        k = end;
+    }
+    return secondary;
 }
 
 } // namespace thalweg::network::import_steps

@@ -96,8 +96,6 @@ struct Imported {
 /// closed, one is reversed. Drawn directions are ignored under topology and in a component with loops where over a
 /// quarter of its length would be reversed: the tree of the largest, then shortest, paths to the outlet stays.
 /// \param lines polylines [m]
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return a forest; every vertex of a kept line stays, in order and within 1e-6 m (snapped ends within snap_m, each
 /// reported); only crossings are added, only tips where a line turns back onto itself or passes another are removed
 /// ("cut")
@@ -105,7 +103,6 @@ struct Imported {
 /// away from both ends; no line left; orientation by data that the file lacks; under Divergences::error a cycle or a
 /// bifurcation (automatic: by height or rank only)
 /// \throws BadParameter when a parameter is outside its range
-/// \throws Cancelled
 Imported import_lines(RiverLines const& lines, ImportParams const& params = {}, Run const& run = {});
 
 /// Takes the file's heights as the network's.

@@ -5,10 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
 #include <limits>
+#include <queue>
 #include <tuple>
 #include <utility>
 
+#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
@@ -37,7 +40,7 @@ bool lies_at_no_data(Raster<float> const& dem, Vec2 at) {
 }
 
 /// Whether the file lets all that meets in a node end there.
-bool is_said_outlet(Pieces const& p, PieceVotes const& certain, std::size_t n) {
+bool is_said_outlet(Pieces const& p, Votes const& certain, std::size_t n) {
     return !certain.empty() && std::ranges::all_of(p.at_node[n], [&](std::size_t k) {
         return certain[k] != 0 && (certain[k] > 0 ? p.pieces[k].to : p.pieces[k].from) == n;
     });
@@ -45,7 +48,7 @@ bool is_said_outlet(Pieces const& p, PieceVotes const& certain, std::size_t n) {
 
 /// By node: whether it lies on a side of the file on which other lines end, as those of a clipped file do, or at the
 /// border of the DEM, or is an outlet by the file.
-std::vector<char> likely_outlets(Pieces const& p, std::vector<RiverLine> const& lines, PieceVotes const& certain,
+std::vector<char> likely_outlets(Pieces const& p, std::vector<RiverLine> const& lines, Votes const& certain,
                                  Raster<float> const* dem) {
     std::array<double, 4> far{}; // west, east, south, north, counted outward
     far.fill(-std::numeric_limits<double>::infinity());
@@ -268,7 +271,7 @@ void find_blocks(ReachGraph& graph) {
 
 } // namespace
 
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, PieceVotes const& certain,
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Votes const& certain,
                       Raster<float> const* dem) {
     ReachGraph graph;
     graph.is_outlet = likely_outlets(p, lines, certain, dem);
@@ -311,6 +314,430 @@ Vec2 point_along(std::vector<Vec2> const& line, double along_m) {
         along_m -= m;
     }
     return line.back();
+}
+
+namespace {
+
+// Found by trial on 16 networks, the logarithm of the odds of the true root: docs/algorithms/river_directions.md.
+constexpr double near_scale = 0.1; // of the median reach
+constexpr double far_scale = 1.0;
+constexpr double near_weight = 1.05;
+constexpr double far_weight = 0.99;
+constexpr double border_weight = 1.84;
+constexpr double own_border_weight = 0.82;
+constexpr double free_weight = 1.02;
+constexpr double free_reach = 3.0;     // of the median reach
+constexpr double climb_per_unit = 3.0; // [m]
+constexpr double most_climb_m = 12.0;  // of a reach
+
+constexpr double fixed_point = 1LL << 32U;
+
+std::int64_t to_fixed(double x) {
+    return static_cast<std::int64_t>(std::floor(x * fixed_point + 0.5));
+}
+double from_fixed(std::int64_t x) {
+    return static_cast<double>(x) / fixed_point;
+}
+
+std::vector<Vec2> line_from(Reach const& reach, int sign) {
+    std::vector<Vec2> line = reach.line;
+    if (sign < 0) {
+        std::ranges::reverse(line);
+    }
+    return line;
+}
+
+Vec2 unit(Vec2 v) {
+    double const m = norm(v);
+    return m > 0.0 ? (1.0 / m) * v : Vec2{};
+}
+
+/// For each way out of a node how far it lies opposite the others, their mean taken off.
+std::vector<double> opposed(std::vector<Vec2> const& out) {
+    std::vector<double> result(out.size(), 0.0);
+    double sum = 0.0;
+    for (std::size_t i = 0; i < out.size(); ++i) {
+        for (std::size_t j = 0; j < out.size(); ++j) {
+            result[i] -= i == j ? 0.0 : std::clamp(dot(out[i], out[j]), -1.0, 1.0);
+        }
+        sum += result[i];
+    }
+    for (double& r : result) {
+        r -= sum / static_cast<double>(out.size());
+    }
+    return result;
+}
+
+/// The lowest of the cells around a place.
+double low_at(Raster<float> const& dem, Vec2 at) {
+    Cell const c = dem.grid().cell_of(at);
+    double low = std::numeric_limits<double>::infinity();
+    for (std::int64_t row = c.row - 1; row <= c.row + 1; ++row) {
+        for (std::int64_t col = c.col - 1; col <= c.col + 1; ++col) {
+            if (dem.grid().contains({col, row}) && std::isfinite(dem[Cell{col, row}])) {
+                low = std::min(low, static_cast<double>(dem[Cell{col, row}]));
+            }
+        }
+    }
+    return low;
+}
+
+} // namespace
+
+RootScores::Sums& RootScores::Sums::operator+=(Sums const& o) {
+    shape += o.shape;
+    climb += o.climb;
+    drawn += o.drawn;
+    certain += o.certain;
+    return *this;
+}
+RootScores::Sums& RootScores::Sums::operator-=(Sums const& o) {
+    shape -= o.shape;
+    climb -= o.climb;
+    drawn -= o.drawn;
+    certain -= o.certain;
+    return *this;
+}
+
+RootScores::RootScores(Pieces const& p, std::vector<RiverLine> const& lines, ReachGraph const& graph,
+                       Votes const& certain, Raster<float> const* dem)
+    : p_(p), graph_(graph), border_m_(border_distances(p, lines)), rise_m_(graph.reaches.size(), 0.0),
+      exits_(graph.block_nodes.size(), 0), block_reaches_(graph.block_nodes.size(), 0), known_(p.nodes.size(), 0),
+      inside_(p.nodes.size()), scratch_{std::vector<std::size_t>(p.nodes.size(), none),
+                                        std::vector<double>(p.nodes.size(), std::numeric_limits<double>::infinity())} {
+    measure_angles();
+    if (dem != nullptr) {
+        measure_heights(*dem);
+    }
+    measure_votes(certain);
+    sample();
+    for (std::size_t k = 0; k < graph.reaches.size(); ++k) {
+        Reach const& r = graph.reaches[k];
+        if (r.from == r.to) {
+            continue;
+        }
+        if (graph.is_bridge[k] != 0) {
+            ++exits_[graph.block[r.from]];
+            ++exits_[graph.block[r.to]];
+        } else {
+            ++block_reaches_[graph.block[r.from]];
+        }
+    }
+}
+
+void RootScores::measure_angles() {
+    angle_.resize(graph_.at.size());
+    double const scales[] = {std::max(near_scale * graph_.median_m, 2.0 * graph_.segment_m),
+                             std::max(far_scale * graph_.median_m, 2.0 * graph_.segment_m)};
+    for (std::size_t n = 0; n < graph_.at.size(); ++n) {
+        auto const& ways = graph_.at[n];
+        if (ways.size() < 3) {
+            continue;
+        }
+        std::vector<Vec2> near;
+        std::vector<Vec2> far;
+        for (Way const& way : ways) {
+            auto const line = line_from(graph_.reaches[way.reach], way.sign);
+            near.push_back(unit(point_along(line, scales[0]) - line.front()));
+            far.push_back(unit(point_along(line, scales[1]) - line.front()));
+        }
+        auto const of_near = opposed(near);
+        auto const of_far = opposed(far);
+        for (std::size_t i = 0; i < ways.size(); ++i) {
+            angle_[n].push_back(near_weight * of_near[i] + far_weight * of_far[i]);
+        }
+    }
+}
+
+void RootScores::measure_heights(Raster<float> const& dem) {
+    for (std::size_t k = 0; k < graph_.reaches.size(); ++k) {
+        Reach const& r = graph_.reaches[k];
+        double const rise_m = low_at(dem, p_.nodes[r.to]) - low_at(dem, p_.nodes[r.from]);
+        rise_m_[k] = std::isfinite(rise_m) ? std::clamp(rise_m, -most_climb_m, most_climb_m) : 0.0;
+    }
+}
+
+void RootScores::measure_votes(Votes const& certain) {
+    for (Reach const& r : graph_.reaches) {
+        double drawn_m = 0.0;
+        double certain_m = 0.0;
+        double length_m = 0.0;
+        for (auto const& [k, runs] : r.steps) {
+            double const m = p_.pieces[k].length_m;
+            length_m += m;
+            drawn_m += runs * m;
+            certain_m += certain.empty() ? 0.0 : runs * certain[k] * m;
+        }
+        drawn_.push_back(drawn_m / length_m);
+        certain_.push_back(certain_m / length_m);
+    }
+}
+
+void RootScores::sample() {
+    constexpr double step = 0.25; // of the median reach
+    constexpr double least = 2.0;
+    constexpr double most = 20.0;
+    double const side_m = free_reach * graph_.median_m;
+    for (std::size_t k = 0; k < graph_.reaches.size(); ++k) {
+        Reach const& r = graph_.reaches[k];
+        double const count = std::clamp(std::floor(r.length_m / (step * graph_.median_m)), least, most);
+        double const gap_m = r.length_m / (count - 1.0);
+        double along_m = 0.0;
+        double next_m = 0.0;
+        auto const add = [&](Vec2 at) {
+            samples_.push_back({static_cast<std::int64_t>(std::floor(at.x / side_m)),
+                                static_cast<std::int64_t>(std::floor(at.y / side_m)), k, at});
+        };
+        for (std::size_t i = 1; i < r.line.size(); ++i) {
+            double const m = distance(r.line[i - 1], r.line[i]);
+            for (; next_m < along_m + m; next_m += gap_m) {
+                add(r.line[i - 1] + ((next_m - along_m) / m) * (r.line[i] - r.line[i - 1]));
+            }
+            along_m += m;
+        }
+        add(r.line.back());
+    }
+    std::ranges::sort(samples_, {}, [](Sample const& s) { return std::tuple(s.col, s.row, s.reach, s.at.x, s.at.y); });
+}
+
+bool RootScores::is_free_ahead(std::size_t node) const {
+    Way const& way = graph_.at[node].front();
+    auto const line = line_from(graph_.reaches[way.reach], way.sign);
+    Vec2 const at = line.front();
+    Vec2 const ahead = unit(at - point_along(line, 0.5 * graph_.median_m));
+    double const side_m = free_reach * graph_.median_m;
+    auto const col = static_cast<std::int64_t>(std::floor(at.x / side_m));
+    auto const row = static_cast<std::int64_t>(std::floor(at.y / side_m));
+    for (std::int64_t c = col - 1; c <= col + 1; ++c) {
+        auto const key = [](Sample const& s) { return std::pair(s.col, s.row); };
+        auto const first = std::ranges::lower_bound(samples_, std::pair(c, row - 1), {}, key);
+        for (auto s = first; s != samples_.end() && s->col == c && s->row <= row + 1; ++s) {
+            Vec2 const to = s->at - at;
+            double const m = norm(to);
+            if (s->reach != way.reach && m <= side_m && dot(to, ahead) > 0.5 * m) {
+                return false;
+            }
+        }
+    }
+    return true;
+}
+
+double RootScores::leaf_terms(std::size_t node, Vec2 low, Vec2 high) const {
+    Vec2 const at = p_.nodes[node];
+    double const own_m = std::min({at.x - low.x, high.x - at.x, at.y - low.y, high.y - at.y});
+    return border_weight * portable::exp(-std::max(0.0, border_m_[node]) / graph_.median_m) +
+           own_border_weight * portable::exp(-std::max(0.0, own_m) / graph_.median_m) +
+           (graph_.at[node].size() == 1 && is_free_ahead(node) ? free_weight : 0.0);
+}
+
+double RootScores::angle(std::size_t node, std::size_t reach) const {
+    auto const& of = angle_[node];
+    for (std::size_t i = 0; i < of.size(); ++i) {
+        if (graph_.at[node][i].reach == reach) {
+            return of[i];
+        }
+    }
+    return 0.0;
+}
+
+RootScores::Sums RootScores::along(std::size_t reach, int sign) const {
+    Sums sums;
+    sums.climb = to_fixed(-std::max(0.0, sign * rise_m_[reach]) / climb_per_unit);
+    sums.drawn = graph_.is_bridge[reach] != 0 ? to_fixed(sign * drawn_[reach]) : 0;
+    sums.certain = graph_.is_bridge[reach] != 0 ? to_fixed(sign * certain_[reach]) : 0;
+    return sums;
+}
+
+void RootScores::search(std::size_t from, bool in_block, Ways& ways, std::vector<std::size_t>& reached) const {
+    using Entry = std::tuple<double, double, double, std::size_t>; // way, position, node
+    std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+    auto const push = [&](std::size_t n) { queue.emplace(ways.way_m[n], p_.nodes[n].x, p_.nodes[n].y, n); };
+    reached = {from};
+    ways.way_m[from] = 0.0;
+    ways.down[from] = none;
+    push(from);
+    while (!queue.empty()) {
+        std::size_t const n = std::get<3>(queue.top());
+        bool const is_old = std::get<0>(queue.top()) > ways.way_m[n];
+        queue.pop();
+        if (is_old) {
+            continue;
+        }
+        for (Way const& way : graph_.at[n]) {
+            double const m = ways.way_m[n] + graph_.reaches[way.reach].length_m;
+            if ((in_block && graph_.is_bridge[way.reach] != 0) || !(m < ways.way_m[way.to])) {
+                continue;
+            }
+            if (std::isinf(ways.way_m[way.to])) {
+                reached.push_back(way.to);
+            }
+            ways.way_m[way.to] = m;
+            ways.down[way.to] = way.reach;
+            push(way.to);
+        }
+    }
+}
+
+/// All that a block gives when its water leaves at a node of it; angles there left aside.
+RootScores::Sums const& RootScores::inside(std::size_t exit) {
+    constexpr std::size_t most_visits = 50'000'000; // a braid with thousands of tributaries: its angles say nothing
+    if (known_[exit] != 0) {
+        return inside_[exit];
+    }
+    known_[exit] = 1;
+    Sums& sums = inside_[exit];
+    std::size_t const block = graph_.block[exit];
+    if (graph_.block_nodes[block].size() < 2 || exits_[block] * block_reaches_[block] > most_visits) {
+        return sums;
+    }
+    search(exit, true, scratch_, reached_);
+    for (std::size_t const n : reached_) {
+        if (n != exit) {
+            sums.shape += to_fixed(angle(n, scratch_.down[n]));
+        }
+        for (Way const& way : graph_.at[n]) {
+            if (way.sign > 0 && graph_.is_bridge[way.reach] == 0) {
+                bool const is_way = scratch_.down[n] == way.reach;
+                bool const is_back = !is_way && scratch_.down[way.to] == way.reach;
+                bool const forth = is_way || (!is_back && scratch_.way_m[n] > scratch_.way_m[way.to]);
+                sums += along(way.reach, forth ? 1 : -1);
+            }
+        }
+    }
+    for (std::size_t const n : reached_) {
+        scratch_.way_m[n] = std::numeric_limits<double>::infinity();
+        scratch_.down[n] = none;
+    }
+    return sums;
+}
+
+/// All that a block gives when its water leaves a node over a bridge.
+RootScores::Sums RootScores::leaving(std::size_t node, std::size_t reach, int sign) {
+    Sums sums = inside(node);
+    sums += along(reach, sign);
+    sums.shape += to_fixed(angle(node, reach));
+    return sums;
+}
+
+std::vector<Root> RootScores::of(ReachGroup const& group) {
+    struct Step {
+        std::size_t block;
+        std::size_t before; ///< place of the block that it was reached from
+        std::size_t reach = none;
+        std::size_t near = none; ///< end of the reach in that block
+        std::size_t far = none;
+        int sign = 0; ///< of the reach towards this block
+    };
+    std::vector<Step> order{{graph_.block[group.nodes.front()], none}};
+    Sums first;
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (std::size_t const n : graph_.block_nodes[order[i].block]) {
+            for (Way const& way : graph_.at[n]) {
+                if (graph_.is_bridge[way.reach] != 0 && way.reach != order[i].reach) {
+                    order.push_back({graph_.block[way.to], i, way.reach, n, way.to, way.sign});
+                    first += leaving(way.to, way.reach, -way.sign);
+                }
+            }
+        }
+    }
+    std::vector<Sums> at{first}; // by place: of all other blocks, when the root is in this one
+    std::vector<std::pair<std::size_t, std::size_t>> place{{order.front().block, 0}};
+    for (std::size_t i = 1; i < order.size(); ++i) {
+        Step const& step = order[i];
+        Sums sums = at[step.before];
+        sums -= leaving(step.far, step.reach, -step.sign);
+        sums += leaving(step.near, step.reach, step.sign);
+        at.push_back(sums);
+        place.emplace_back(step.block, i);
+    }
+    std::ranges::sort(place);
+
+    std::vector<std::size_t> nodes;
+    std::ranges::copy_if(group.nodes, std::back_inserter(nodes),
+                         [&](std::size_t n) { return graph_.at[n].size() == 1 || graph_.is_outlet[n] != 0; });
+    Vec2 low = p_.nodes[group.nodes.front()];
+    Vec2 high = low;
+    for (std::size_t const n : group.nodes) {
+        low = {std::min(low.x, p_.nodes[n].x), std::min(low.y, p_.nodes[n].y)};
+        high = {std::max(high.x, p_.nodes[n].x), std::max(high.y, p_.nodes[n].y)};
+    }
+    if (nodes.empty()) {
+        constexpr std::size_t most = 64;
+        nodes = group.nodes;
+        std::ranges::stable_sort(nodes, {}, [&](std::size_t n) {
+            Vec2 const v = p_.nodes[n];
+            return std::min({v.x - low.x, high.x - v.x, v.y - low.y, high.y - v.y});
+        });
+        nodes.resize(std::min(nodes.size(), most));
+    }
+    std::vector<Root> roots;
+    for (std::size_t const n : nodes) {
+        auto const found = std::ranges::lower_bound(place, std::pair(graph_.block[n], std::size_t{0}));
+        Sums sums = at[found->second];
+        sums += inside(n);
+        roots.push_back({n, from_fixed(sums.shape) + leaf_terms(n, low, high), from_fixed(sums.climb),
+                         from_fixed(sums.drawn), from_fixed(sums.certain)});
+    }
+    return roots;
+}
+
+void RootScores::ways_to(std::size_t root, Ways& ways) const {
+    ways.down.resize(p_.nodes.size(), none);
+    ways.way_m.resize(p_.nodes.size(), std::numeric_limits<double>::infinity());
+    std::vector<std::size_t> reached;
+    search(root, false, ways, reached);
+}
+
+RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight) {
+    Second best{-1.0, none};
+    if (group.reaches.size() + 1 != group.nodes.size()) {
+        return best;
+    }
+    Vec2 low = p_.nodes[group.nodes.front()];
+    Vec2 high = low;
+    for (std::size_t const n : group.nodes) {
+        low = {std::min(low.x, p_.nodes[n].x), std::min(low.y, p_.nodes[n].y)};
+        high = {std::max(high.x, p_.nodes[n].x), std::max(high.y, p_.nodes[n].y)};
+    }
+    struct Visit {
+        std::size_t node;
+        Way down; ///< of the reach below, as it leaves the node; unused for the root
+    };
+    std::vector<Visit> order{{root, {none, none, 0}}};
+    for (std::size_t i = 0; i < order.size(); ++i) {
+        for (Way const& way : graph_.at[order[i].node]) {
+            if (way.reach != order[i].down.reach) {
+                order.push_back({way.to, {way.reach, order[i].node, -way.sign}});
+            }
+        }
+    }
+    // By node: the best end above it for its water to leave by, were it cut off below.
+    above_.resize(p_.nodes.size());
+    for (std::size_t const n : group.nodes) {
+        above_[n] = {-std::numeric_limits<double>::infinity(), none};
+    }
+    for (std::size_t i = order.size(); i-- > 1;) {
+        auto const [n, down] = order[i];
+        if (graph_.at[n].size() == 1) {
+            above_[n] = {leaf_terms(n, low, high), n};
+        } else {
+            above_[n].gain -= angle(n, down.reach);
+            best = above_[n].gain > best.gain ? above_[n] : best;
+        }
+        // Over the reach below: what turning it round gives, and the node below sending its water up it.
+        std::size_t const below = down.to;
+        if (below == root) {
+            continue;
+        }
+        Sums turned = along(down.reach, -down.sign);
+        turned -= along(down.reach, down.sign);
+        double const of_reach = from_fixed(turned.climb) + drawn_weight * from_fixed(turned.drawn);
+        double const gain = above_[n].gain + of_reach + angle(below, down.reach);
+        if (gain > above_[below].gain) {
+            above_[below] = {gain, above_[n].outlet};
+        }
+    }
+    return best;
 }
 
 } // namespace thalweg::network::import_steps

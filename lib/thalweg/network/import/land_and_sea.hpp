@@ -24,10 +24,8 @@ struct LandAndSea {
 /// between sea and rivers.
 /// \param coastlines,rivers lines [m]; both may leave the grid
 /// \param grid to be divided
-/// \param run progress, log, stop token and number of threads
 /// \return sea to the right of coastlines, as OpenStreetMap and NHD draw them, unless more river cells lie there; the
 /// same mask for any number of threads
-/// \throws Cancelled
 LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, Grid const& grid, Run const& run = {});
 
 /// Divides a grid into land and sea, with outlets inside the grid as river mouths: the sea begins beyond each outlet,
@@ -35,9 +33,7 @@ LandAndSea land_and_sea(RiverLines const& coastlines, RiverLines const& rivers, 
 /// outlet.
 /// \param network a forest inside the grid
 /// \param grid to be divided
-/// \param run progress, log, stop token and number of threads
 /// \return 0: sea; every river cell is land; empty if no outlet lies inside
-/// \throws Cancelled
 Mask land_behind_outlets(StreamNetwork const& network, Grid const& grid, Run const& run = {});
 
 /// Adds to the land all river cells and their neighbours, except neighbours of outlets alone: no river then drains

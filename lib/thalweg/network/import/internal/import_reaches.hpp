@@ -11,11 +11,8 @@
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 /// Pieces as a graph of reaches, and the score of every root that its components could have:
-/// docs/algorithms/river_directions.md. Private to this module.
+/// docs/algorithms/river_directions.md.
 namespace thalweg::network::import_steps {
-
-/// What pieces say, by piece: 1 runs as drawn, -1 against it, 0 nothing.
-using PieceVotes = std::vector<int>;
 
 /// The pieces between two places where not just two of them meet, or where water may leave. Which end is `from` follows
 /// from the positions alone, so that nothing here depends on how lines are drawn or in which order.
@@ -59,7 +56,7 @@ struct ReachGraph {
 };
 
 /// dem: null without one.
-ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, PieceVotes const& certain,
+ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Votes const& certain,
                       Raster<float> const* dem);
 
 /// The point at a distance [m] along a line, its end beyond.
@@ -79,7 +76,7 @@ struct Root {
 class RootScores {
 public:
     /// dem: null without one.
-    RootScores(Pieces const& p, std::vector<RiverLine> const& lines, ReachGraph const& graph, PieceVotes const& certain,
+    RootScores(Pieces const& p, std::vector<RiverLine> const& lines, ReachGraph const& graph, Votes const& certain,
                Raster<float> const* dem);
     /// Every end of a group and every likely outlet, by position; where it has none, the nodes
     /// nearest to its own border.
@@ -115,7 +112,7 @@ private:
     };
     void measure_angles();
     void measure_heights(Raster<float> const& dem);
-    void measure_votes(PieceVotes const& certain);
+    void measure_votes(Votes const& certain);
     void sample();
     double leaf_terms(std::size_t node, Vec2 low, Vec2 high) const;
     bool is_free_ahead(std::size_t node) const;

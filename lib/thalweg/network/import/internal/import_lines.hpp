@@ -15,7 +15,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 
-/// The steps of adopt, in their order. Private to this module.
+/// The steps of import_lines, in their order.
 namespace thalweg::network::import_steps {
 
 /// [m] Points closer than this are the same point: the step to which coordinates are rounded when they are read.
@@ -109,13 +109,25 @@ Pieces cut(std::vector<RiverLine> const& lines, Left& left);
 /// Throws BadInput naming rivers and place when pieces form a cycle.
 void refuse_cycles(Pieces const& pieces, std::vector<RiverLine> const& lines, std::string const& name);
 
+using Votes = std::vector<int>; ///< by piece: 1 runs as drawn, -1 against it, 0 does not say
+
+/// What the file says for certain about the direction of pieces.
+struct Evidence {
+    enum class Kind : std::uint8_t { links, column, height, rank, drawn };
+    Kind kind;
+    Votes votes;
+    char const* name; ///< "by NAME", for messages
+};
+
+/// The evidence to use, the most trusted first. Throws: BadInput when the file lacks what is asked for.
+std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
+                                  Orientation asked);
+
 /// Which pieces are not in the network, and what is known of the direction of all.
 struct Divided {
     std::vector<char const*> reason; ///< by piece: why it is secondary; null where it is not
     std::vector<int> runs;           ///< by piece: 1 as drawn, -1 against it, 0 nobody knows
 };
-
-struct Evidence; // in import_tree.hpp
 
 /// Keeps the main path wherever water could go more than one way, and takes the pieces of the others out of
 /// pieces.at_node: what stays there is a forest.
@@ -141,5 +153,45 @@ void report_turned(Pieces const& p, std::vector<RiverLine> const& lines, std::ve
 /// The secondary pieces as lines, each with a finding.
 std::vector<SecondaryLine> secondary_lines(Pieces const& pieces, Divided const& divided,
                                            std::vector<RiverLine> const& lines, std::vector<Finding>& repairs);
+
+std::size_t other_end(Piece const& piece, std::size_t node);
+
+/// The pieces that lead to a root.
+struct Tree {
+    std::vector<std::size_t> nodes; ///< the component, each after the one it was reached from
+    std::vector<PieceId>& towards;  ///< by node: piece towards the first of them, no_piece for it
+};
+
+/// Takes: pieces whose component at `outlet` is a tree.
+void root_at(Pieces const& p, std::size_t outlet, Tree& tree);
+
+/// The length of a piece in whole micrometres: sums of them are exact in any order.
+std::int64_t weight(Piece const& piece);
+
+/// By place in tree.nodes: the weight of the pieces that vote against this node as the outlet. cost: room for every
+/// node.
+std::vector<std::int64_t> against(Pieces const& p, Tree const& tree, Votes const& votes,
+                                  std::vector<std::int64_t>& cost);
+
+/// [m] By node: distance to the border of the lines' box.
+std::vector<double> border_distances(Pieces const& p, std::vector<RiverLine> const& lines);
+
+/// The directions of pieces, found before any is left out.
+struct FoundDirections {
+    std::vector<int> runs;       ///< by piece: 1 as drawn, -1 against it
+    std::vector<int> said;       ///< by piece: the same by links, columns, heights or ranks; 0: they do not say
+    std::vector<char const*> by; ///< by piece: what decides
+    std::vector<char const*> contradicted; ///< evidence that much of itself contradicts
+    Directions report;                     ///< without turned
+};
+
+/// Under automatic and links: docs/algorithms/river_directions.md. Else everything runs as drawn. Takes a direction
+/// column that contradicts itself out of the evidence.
+FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, ImportParams const& params,
+                                std::vector<Evidence>& evidence, Run const& run);
+
+/// Adds up what was turned, and doubts evidence that more than a tenth of the network contradicts.
+Directions review_directions(Pieces const& p, std::vector<RiverLine> const& lines, FoundDirections const& found,
+                             std::vector<PieceId> const& leaves);
 
 } // namespace thalweg::network::import_steps

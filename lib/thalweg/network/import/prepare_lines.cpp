@@ -1,0 +1,324 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/prepare_lines.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <limits>
+#include <map>
+#include <optional>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/nearby.hpp>
+
+namespace thalweg::network {
+namespace {
+
+struct Window {
+    double west;
+    double east;
+    double south;
+    double north;
+    bool holds(Vec3 p) const { return p.x >= west && p.x <= east && p.y >= south && p.y <= north; }
+};
+
+/// The share [first, last] of segment a-b inside the box (Liang and Barsky 1984).
+std::optional<std::pair<double, double>> inside(Vec3 a, Vec3 b, Window const& box) {
+    double first = 0.0;
+    double last = 1.0;
+    double const dx = b.x - a.x;
+    double const dy = b.y - a.y;
+    std::array<std::pair<double, double>, 4> const sides = {
+        {{-dx, a.x - box.west}, {dx, box.east - a.x}, {-dy, a.y - box.south}, {dy, box.north - a.y}}};
+    for (auto const& [towards, room] : sides) {
+        if (towards == 0.0) {
+            if (room < 0.0) {
+                return std::nullopt;
+            }
+        } else if (towards < 0.0) {
+            first = std::max(first, room / towards);
+        } else {
+            last = std::min(last, room / towards);
+        }
+    }
+    return first < last ? std::optional(std::pair(first, last)) : std::nullopt;
+}
+
+Vec3 on_edge(Vec3 a, Vec3 b, double share, Window const& box) {
+    return {std::clamp(a.x + share * (b.x - a.x), box.west, box.east),
+            std::clamp(a.y + share * (b.y - a.y), box.south, box.north), a.z + share * (b.z - a.z)};
+}
+
+} // namespace
+
+RiverLines clip_lines(RiverLines const& lines, Grid const& grid) {
+    Window const box{grid.west, grid.east(), grid.south(), grid.north};
+    RiverLines out = lines;
+    out.lines.clear();
+    for (RiverLine const& line : lines.lines) {
+        RiverLine piece = line;
+        piece.vertices.clear();
+        SecondaryLine beyond{line.feature, {}, "beyond the grid", line.feature, LeftOut::grid};
+        auto const finish = [&] {
+            if (piece.vertices.size() > 1) {
+                out.lines.push_back(piece);
+            }
+            piece.vertices.clear();
+        };
+        auto const go_beyond = [&](Vec3 from, Vec3 to) {
+            if (beyond.vertices.empty()) {
+                beyond.vertices.push_back(from);
+            }
+            beyond.vertices.push_back(to);
+        };
+        auto const come_back = [&] {
+            if (!beyond.vertices.empty()) {
+                out.secondary.push_back(beyond);
+            }
+            beyond.vertices.clear();
+        };
+        for (std::size_t i = 1; i < line.vertices.size(); ++i) {
+            Vec3 const a = line.vertices[i - 1];
+            Vec3 const b = line.vertices[i];
+            auto const part = inside(a, b, box);
+            if (!part) {
+                finish();
+                go_beyond(a, b);
+                continue;
+            }
+            Vec3 const entry = box.holds(a) ? a : on_edge(a, b, part->first, box);
+            Vec3 const exit = box.holds(b) ? b : on_edge(a, b, part->second, box);
+            if (!box.holds(a)) {
+                go_beyond(a, entry);
+            }
+            come_back();
+            if (piece.vertices.empty()) {
+                piece.vertices.push_back(entry);
+            }
+            piece.vertices.push_back(exit);
+            if (!box.holds(b)) {
+                finish();
+                go_beyond(exit, b);
+            }
+        }
+        finish();
+        come_back();
+    }
+    return out;
+}
+
+namespace {
+
+std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
+    std::vector<Vec2> result;
+    for (Vec3 const p : line) {
+        result.push_back(plan(p));
+    }
+    return result;
+}
+
+// Without the tips of spikes; taking one away may leave another.
+std::vector<Vec3> without_spikes(std::vector<Vec3> const& line, double near_m) {
+    std::vector<Vec3> result;
+    for (Vec3 const p : line) {
+        while (result.size() > 1 &&
+               geometry::is_spike(plan(result[result.size() - 2]), plan(result.back()), plan(p), near_m)) {
+            result.pop_back();
+        }
+        if (result.empty() || plan(result.back()) != plan(p)) {
+            result.push_back(p);
+        }
+    }
+    return result;
+}
+
+// With a vertex wherever the line meets itself.
+std::vector<Vec3> with_crossings(std::vector<Vec3> const& line) {
+    auto const found = geometry::crossings({plan_of(line)}); // by segment, then along it
+    std::vector<Vec3> result;
+    auto next = found.begin();
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        result.push_back(line[i]);
+        for (; next != found.end() && next->segment == i; ++next) {
+            double const z = line[i].z + next->along * (line[i + 1].z - line[i].z);
+            if (plan(result.back()) != next->at && plan(line[i + 1]) != next->at) {
+                result.push_back({next->at.x, next->at.y, z});
+            }
+        }
+    }
+    return result;
+}
+
+// From a vertex straight on from where the line leaves it for the last time.
+std::vector<Vec3> without_returns(std::vector<Vec3> const& line) {
+    std::map<std::pair<double, double>, std::size_t> last;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        last[{line[i].x, line[i].y}] = i;
+    }
+    std::vector<Vec3> result;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        result.push_back(line[i]);
+        i = last[{line[i].x, line[i].y}];
+    }
+    if (result.size() > 1) {
+        result.back() = line.back();
+    }
+    return result;
+}
+
+} // namespace
+
+CutLine cut_loops(std::vector<Vec3> const& line, double near_m) {
+    CutLine cut{without_spikes(line, near_m), 0.0};
+    // A crossing that is rounded bends the line a little: nearly always the first round is the last.
+    constexpr int rounds = 16;
+    for (int round = 0; round < rounds; ++round) {
+        auto const crossed = with_crossings(cut.line);
+        auto next = without_returns(crossed);
+        bool const settled = next.size() == cut.line.size();
+        cut.line = std::move(next);
+        if (settled) {
+            break;
+        }
+    }
+    cut.cut_m = std::max(0.0, length_in_plan(line) - length_in_plan(cut.line));
+    return cut;
+}
+
+namespace {
+
+bool has_heights(RiverLine const& line) {
+    return std::all_of(line.vertices.begin(), line.vertices.end(), [](Vec3 const& v) { return std::isfinite(v.z); });
+}
+
+/// Lines whose heights are found one after another.
+class Filling {
+public:
+    Filling(std::vector<RiverLine>& lines, double slope) : lines_(lines), slope_(slope) {
+        double falling = 0.0;
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            if (has_heights(lines[i])) {
+                auto const& v = lines[i].vertices;
+                falling += v.front().z > v.back().z ? 1.0 : v.front().z < v.back().z ? -1.0 : 0.0;
+                learn(v);
+            } else {
+                open_.push_back(i);
+            }
+        }
+        drawn_downstream_ = falling >= 0.0;
+    }
+
+    std::vector<std::size_t> const& open() const { return open_; }
+
+    bool tells_anything() const {
+        return std::any_of(known_.begin(), known_.end(),
+                           [this](auto const& place) { return place.second != known_.begin()->second; });
+    }
+
+    void fill() {
+        while (!open_.empty()) {
+            if (!fill_those_with(2) && !fill_those_with(1)) {
+                fill_beside_nearest(open_.front());
+                open_.erase(open_.begin());
+            }
+        }
+    }
+
+private:
+    using Place = std::pair<double, double>;
+
+    void learn(std::vector<Vec3> const& line) {
+        for (Vec3 const& v : line) {
+            auto const [known, is_new] = known_.try_emplace({v.x, v.y}, v.z);
+            known->second = std::min(known->second, v.z);
+        }
+    }
+
+    std::optional<double> height_at(Vec3 const& v) const {
+        auto const found = known_.find({v.x, v.y});
+        return found == known_.end() ? std::nullopt : std::optional(found->second);
+    }
+
+    /// All lines of which so many ends are known now.
+    bool fill_those_with(int ends) {
+        std::vector<std::size_t> now;
+        std::vector<std::size_t> later;
+        for (std::size_t const i : open_) {
+            auto const& v = lines_[i].vertices;
+            int const known = (height_at(v.front()) ? 1 : 0) + (height_at(v.back()) ? 1 : 0);
+            (known == ends ? now : later).push_back(i);
+        }
+        for (std::size_t const i : now) {
+            auto& v = lines_[i].vertices;
+            double const rise = slope_ * length_in_plan(v) * (drawn_downstream_ ? 1.0 : -1.0); // from last to first
+            std::optional<double> const first = height_at(v.front());
+            std::optional<double> const last = height_at(v.back());
+            draw(v, first.value_or(last.value_or(0.0) + rise), last.value_or(first.value_or(0.0) - rise));
+        }
+        for (std::size_t const i : now) {
+            learn(lines_[i].vertices);
+        }
+        open_ = std::move(later);
+        return !now.empty();
+    }
+
+    void fill_beside_nearest(std::size_t i) {
+        auto& v = lines_[i].vertices;
+        double const rise = slope_ * length_in_plan(v);
+        Vec2 const mouth = plan(drawn_downstream_ ? v.back() : v.front());
+        double nearest = std::numeric_limits<double>::infinity();
+        double low = 0.0;
+        for (auto const& [place, z] : known_) {
+            double const away = distance(mouth, {place.first, place.second});
+            if (away < nearest) {
+                nearest = away;
+                low = z;
+            }
+        }
+        draw(v, drawn_downstream_ ? low + rise : low, drawn_downstream_ ? low : low + rise);
+        learn(v);
+    }
+
+    static void draw(std::vector<Vec3>& line, double first, double last) {
+        double const length = length_in_plan(line);
+        double along = 0.0;
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            along += i == 0 ? 0.0 : distance(plan(line[i - 1]), plan(line[i]));
+            double const share = length > 0.0 ? along / length : 0.0;
+            line[i].z = i + 1 == line.size() ? last : first + (last - first) * share;
+        }
+    }
+
+    std::vector<RiverLine>& lines_;
+    double slope_;
+    bool drawn_downstream_ = true;
+    std::map<Place, double> known_; ///< the lowest height at each place
+    std::vector<std::size_t> open_; ///< lines without heights
+};
+
+} // namespace
+
+FilledHeights fill_heights(RiverLines lines, double slope) {
+    if (!(slope > 0.0)) {
+        throw BadParameter(fmt::format("network.fill_heights: slope {}; give one above 0", slope));
+    }
+    FilledHeights out{std::move(lines), 0, 0};
+    Filling filling(out.lines.lines, slope);
+    if (filling.open().empty() || !filling.tells_anything()) {
+        return out;
+    }
+    out.filled = static_cast<std::int64_t>(filling.open().size());
+    out.first = out.lines.lines[filling.open().front()].feature;
+    filling.fill();
+    out.lines.has_z = true;
+    return out;
+}
+
+} // namespace thalweg::network

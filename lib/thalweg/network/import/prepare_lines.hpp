@@ -1,0 +1,63 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
+
+namespace thalweg::network {
+
+/// Clips lines to a grid.
+/// \param lines polylines [m]
+/// \param grid clips at its outer edge
+/// \return the parts inside, in order; a line that leaves and returns becomes several with the same feature. Vertices
+/// inside are kept bit for bit; new ones lie exactly on the edge, with interpolated heights. What lies beyond the edge
+/// is added to `secondary`.
+RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
+
+/// A line without loops and spikes.
+struct CutLine {
+    std::vector<Vec3> line;
+    double cut_m = 0.0; ///< length of the removed parts
+};
+
+/// Removes loops and spikes from a line.
+/// \param line vertices [m], finite in plan
+/// \param near_m [m] >= 0, a line that turns back and comes this close to itself has a spike
+/// \return neither touches nor crosses itself; the ends stay, heights at crossings are interpolated, repeated vertices
+/// are removed. A ring shrinks to a point.
+/// \throws BadInput when a coordinate is not finite
+CutLine cut_loops(std::vector<Vec3> const& line, double near_m = 0.0);
+
+/// What fill_heights() returns.
+struct FilledHeights {
+    RiverLines lines;
+    std::int64_t filled = 0; ///< lines that had no heights
+    std::int64_t first = 0;  ///< feature of the first of them
+};
+
+/// Derives the heights of lines without them from the lines they meet. A line has heights when all its vertices have,
+/// and not all such lines have one and the same height.
+/// \param lines with heights in some
+/// \param slope [m/m] > 0, for lines with fewer than two known ends
+/// \return between two known heights linear by length; from one known end by `slope`, in drawn direction or, if most
+/// lines with heights rise as drawn, against it; a line that meets none has at its lower end the height of the nearest
+/// known vertex. Without any heights, or with all: the lines unchanged.
+/// \throws BadParameter when slope is outside its range
+FilledHeights fill_heights(RiverLines lines, double slope);
+
+/// Keeps the artificial channels that rivers need: where a river ends at one, the shortest way through `channels` to
+/// another river (against the drawn direction three times as long). Lines flow by their heights where these differ,
+/// else as drawn; rivers with more ends than sources are drawn upstream.
+/// \param rivers lines [m], with channels
+/// \param snap_m [m] >= 0, ends closer than this meet; 0: 1e-6 of the box's diagonal
+/// \return needed parts of channels are in `lines`, with a finding "connector" [m] each; all other parts are in
+/// `secondary` by their reason; `channels` is empty
+RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run = {});
+
+} // namespace thalweg::network
