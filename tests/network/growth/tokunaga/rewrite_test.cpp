@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 #include <support.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 #include <gtest/gtest.h>
 
@@ -77,16 +77,24 @@ TEST(Rewrite, SeveralRulesAreAsLikelyAndFollowTheSeed) {
     EXPECT_NEAR(static_cast<double>(word.size()), 4000.0 * 2.0 / 3.0, 120.0);
 }
 
-TEST(Rewrite, TheTurtleDrawsAsThatOfTrees) {
-    std::string const word = "F[--G]F[-G][+G]";
-    auto const tree = draw_turtle(read_lsystem(word), {.delta_deg = 30.0, .link_m = 1.0});
+TEST(Rewrite, TheTurtleDrawsWhatTheWordSays) {
     std::vector<std::vector<Vec2>> steps;
-    for (auto const& line : draw_word(word, 30.0)) {
+    for (auto const& line : draw_word("F[--G]F[-G][+G]", 30.0)) {
         for (std::size_t i = 1; i < line.size(); ++i) {
             steps.push_back({line[i - 1], line[i]});
         }
     }
-    EXPECT_EQ(steps, tree);
+    double const root = std::sqrt(0.75); // cosine of 30 degrees
+    std::vector<std::vector<Vec2>> const wanted{{{0.0, 0.0}, {0.0, 1.0}},
+                                                {{0.0, 1.0}, {root, 1.5}},
+                                                {{0.0, 1.0}, {0.0, 2.0}},
+                                                {{0.0, 2.0}, {0.5, 2.0 + root}},
+                                                {{0.0, 2.0}, {-0.5, 2.0 + root}}};
+    ASSERT_EQ(steps.size(), wanted.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        EXPECT_LT(distance(steps[i][0], wanted[i][0]), 1e-12) << i;
+        EXPECT_LT(distance(steps[i][1], wanted[i][1]), 1e-12) << i;
+    }
     auto const square = draw_word("F+F+F+F", 90.0);
     ASSERT_EQ(square.size(), 1U);
     ASSERT_EQ(square[0].size(), 5U);

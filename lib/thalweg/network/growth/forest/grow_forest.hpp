@@ -5,9 +5,11 @@
 #include <cstdint>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 
 namespace thalweg::network {
@@ -39,18 +41,37 @@ struct GrownForest {
 /// field).
 /// \param region 0: outside
 /// \param seeds cells of the region, at least 2 s apart
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return a particle's parent is the nearest particle. It keeps 2 s from all others, s sqrt(3/2) from its siblings and
 /// s sqrt(5/2) from its parent's parent: branches fork, but do not meet, in one tree or two, and without preferred
 /// directions. Full: no cell that walkers can reach may hold a particle. Each walker has its own random stream (seed,
 /// walker): the same bytes for any Run.
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for no seed, a seed outside the region or two that are too close
-/// \throws Cancelled
 ///
 /// Source: \cite witten1981, with walkers from everywhere; \cite petroff2013 (rivers in a Poisson field).
 GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params = {},
                         Run const& run = {});
+
+/// What plant_forest() returns.
+struct PlantedForest {
+    StreamNetwork network;
+    std::vector<Finding> notes; ///< outlets left out or added, land without rivers
+    std::int64_t outlets = 0;   ///< number with a tree
+    std::int64_t particles = 0;
+    std::int64_t walkers = 0;
+    ForestStop stop = ForestStop::full;
+};
+
+/// Grows rivers from outlets on a coast until the land is full of them.
+/// \param land 0: sea
+/// \param outlets cells of the coast (coast_cells)
+/// \param params as grow_forest; step_cells in [4, 100]
+/// \return one tree per outlet, on land; vertices are cell centres; rivers of two trees leave two cells free between
+/// them. notes: "crowded_outlet" (left out: too close to another river, or the land is too narrow), "added_outlet" (on
+/// land from which no river reaches an outlet), "dry_land" (an island without room for a river; amount: [cells])
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for no land, an outlet off the coast or no room for any river
+PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, ForestParams const& params = {},
+                           Run const& run = {});
 
 } // namespace thalweg::network

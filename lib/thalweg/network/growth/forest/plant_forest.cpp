@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 
-#include <algorithm>
 #include <cstddef>
 #include <optional>
 #include <string>

@@ -36,14 +36,11 @@ struct EmbeddedTree {
 /// Embeds a tree evenly in a region. Links for which the distances cannot be kept are left out with all upstream of
 /// them, streams of high order last; if min_spacing_m is too large for so many links, streams of the lowest orders.
 /// \param tree a binary tree of links
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return arcs meet only at shared nodes. Links without a common node keep clearance times the shorter one's length
 /// and min_spacing_m apart; others meet at 20 degrees or more. Coordinates are rounded to 1e-6 m. Random numbers are a
 /// hash of (seed, order, link).
 /// \throws BadParameter when the region is not a simple ring of at least three different points, is too small (spacing
 /// below 1e-3 m) or does not contain the outlet
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 2.2, figure 1 (a); order first, evened out by \cite lloyd1982.
 EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run const& run = {});

@@ -33,14 +33,11 @@ struct GrownStrokes {
 /// side as many links as there is land for.
 /// \param strokes drawn upstream from their mouths; one that begins on another joins its trunk there
 /// \param grid every stroke lies inside
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return refinements are round(length / width of the grid * max_depth), at least 1; arcs meet only at shared nodes
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput naming the stroke and position: fewer than two different vertices, at most half a cell long, a
 /// vertex outside the grid, an unknown type, strokes that cross themselves or one another, or end, begin or join at the
 /// same place, or leave one another no room where one begins on another
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, equation 9.
 GrownStrokes grow_strokes(RiverLines const& strokes, Grid const& grid, StrokesParams const& params = {},

@@ -11,6 +11,36 @@
 
 namespace thalweg::network {
 
+/// How many side branches a refinement adds to an interior link.
+enum class SideRule : std::uint8_t {
+    tokunaga, ///< by the stream's order, so that T_k = a c^(k-1) for every k in expectation
+    constant, ///< P_t (lambda - 1), as published: correct for T_1 and T_2 only
+    plane     ///< c - 1: the fractal dimension is exactly 2
+};
+
+/// The Tokunaga laws of a generator.
+struct TokunagaLaws {
+    double a = 0.0;           ///< T_1: side branches of the next lower order
+    double c = 0.0;           ///< T_k = a c^(k-1); c^2 = c + lambda
+    double share = 0.0;       ///< P_t = c / lambda
+    double bifurcation = 0.0; ///< R_B: bifurcation ratio
+};
+
+/// Computes the laws of a self-similar network in closed form.
+/// \param lambda [1, 50] the generator's number
+/// \return a = lambda - 1, c = (1 + sqrt(1 + 4 lambda)) / 2, and share and bifurcation from these
+/// \throws BadParameter when lambda is outside its range
+///
+/// Source: \cite nenu2015, equations 1 to 8 (\cite tokunaga1978; Zhang et al. 2009); R_B: \cite peckham1995.
+TokunagaLaws tokunaga_laws(int lambda);
+
+/// The mean number of side branches that one refinement adds to an interior link.
+/// \param lambda [1, 50] the generator's number
+/// \param rule how side branches are distributed
+/// \param order [2, ...] Strahler order of the link's stream
+/// \return for SideRule::tokunaga, with t = order - 1: a c^t / (lambda + a c (c^(t-1) - 1) / (c - 1))
+double mean_side_branches(int lambda, SideRule rule, int order);
+
 /// The banks at which side branches enter.
 enum class BankRule : std::uint8_t {
     alternating, ///< as in the rules of the L-system
@@ -48,12 +78,9 @@ struct TokunagaTree {
 
 /// Grows a self-similar river network by refinement: every source becomes a generator, every other link a chain with
 /// side branches, whose mean number is rounded up or down at random.
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return a binary tree of the given order; its side branches have the means T_k = a c^(k-1), exactly so for lambda =
 /// 2. One source more than other links. Random numbers are a hash of (seed, refinement, link).
 /// \throws BadParameter when a parameter is outside its range or the tree has more than max_links links
-/// \throws Cancelled
 ///
 /// Source: \cite nenu2015, section 2.1, equations 1 to 6.
 TokunagaTree grow_tokunaga(TokunagaParams const& params = {}, Run const& run = {});

@@ -2,161 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
-#include <algorithm>
+#include <charconv>
+#include <cmath>
 #include <cstdlib>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parameters.hpp>
 
 namespace thalweg::network {
-
-namespace {
-
-/// Reads a word sign by sign.
-class Reader {
-public:
-    explicit Reader(std::string_view word) : word_(word) {}
-
-    TokunagaTree read() {
-        for (at_ = 0; at_ < word_.size(); ++at_) {
-            take(word_[at_]);
-        }
-        if (!open_.empty()) {
-            refuse(open_.back().at, "this [ is not closed; add a ]");
-        }
-        finish_stream();
-        return {.links = ordered(), .link_length = 1.0};
-    }
-
-private:
-    struct Open {
-        std::size_t at; ///< of its [
-        LinkId link;    ///< at whose upper end it stands
-    };
-
-    [[noreturn]] static void refuse(std::size_t at, std::string const& what) {
-        throw BadInput(fmt::format("network.read_lsystem: at position {}: {}", at + 1, what));
-    }
-
-    void take(char sign) {
-        switch (sign) {
-        case ' ':
-        case '\t':
-        case '\n':
-        case '\r': return;
-        case '+':
-        case '-':
-            turn_ += sign == '+' ? 1 : -1;
-            if (turn_ < -2 || turn_ > 2) {
-                refuse(at_, "a turn of more than two; write at most ++ or --");
-            }
-            return;
-        case 'F':
-        case 'G': draw(sign); return;
-        case '[':
-            if (here_ < 0 || here_is_new_ || turn_ != 0) {
-                refuse(at_, "[ must stand behind a link; write F or G before it");
-            }
-            open_.push_back({at_, here_});
-            here_is_new_ = true;
-            return;
-        case ']':
-            if (open_.empty()) {
-                refuse(at_, "] without a [; remove it");
-            }
-            finish_stream();
-            here_ = open_.back().link;
-            here_is_new_ = false;
-            open_.pop_back();
-            return;
-        default: refuse(at_, fmt::format("'{}' is not one of F G + - [ ]", sign));
-        }
-    }
-
-    void draw(char sign) {
-        bool const branch = here_is_new_ && here_ >= 0;
-        if (here_ < 0 && !links_.empty()) {
-            refuse(at_, "a second network; write one word");
-        }
-        if (here_ < 0 && turn_ != 0) {
-            refuse(at_, "the first link cannot turn; remove + and -");
-        }
-        if (here_ >= 0) {
-            auto& [link, source, branches, place] = links_[here_];
-            if (source) {
-                refuse(at_, "nothing can stand above a G; write F");
-            }
-            if (branches == 2) {
-                refuse(at_, "a third link above the same F; a junction joins two");
-            }
-            if (!branch && branches == 0) {
-                refuse(at_, "a link straight above another; give the lower one a branch");
-            }
-            if (branch == (turn_ == 0)) {
-                refuse(at_,
-                       branch ? "a branch must turn; write + or - before it" : "only a branch can turn; put it in [ ]");
-            }
-            link.up[branches++] = links_.count();
-        }
-        links_.push_back({{.down = here_, .turn = turn_}, sign == 'G', 0, at_});
-        here_ = links_.count() - 1;
-        here_is_new_ = false;
-        turn_ = 0;
-    }
-
-    void finish_stream() const {
-        if (here_ < 0 || here_is_new_) {
-            refuse(at_, "a link is missing; write F or G");
-        }
-        if (turn_ != 0) {
-            refuse(at_ - 1, "a turn without a link behind it");
-        }
-        if (!links_[here_].source && links_[here_].branches != 2) {
-            refuse(links_[here_].at, "above this F are not two links; write G for a source");
-        }
-    }
-
-    Indexed<LinkId, TreeLink> ordered() const {
-        Indexed<LinkId, TreeLink> out;
-        for (Drawn const& drawn : links_) {
-            out.push_back(drawn.link);
-        }
-        for (std::size_t i = out.size(); i-- > 0;) {
-            TreeLink& link = out[i];
-            if (link.up[0] >= 0) {
-                TreeLink const& first = out[link.up[0]];
-                TreeLink const& second = out[link.up[1]];
-                link.order = std::max({first.order, second.order, std::min(first.order, second.order) + 1});
-                if (second.order > first.order || (second.order == first.order && second.turn == 0)) {
-                    std::swap(link.up[0], link.up[1]);
-                }
-            }
-        }
-        return out;
-    }
-
-    struct Drawn {
-        TreeLink link;
-        bool source = false;
-        std::size_t branches = 0;
-        std::size_t at = 0;
-    };
-
-    std::string_view word_;
-    std::size_t at_ = 0;
-    Indexed<LinkId, Drawn> links_;
-    std::vector<Open> open_;
-    LinkId here_ = -1;
-    bool here_is_new_ = true; ///< a branch has been opened here and has no link yet
-    int turn_ = 0;
-};
-
-} // namespace
 
 std::string write_lsystem(TokunagaTree const& tree) {
     std::string word;
@@ -194,25 +51,221 @@ std::string lsystem(TokunagaParams const& params, Run const& run) {
     return write_lsystem(grow_tokunaga(params, run));
 }
 
-TokunagaTree read_lsystem(std::string_view word) {
-    return Reader(word).read();
+namespace {
+
+constexpr std::uint64_t rewrite_stage = 0x7265777269746531; // "rewrite1"
+constexpr std::size_t most_signs = 20'000'000;
+constexpr int most_iterations = 60;
+constexpr std::size_t signs_between_checks = 1 << 20;
+
+std::string_view trimmed(std::string_view s) {
+    std::size_t const begin = s.find_first_not_of(" \t\r");
+    return begin == std::string_view::npos ? std::string_view()
+                                           : s.substr(begin, s.find_last_not_of(" \t\r") - begin + 1);
 }
 
-std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParams const& params) {
-    require_in("network.draw_turtle", "delta_deg", params.delta_deg, Range::between(0.0, 90.0));
-    if (!(params.link_m > 0.0)) {
-        throw BadParameter(fmt::format("network.draw_turtle: link_m is {}, it must be above 0", double{params.link_m}));
+std::string without_blanks(std::string_view s) {
+    std::string out;
+    for (char const c : s) {
+        if (c != ' ' && c != '\t' && c != '\r') {
+            out += c;
+        }
     }
-    double const delta = params.delta_deg / 180.0 * portable::pi;
-    Indexed<LinkId, int> turns(tree.links.size(), 0);
-    Indexed<LinkId, std::vector<Vec2>> lines;
-    for (std::size_t i = 0; i < tree.links.size(); ++i) {
-        TreeLink const& link = tree.links[i];
-        Vec2 const from = link.down < 0 ? Vec2{} : lines[link.down].back();
-        turns[i] = link.turn + (link.down < 0 ? 0 : turns[link.down]);
-        double const angle = delta * turns[i];
-        lines.push_back(
-            {from, {from.x - params.link_m * portable::sin(angle), from.y + params.link_m * portable::cos(angle)}});
+    return out;
+}
+
+/// Reads the lines of a rules file one after the other.
+class RulesReader {
+public:
+    explicit RulesReader(std::string const& name) : name_(name) {}
+
+    void take(std::string_view line) {
+        ++number_;
+        line = trimmed(line.substr(0, line.find('#')));
+        if (line.empty()) {
+            return;
+        }
+        if (std::size_t const arrow = line.find("->"); arrow != std::string_view::npos) {
+            take_rule(trimmed(line.substr(0, arrow)), line.substr(arrow + 2));
+            return;
+        }
+        std::size_t const blank = line.find_first_of(" \t");
+        std::string_view const word = line.substr(0, blank);
+        std::string_view const value = blank == std::string_view::npos ? "" : trimmed(line.substr(blank));
+        if (word == "axiom") {
+            system_.axiom = checked(without_blanks(value));
+        } else if (word == "iterations") {
+            system_.iterations = static_cast<int>(number(value, most_iterations, true));
+        } else if (word == "angle") {
+            system_.angle_deg = number(value, 180.0, false);
+        } else {
+            refuse(fmt::format("'{}' is not one of axiom, iterations, angle, SIGN -> WORD", line));
+        }
+    }
+
+    LSystem finish() {
+        if (system_.axiom.empty()) {
+            throw BadInput(
+                fmt::format("network.read_rules: {}: there is no axiom; write a line such as: axiom F", name_));
+        }
+        return std::move(system_);
+    }
+
+private:
+    [[noreturn]] void refuse(std::string const& what) const {
+        throw BadInput(fmt::format("network.read_rules: {}, line {}: {}", name_, number_, what));
+    }
+
+    std::string checked(std::string word) const {
+        for (char const c : word) {
+            if (c < '!' || c > '~') {
+                refuse("words consist of printable ASCII signs");
+            }
+        }
+        return word;
+    }
+
+    double number(std::string_view text, double most, bool whole) const {
+        double value = -1.0;
+        auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size() || !(value >= 0.0 && value <= most) ||
+            (whole && value != std::floor(value))) {
+            refuse(fmt::format("'{}' is not a {}number from 0 to {}", text, whole ? "whole " : "", most));
+        }
+        return value;
+    }
+
+    void take_rule(std::string_view sign, std::string_view word) {
+        if (sign.size() != 1 || sign == "[" || sign == "]") {
+            refuse(fmt::format("before -> stands '{}', it must be one sign other than [ and ]", sign));
+        }
+        checked(std::string(sign));
+        std::string successor = checked(without_blanks(word));
+        int open = 0;
+        for (char const c : successor) {
+            open += c == '[' ? 1 : c == ']' ? -1 : 0;
+            if (open < 0) {
+                break;
+            }
+        }
+        if (open != 0) {
+            refuse("the brackets do not match");
+        }
+        system_.rules[sign.front()].push_back(std::move(successor));
+    }
+
+    std::string const& name_;
+    int number_ = 0;
+    LSystem system_;
+};
+
+void demand_brackets(std::string_view word) {
+    std::int64_t open = 0;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        open += word[i] == '[' ? 1 : word[i] == ']' ? -1 : 0;
+        if (open < 0) {
+            throw BadParameter(
+                fmt::format("network.rewrite: the axiom closes a bracket at position {} that is not open", i + 1));
+        }
+    }
+    if (open > 0) {
+        throw BadParameter("network.rewrite: the axiom has a [ without its ]");
+    }
+}
+
+std::string rewritten(std::string const& word, LSystem const& system, std::uint64_t seed, int iteration,
+                      Run const& run) {
+    std::string next;
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        if (i % signs_between_checks == 0) {
+            run.check();
+        }
+        auto const rule = system.rules.find(word[i]);
+        if (rule == system.rules.end()) {
+            next += word[i];
+        } else {
+            std::vector<std::string> const& words = rule->second;
+            std::size_t const which =
+                words.size() == 1
+                    ? 0
+                    : static_cast<std::size_t>(
+                          random_word(seed, rewrite_stage, static_cast<std::uint64_t>(iteration), i) % words.size());
+            next += words[which];
+        }
+        if (next.size() > most_signs) {
+            throw BadParameter(fmt::format("network.rewrite: after {} iterations the word has more than {} signs; ask "
+                                           "for fewer iterations",
+                                           iteration + 1, most_signs));
+        }
+    }
+    return next;
+}
+
+struct Turtle {
+    Vec2 at;
+    int turns = 0;  ///< of angle_deg to the left
+    int halves = 0; ///< turns round
+};
+
+} // namespace
+
+LSystem read_rules(std::string_view text, std::string const& name) {
+    RulesReader reader(name);
+    while (!text.empty()) {
+        std::size_t const end = text.find('\n');
+        reader.take(text.substr(0, end));
+        text = end == std::string_view::npos ? std::string_view() : text.substr(end + 1);
+    }
+    return reader.finish();
+}
+
+std::string rewrite(LSystem const& system, std::uint64_t seed, Run const& run) {
+    if (system.iterations < 0 || system.iterations > most_iterations) {
+        throw BadParameter(
+            fmt::format("network.rewrite: {} iterations; give 0 to {}", system.iterations, most_iterations));
+    }
+    demand_brackets(system.axiom);
+    std::string word = system.axiom;
+    for (int k = 0; k < system.iterations; ++k) {
+        word = rewritten(word, system, seed, k, run);
+    }
+    return word;
+}
+
+std::vector<std::vector<Vec2>> draw_word(std::string_view word, double angle_deg, Run const& run) {
+    double const angle = angle_deg / 180.0 * portable::pi;
+    std::vector<std::vector<Vec2>> lines;
+    std::vector<Turtle> remembered;
+    Turtle turtle;
+    bool is_drawing = false; // whether the last line ends where the turtle is
+    for (std::size_t i = 0; i < word.size(); ++i) {
+        if (i % signs_between_checks == 0) {
+            run.check();
+        }
+        char const sign = word[i];
+        if ((sign >= 'A' && sign <= 'Z') || (sign >= 'a' && sign <= 'z')) {
+            double const bearing = angle * turtle.turns + portable::pi * (turtle.halves % 2);
+            Vec2 const from = turtle.at;
+            turtle.at = {from.x - portable::sin(bearing), from.y + portable::cos(bearing)};
+            bool const draws = sign <= 'Z';
+            if (draws && !is_drawing) {
+                lines.push_back({from});
+            }
+            if (draws) {
+                lines.back().push_back(turtle.at);
+            }
+            is_drawing = draws;
+        } else if (sign == '+' || sign == '-') {
+            turtle.turns += sign == '+' ? 1 : -1;
+        } else if (sign == '|') {
+            ++turtle.halves;
+        } else if (sign == '[') {
+            remembered.push_back(turtle);
+        } else if (sign == ']' && !remembered.empty()) {
+            turtle = remembered.back();
+            remembered.pop_back();
+            is_drawing = false;
+        }
     }
     return lines;
 }

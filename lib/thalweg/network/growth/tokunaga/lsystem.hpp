@@ -2,11 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
+#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 
@@ -16,39 +18,49 @@ namespace thalweg::network {
 /// and right, doubled for side branches. For lambda = 2 and alternating banks the words are those of the axiom G and
 /// the rules G -> F[--G]F[-G][+G], F -> F[++G]F.
 /// \param tree a binary tree of links
-/// \return its word, from the outlet upstream; write_lsystem(read_lsystem(word)) equals word
+/// \return its word, from the outlet upstream
 ///
 /// Source: \cite nenu2015, section 2.2; its rules F -> FF and F -> F[--G]F[-G][+G] violate eq. 1 and are corrected.
 std::string write_lsystem(TokunagaTree const& tree);
 
 /// Grows a network and writes its word: write_lsystem(grow_tokunaga(params)).
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return its word
 /// \throws BadParameter as grow_tokunaga
-/// \throws Cancelled
 std::string lsystem(TokunagaParams const& params = {}, Run const& run = {});
 
-/// Reads the word of an L-system.
-/// \param word F, G, +, -, [ and ]; blanks are skipped. Two branches follow F, or one and the stream's next link
-/// \return the tree, numbered in the word's order, with Strahler orders and link_length 1
-/// \throws BadInput naming the position, from 1
-TokunagaTree read_lsystem(std::string_view word);
-
-/// Options of draw_turtle().
-struct TurtleParams {
-    double delta_deg = 30.0; ///< [deg] [0, 90] angle of one + or -
-    Required<double> link_m; ///< [m] > 0, length of F and G
+/// An L-system with any symbols and its turtle's angle.
+struct LSystem {
+    std::string axiom;
+    int iterations = 1;                             ///< [0, 60]
+    double angle_deg = 30.0;                        ///< [deg] [0, 180] angle of one turn
+    std::map<char, std::vector<std::string>> rules; ///< by symbol: replacements, all equally likely
 };
 
-/// Draws a network's word by turtle graphics, northwards from the origin. Links may cross: use it for figures, not for
-/// terrain.
-/// \param tree a binary tree of links
-/// \param params options, each with its default, unit and range
-/// \return by link: its lower and upper end [m]
-/// \throws BadParameter when a parameter is outside its range
+/// Parses an L-system: lines "axiom WORD", "iterations N", "angle DEGREES" and "SIGN -> WORD". # begins a comment;
+/// blanks in a word are skipped; only the axiom must not be empty. Several rules of one sign are chosen at random.
+/// \param text the rules
+/// \param name of the file, for messages
+/// \return axiom and rules
+/// \throws BadInput naming file and line
+LSystem read_rules(std::string_view text, std::string const& name);
+
+/// Rewrites the axiom: in each iteration all signs with a rule are replaced at once.
+/// \param system axiom and rules
+/// \param seed random seed of the choice between several rules
+/// \return the same word for any number of threads
+/// \throws BadParameter when the word exceeds 20 million signs or brackets do not match
 ///
-/// Source: \cite nenu2015, section 2.2, figure 1 (a).
-std::vector<std::vector<Vec2>> draw_turtle(TokunagaTree const& tree, TurtleParams const& params);
+/// Source: \cite nenu2015, section 2.2; \cite prusinkiewicz1990, The algorithmic beauty of plants, sections 1.2 and
+/// 1.7.
+std::string rewrite(LSystem const& system, std::uint64_t seed = 7, Run const& run = {});
+
+/// Draws a word by turtle graphics, northwards from the origin with steps of length 1.
+/// \param word capital letters draw a step, small letters make one without drawing, + and - turn left and right, |
+/// turns round, [ and ] save and restore position and bearing; other signs are ignored
+/// \param angle_deg [deg] of one turn
+/// \return maximal polylines
+///
+/// Source: as rewrite.
+std::vector<std::vector<Vec2>> draw_word(std::string_view word, double angle_deg, Run const& run = {});
 
 } // namespace thalweg::network

@@ -10,6 +10,23 @@
 
 namespace thalweg::network {
 
+/// Options of shape_island().
+struct IslandParams {
+    double ruggedness = 0.5; ///< [0, 1] reach of fjords and capes; 0: an oval
+    std::uint64_t seed = 7;
+};
+
+/// Draws an island that covers about two fifths of the grid: a bent oval with a coast moved by noise of all wavelengths
+/// from the grid's side to 8 cells.
+/// \param grid at least 16 x 16 cells
+/// \return 1: land, without lagoons and without islets smaller than a thousandth of the grid; land keeps a fortieth of
+/// the shorter side from the border. The same mask for any number of threads.
+/// \throws BadParameter when a parameter is outside its range
+/// \throws BadInput for a smaller grid
+///
+/// Source: gradient noise (\cite perlin1985), each octave turned.
+Mask shape_island(Grid const& grid, IslandParams const& params = {}, Run const& run = {});
+
 /// Lists the land cells that share a side with the sea or lie on the grid's border.
 /// \param land 0: sea
 /// \return ascending by index
@@ -25,8 +42,6 @@ struct SpreadOutletsParams {
 /// Chooses outlets at random along a coast, more often in bays than on capes.
 /// \param land 0: sea
 /// \param coast cells where outlets may lie, at least one
-/// \param params options, each with its default, unit and range
-/// \param run progress, log, stop token and number of threads
 /// \return `count` of these cells, in the order they were drawn, at least three cells apart; fewer if no more fit
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for an empty coast

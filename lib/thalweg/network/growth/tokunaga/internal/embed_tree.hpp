@@ -9,11 +9,27 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
+
+/// Area of a ring [m2], whichever way it runs.
+double area_of(std::vector<Vec2> const& ring);
+
+/// Middle of a ring's vertices [m], weighted by the area.
+Vec2 centroid_of(std::vector<Vec2> const& ring);
+
+/// Whether a place lies inside a ring (even-odd rule; on the ring itself either answer may come).
+bool contains(std::vector<Vec2> const& ring, Vec2 p);
+
+/// The sides of a ring.
+std::vector<Segment> sides_of(std::vector<Vec2> const& ring);
+
+/// The places of a square lattice of this width that lie inside a ring, row by row.
+std::vector<Vec2> lattice_in(std::vector<Vec2> const& ring, double width_m);
 
 /// A link that wants a place; its node is its upper end.
 struct ForestLink {
@@ -49,5 +65,31 @@ struct Forest {
 /// Gives: by link the place of its upper end. No two links cross; few are nearer to others than the clearance.
 /// Throws: Cancelled. Source: specification 3.2, order first.
 std::vector<Vec2> spread_forest(Forest const& forest, Run const& run = {});
+
+/// Links that keep clear of one another.
+struct SettledLinks {
+    Indexed<LinkId, Vec2> at;            ///< by link: the place of its node, in multiples of 1e-6 m
+    Indexed<LinkId, std::uint8_t> stays; ///< by link: 1 where there was room for it
+};
+
+/// Lets links stay that keep clear of one another, pinned ones first, then streams of the highest order, and finds
+/// other places for the nodes of those that do not. Takes: a forest and the place wanted for each link's node. A link
+/// that has no room there tries 24 headings and lengths down to a twentieth, the nearest to its wanted place first.
+/// Gives: a link that stays is clear of every other that stays and shares no node with it by clearance * the shorter
+/// one's length and by min_spacing_m, meets its neighbours at 20 degrees at least and touches no wall; one whose
+/// place is pinned may touch a wall, and of two such it is asked only that they do not meet, and an angle of 1 degree.
+/// The link it flows into stays. Source: specification 3.2.
+SettledLinks settle_links(Forest const& forest, std::vector<Vec2> wanted);
+
+/// A network of the links that stay.
+struct KeptNetwork {
+    NetworkDraft network;                          ///< its arcs run between sources, confluences and outlets
+    std::vector<std::vector<LinkId>> links_of_arc; ///< by arc number, upstream first
+};
+
+/// Makes a network of links: one arc of those between which no other link enters.
+/// Gives: arcs in the order of their lowest link.
+KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
+                       Indexed<LinkId, std::uint8_t> const& stays);
 
 } // namespace thalweg::network
