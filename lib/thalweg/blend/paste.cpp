@@ -15,7 +15,6 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -12,8 +12,6 @@
 
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/solver/grid/poisson.hpp>
 
 namespace thalweg::blend {
 namespace {

@@ -3,7 +3,6 @@
 #include <thalweg/blend/tin.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <limits>
 #include <numeric>

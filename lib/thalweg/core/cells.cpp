@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/cells.hpp>
 
-#include <vector>
-
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg {
 namespace {

@@ -4,12 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <cairo.h>
 #include <fmt/format.h>
-
-#include <thalweg/draw/internal/canvas.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -1,20 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/map.hpp>
 
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <memory>
-#include <utility>
 
 #include <cairo.h>
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/map.hpp>
 
 namespace thalweg::draw {

@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstdint>
 #include <limits>
-#include <vector>
 
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/vec.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/sections.hpp>
 #include <thalweg/draw/internal/wireframe.hpp>

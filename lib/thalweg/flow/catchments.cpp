@@ -3,15 +3,12 @@
 #include <thalweg/flow/catchments.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <numeric>
 #include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg::flow {

@@ -9,7 +9,6 @@
 #include <functional>
 #include <numeric>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -2,17 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/flow/route.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-
 #include <fmt/format.h>
 
-#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>
 
 namespace thalweg::flow {

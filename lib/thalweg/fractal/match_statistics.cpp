@@ -1,32 +1,22 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/fractal/match_statistics.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <cstdlib>
 #include <iterator>
-#include <limits>
 #include <map>
-#include <optional>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/solver/linear/linear.hpp>
-#include <thalweg/solver/spectral/circulant.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>
 

@@ -3,18 +3,12 @@
 #include <thalweg/fractal/internal/refine.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <cstring>
 #include <limits>
 #include <unordered_map>
-#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::fractal {
 namespace {

@@ -20,9 +20,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/geometry/crossings.hpp>
-#include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/internal/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>
 

@@ -14,7 +14,6 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/natural_neighbor_coordinates_2.h>
 
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 
 namespace thalweg::geometry {

@@ -12,7 +12,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::skeleton {
 

@@ -14,9 +14,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/skeleton/internal/normal_row.hpp>
-#include <thalweg/solver/spectral/circulant.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 
 namespace thalweg::skeleton {

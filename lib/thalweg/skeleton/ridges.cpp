@@ -13,11 +13,9 @@
 #include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/features.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/geometry/crossings.hpp>

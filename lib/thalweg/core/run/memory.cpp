@@ -6,7 +6,6 @@
 #include <cstdlib>
 #include <fstream>
 #include <limits>
-#include <new>
 #include <string>
 
 #include <sys/mman.h>

@@ -5,9 +5,6 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
-#include <limits>
-#include <memory>
-#include <optional>
 #include <string_view>
 #include <utility>
 

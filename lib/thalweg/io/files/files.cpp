@@ -2,26 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/files/files.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
-#include <cstdio>
 #include <cstdlib>
 #include <exception>
-#include <filesystem>
-#include <memory>
-#include <string>
 #include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fcntl.h>
 #include <fmt/format.h>
 #include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <unistd.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 
 namespace thalweg::io {

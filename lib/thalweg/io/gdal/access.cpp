@@ -12,7 +12,6 @@
 #include <filesystem>
 #include <fstream>
 #include <mutex>
-#include <string>
 #include <string_view>
 #include <system_error>
 #include <utility>

@@ -10,9 +10,6 @@
 #include <filesystem>
 #include <fstream>
 #include <limits>
-#include <memory>
-#include <string>
-#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>

@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/mesh/points.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
 
 #include <fmt/format.h>
 

@@ -2,12 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/mesh/tin.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <iterator>
-#include <limits>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>

@@ -7,11 +7,8 @@
 #include <cmath>
 #include <cstddef>
 #include <limits>
-#include <map>
 #include <memory>
 #include <string_view>
-#include <utility>
-#include <vector>
 
 #include <cpl_port.h>
 #include <fmt/format.h>

@@ -3,22 +3,12 @@
 #include <algorithm>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <memory>
-#include <string>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
-#include <thalweg/io/network/schema.hpp>
-#include <thalweg/io/network/table.hpp>
-#include <thalweg/io/network/write_network.hpp>
 
 namespace thalweg::io {
 namespace {

@@ -5,18 +5,13 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 #include <iterator>
 #include <memory>
 #include <set>
 #include <sstream>
-#include <string_view>
-#include <utility>
-#include <variant>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/vec.hpp>
 #include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {

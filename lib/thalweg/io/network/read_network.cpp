@@ -3,17 +3,11 @@
 #include <thalweg/io/network/read_network.hpp>
 
 #include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <limits>
-#include <map>
 #include <memory>
-#include <span>
 #include <tuple>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -21,11 +15,9 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/core/vec.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
-#include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {

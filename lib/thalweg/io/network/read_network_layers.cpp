@@ -4,10 +4,7 @@
 #include <charconv>
 #include <cmath>
 #include <filesystem>
-#include <limits>
-#include <string_view>
 #include <system_error>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

@@ -9,8 +9,6 @@
 #include <limits>
 #include <memory>
 #include <system_error>
-#include <utility>
-#include <vector>
 
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -19,7 +17,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/core/vec.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>

@@ -4,8 +4,6 @@
 
 #include <algorithm>
 #include <array>
-#include <cstddef>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>

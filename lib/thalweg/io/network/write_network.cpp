@@ -1,29 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/write_network.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
 #include <iterator>
-#include <string>
-#include <string_view>
-#include <utility>
-#include <variant>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
-#include <thalweg/io/network/table.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {

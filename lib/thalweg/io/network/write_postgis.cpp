@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/write_network.hpp>
 
 #include <algorithm>
 #include <array>
-#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -12,7 +10,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
-#include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>

@@ -7,8 +7,6 @@
 #include <filesystem>
 #include <map>
 #include <memory>
-#include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <gdal_alg.h>

@@ -2,13 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/internal/read_dem.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
 #include <filesystem>
-#include <limits>
 #include <memory>
-#include <vector>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
@@ -24,7 +19,6 @@
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
 namespace {

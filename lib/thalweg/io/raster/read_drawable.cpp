@@ -2,12 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/read_drawable.hpp>
 
-#include <algorithm>
-#include <array>
-#include <cmath>
-#include <limits>
 #include <memory>
-#include <optional>
 #include <utility>
 
 #include <fmt/format.h>

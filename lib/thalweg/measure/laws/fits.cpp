@@ -12,7 +12,6 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/vec.hpp>
 
 namespace thalweg::measure {
 namespace {

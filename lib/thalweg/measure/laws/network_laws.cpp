@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <optional>
 #include <span>
 
 #include <fmt/format.h>
@@ -12,9 +11,6 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/vec.hpp>
-#include <thalweg/flow/catchments.hpp>
-#include <thalweg/measure/laws/fits.hpp>
 #include <thalweg/measure/laws/internal/network_laws.hpp>
 
 namespace thalweg::measure {

@@ -5,10 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <limits>
 #include <tuple>
 #include <unordered_map>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,7 +14,6 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::measure {
 namespace {

@@ -16,7 +16,6 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::measure {
 namespace {

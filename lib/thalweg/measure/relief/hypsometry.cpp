@@ -17,7 +17,6 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::measure {
 

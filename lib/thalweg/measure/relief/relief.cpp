@@ -3,9 +3,7 @@
 #include <thalweg/measure/relief/relief.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 

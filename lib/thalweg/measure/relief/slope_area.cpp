@@ -17,7 +17,6 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/measure/laws/fits.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {

@@ -3,11 +3,8 @@
 #include <thalweg/measure/relief/slopes.hpp>
 
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstdlib>
-#include <limits>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,7 +13,6 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {

@@ -13,8 +13,6 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/solver/statistics/field_statistics.hpp>
 
 namespace thalweg::measure {
 

@@ -11,10 +11,8 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::measure {

@@ -3,7 +3,6 @@
 #include <thalweg/measure/topology/topology.hpp>
 
 #include <algorithm>
-#include <array>
 #include <string_view>
 #include <utility>
 

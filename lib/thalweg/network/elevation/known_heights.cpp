@@ -11,7 +11,6 @@
 #include <map>
 #include <unordered_set>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <bit>
-#include <limits>
 #include <optional>
 #include <tuple>
 #include <unordered_map>

@@ -2,17 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/internal/import_reaches.hpp>
 
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <functional>
-#include <limits>
 #include <queue>
 #include <tuple>
 #include <utility>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {

@@ -2,15 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/prepare_lines.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <map>
-#include <numeric>
 #include <queue>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 

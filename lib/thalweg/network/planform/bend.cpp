@@ -3,7 +3,6 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <cstddef>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <queue>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
 

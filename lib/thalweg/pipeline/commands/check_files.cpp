@@ -7,26 +7,18 @@
 #include <filesystem>
 #include <iterator>
 #include <limits>
-#include <optional>
-#include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/drainage/certificate.hpp>
-#include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/commands/internal/mend_network.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>

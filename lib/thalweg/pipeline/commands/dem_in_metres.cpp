@@ -9,7 +9,6 @@
 #include <fmt/format.h>
 
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 
 namespace thalweg::pipeline {

@@ -5,20 +5,15 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <optional>
-#include <string>
 #include <unordered_map>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/draw/sections.hpp>
-#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
@@ -27,7 +22,6 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 
 namespace thalweg::pipeline {

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/tin.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>

@@ -12,7 +12,6 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>
-#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>

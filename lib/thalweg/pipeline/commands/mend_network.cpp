@@ -9,15 +9,11 @@
 #include <set>
 #include <string>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/finding.hpp>
-#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>

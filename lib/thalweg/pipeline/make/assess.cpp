@@ -1,9 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/assess.hpp>
 
-#include <thalweg/flow/catchments.hpp>
-#include <thalweg/flow/route.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
@@ -15,8 +12,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string>
-#include <utility>
 
 namespace thalweg::pipeline {
 

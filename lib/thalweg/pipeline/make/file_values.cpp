@@ -4,11 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <utility>
-#include <vector>
 
 namespace thalweg::pipeline {
 namespace {

@@ -6,8 +6,6 @@
 #include <cmath>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments.hpp>
-#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>

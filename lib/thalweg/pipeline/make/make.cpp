@@ -4,8 +4,6 @@
 
 #include <thalweg/pipeline/plan/internal/append.hpp>
 
-#include <utility>
-
 namespace thalweg::pipeline {
 
 Recipe recipe_of(Plan const& plan, Terrain const& terrain) {

@@ -13,7 +13,6 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>

@@ -14,7 +14,6 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/catchments.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 
 namespace thalweg::pipeline {

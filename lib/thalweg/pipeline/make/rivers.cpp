@@ -1,10 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/rivers.hpp>
 
 #include <algorithm>
 #include <cmath>
-#include <utility>
 
 #include <fmt/format.h>
 
@@ -12,16 +10,13 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
-#include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
-#include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 namespace thalweg::pipeline {

@@ -1,27 +1,20 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/terrain.hpp>
 
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/condition.hpp>
-#include <thalweg/flow/route.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/internal/frame.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -30,7 +23,6 @@
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/diffusion/diffusion.hpp>
-#include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
 namespace thalweg::pipeline {

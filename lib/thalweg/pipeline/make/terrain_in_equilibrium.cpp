@@ -3,34 +3,25 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/blend/mask_polygons.hpp>
-#include <thalweg/core/channels.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/lakes.hpp>
 #include <thalweg/network/channels/side_valleys.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
-#include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/rivers.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace thalweg::pipeline {

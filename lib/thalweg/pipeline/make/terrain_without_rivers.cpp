@@ -4,28 +4,17 @@
 #include <array>
 #include <cmath>
 #include <limits>
-#include <optional>
 #include <set>
-#include <string>
-#include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/features.hpp>
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/core/tin.hpp>
-#include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/append.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>

@@ -1,6 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/plan.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
@@ -11,7 +10,6 @@
 #include <algorithm>
 #include <cmath>
 #include <string_view>
-#include <utility>
 
 namespace thalweg::pipeline {
 

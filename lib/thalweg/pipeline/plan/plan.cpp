@@ -1,19 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/plan.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
-#include <string>
-#include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>

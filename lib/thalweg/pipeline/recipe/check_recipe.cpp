@@ -3,16 +3,13 @@
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 #include <algorithm>
-#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
-#include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 
 namespace thalweg::pipeline {

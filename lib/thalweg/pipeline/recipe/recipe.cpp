@@ -1,9 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/recipe.hpp>
 
 #include <algorithm>
-#include <cmath>
 
 #include <fmt/format.h>
 

@@ -3,8 +3,6 @@
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 #include <filesystem>
-#include <string>
-#include <variant>
 
 #include <fmt/format.h>
 

@@ -4,14 +4,8 @@
 
 #include <algorithm>
 #include <charconv>
-#include <cstddef>
-#include <cstdint>
 #include <filesystem>
-#include <optional>
-#include <string>
-#include <string_view>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -20,8 +14,6 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 namespace {

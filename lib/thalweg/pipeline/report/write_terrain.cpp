@@ -21,7 +21,6 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
-#include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 #include <fmt/format.h>

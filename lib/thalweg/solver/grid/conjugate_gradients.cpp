@@ -1,18 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <array>
 #include <cmath>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/grid/internal/poisson.hpp>
-#include <thalweg/solver/grid/poisson.hpp>
 
 namespace thalweg::solver {
 namespace {

@@ -1,19 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/grid/poisson.hpp>
 
-#include <algorithm>
 #include <cmath>
-#include <cstddef>
 #include <utility>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/grid/internal/poisson.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>
 

@@ -4,12 +4,8 @@
 
 #include <array>
 #include <charconv>
-#include <cstddef>
 #include <cstdlib>
-#include <map>
 #include <mutex>
-#include <string_view>
-#include <utility>
 #include <vector>
 
 #define CL_TARGET_OPENCL_VERSION 120

@@ -1,8 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <string_view>
-#include <utility>
 
 #include <thalweg/solver/opencl/internal/device.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>

@@ -14,7 +14,6 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 
 namespace thalweg::solver {

@@ -10,7 +10,6 @@
 #include <vector>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::solver {
 

@@ -3,17 +3,12 @@
 #include <thalweg/solver/statistics/field_statistics.hpp>
 
 #include <algorithm>
-#include <array>
-#include <cmath>
 #include <cstddef>
-#include <limits>
-#include <span>
 #include <utility>
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::solver {
 namespace {

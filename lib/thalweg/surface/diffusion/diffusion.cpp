@@ -13,11 +13,8 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/solver/grid/poisson.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 namespace thalweg::surface {

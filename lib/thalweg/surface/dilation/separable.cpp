@@ -3,8 +3,6 @@
 #include <thalweg/surface/dilation/separable.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/memory.hpp>
-#include <thalweg/core/run/run.hpp>
 
 #include <algorithm>
 #include <atomic>

@@ -1,14 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <cmath>
 #include <cstdlib>
-#include <limits>
 #include <utility>
-#include <vector>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 namespace thalweg::surface {

@@ -1,21 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <limits>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/flow/direction.hpp>
-#include <thalweg/surface/equilibrium/equilibrium.hpp>
-#include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 namespace thalweg::surface {

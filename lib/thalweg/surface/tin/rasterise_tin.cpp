@@ -6,17 +6,13 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/run.hpp>
-#include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/triangles.hpp>
 

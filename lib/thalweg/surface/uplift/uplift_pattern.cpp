@@ -5,7 +5,6 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
 #include <algorithm>

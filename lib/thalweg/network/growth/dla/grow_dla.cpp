@@ -2,12 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 
-#include <algorithm>
-#include <array>
 #include <bit>
 #include <cmath>
-#include <cstddef>
-#include <cstdlib>
 #include <limits>
 
 #include <fmt/format.h>

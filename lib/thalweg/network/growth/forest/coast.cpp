@@ -7,7 +7,6 @@
 #include <cstddef>
 #include <limits>
 #include <unordered_map>
-#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,7 +15,6 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {

@@ -10,10 +10,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/network/growth/dla/internal/walk.hpp>
 #include <thalweg/network/growth/forest/coast.hpp>
 #include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 

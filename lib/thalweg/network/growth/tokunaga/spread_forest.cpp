@@ -1,20 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <array>
 #include <cmath>
 #include <cstddef>
-#include <cstdint>
 #include <limits>
-#include <optional>
 #include <utility>
-#include <vector>
 
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 namespace {
