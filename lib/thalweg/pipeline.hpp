@@ -32,4 +32,3 @@
 #include <thalweg/pipeline/recipe/sections/terrain.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
-#include <thalweg/pipeline/report/write_terrain.hpp>

@@ -15,7 +15,6 @@
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
-#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>

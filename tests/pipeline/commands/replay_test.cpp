@@ -3,7 +3,7 @@
 // What make leaves needs no other file: every key that names one.
 #include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/report/write_terrain.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <gtest/gtest.h>
 

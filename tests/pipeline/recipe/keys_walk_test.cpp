@@ -4,7 +4,7 @@
 // changes the terrain or a file; where it says that it has none, the recipe is refused.
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-#include <thalweg/pipeline/report/write_terrain.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <thalweg/core/run/error.hpp>
 

@@ -19,7 +19,7 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
-#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 namespace thalweg::pipeline {
 namespace {

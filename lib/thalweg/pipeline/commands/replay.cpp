@@ -7,7 +7,6 @@
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
-#include <thalweg/pipeline/report/write_terrain.hpp>
 
 #include <filesystem>
 

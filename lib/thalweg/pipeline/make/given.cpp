@@ -12,7 +12,7 @@
 
 #include <thalweg/core/vec.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
-#include <thalweg/pipeline/plan/internal/append.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
-#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -20,7 +20,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
-#include <thalweg/pipeline/plan/internal/frame.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/internal/toml.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 #include <algorithm>
 #include <charconv>

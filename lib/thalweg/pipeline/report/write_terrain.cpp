@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/write_terrain.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/draw/diagrams.hpp>
@@ -21,7 +21,6 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
-#include <thalweg/pipeline/report/report.hpp>
 
 #include <fmt/format.h>
 

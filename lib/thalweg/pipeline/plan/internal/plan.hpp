@@ -3,12 +3,18 @@
 #pragma once
 
 #include <chrono>
+#include <iterator>
 #include <string>
 #include <utility>
+#include <vector>
 
+#include <thalweg/core/features.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -71,5 +77,21 @@ inline constexpr char const* more_room =
 
 /// The tree that a recipe grows by Tokunaga's law.
 network::TokunagaParams tree_of(Recipe const& recipe);
+
+/// Refuses to take a grid from lines of which one vertex, or at most 1 %, lies more than twenty times as far away as
+/// all others reach: a coordinate that was lost. Fewer than 20 vertices tell nothing. Throws: BadInput naming the line,
+/// the vertex and what to do.
+void require_no_stray_vertex(RiverLines const& lines);
+
+/// The grid asked for, or the points' box and 5 % around it on multiples of the cell.
+Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
+
+/// Throws BadInput naming the first point off the grid. name: the file, as the recipe has it.
+void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name);
+
+/// Adds the values of one vector to the end of another.
+template <class T> void append(std::vector<T>& to, std::vector<T> from) {
+    to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
+}
 
 } // namespace thalweg::pipeline

@@ -9,6 +9,7 @@
 #include <functional>
 #include <optional>
 #include <string>
+#include <string_view>
 #include <variant>
 #include <vector>
 
@@ -114,5 +115,10 @@ Key const* find_key(std::string const& path);
 
 /// "unknown key 'network.prunes'", with the nearest one, or one of that name in another section.
 std::string unknown_key(std::string const& path);
+
+/// The first line of a TOML text, counted from 1, where values lie deeper than this many levels: sections, parts of
+/// dotted keys, inline tables and arrays count one each. Strings and comments are left out; a text that is no TOML
+/// gives some number. It is found without recursion, for parsers that recurse a level, and destructors that do.
+std::optional<std::size_t> line_deeper_than(std::string_view toml, std::size_t most_levels);
 
 } // namespace thalweg::pipeline
