@@ -5,13 +5,13 @@
 // BM_blend_laplace: solve_poisson with the mask's cells free and all others fixed, with the memory it allocates.
 // BM_blend_paste: the whole stage, opening and target's copy included. BM_blend_paste_feathered: the same with a
 // guidance field.
-#include <thalweg/blend/paste.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/solver/grid/poisson.hpp>
+#include <cmath>
 
 #include <benchmark/benchmark.h>
 
-#include <cmath>
+#include <thalweg/blend/paste.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/solver/grid/poisson.hpp>
 
 namespace {
 

@@ -3,16 +3,16 @@
 // Dilation beside memcpy of its float grid, so that ratios of ns_per_cell are read from one run. One thread.
 // BM_dilate_closed and BM_dilate_frontier: the whole stage, with the memory it allocates, first touch included.
 // BM_dilate_closed_reused: the same sweeps into a DEM that has been touched before; the levels are still allocated.
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/surface/dilation/dilation.hpp>
-#include <thalweg/surface/dilation/separable.hpp>
-
-#include <benchmark/benchmark.h>
-
 #include <cmath>
 #include <cstring>
 #include <limits>
 #include <vector>
+
+#include <benchmark/benchmark.h>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
+#include <thalweg/surface/dilation/separable.hpp>
 
 namespace {
 

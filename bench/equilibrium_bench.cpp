@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <unistd.h>
-
 #include <cstdint>
 #include <fstream>
+#include <unistd.h>
 
 #include <benchmark/benchmark.h>
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+
 #include <benchmark/benchmark.h>
-
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-
 #include <network/unit_step_dla.hpp>
 
-#include <cstdint>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 
 // An item is a particle; memory and tables made by the growth count. Arguments: particles, 100 S, M. The yardstick has
 // the same birth circle, return from afar and occupancy test; only its steps are unit steps.

@@ -1,14 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cstdint>
+#include <vector>
+
 #include <benchmark/benchmark.h>
+#include <network/plain_forest.hpp>
 
 #include <thalweg/network/growth/forest/coast.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
-
-#include <network/plain_forest.hpp>
-
-#include <cstdint>
-#include <vector>
 
 // An item is a cell of the grid, all of it land; growth goes on until it is full. Arguments: cells a side, cells a
 // step. The yardstick has the rules written out: unit steps, and every question asked of all particles.

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <benchmark/benchmark.h>
-
 #include <cstddef>
 #include <cstdint>
 #include <cstring>
 #include <vector>
+
+#include <benchmark/benchmark.h>
 
 // The yardstick of memory: a float grid copied to warm memory; an item is a cell.
 static void BM_memcpy(benchmark::State& state) {

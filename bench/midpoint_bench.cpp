@@ -4,14 +4,14 @@
 // read from one run. BM_midpoint_reused/STENCIL/NOISE/threads: 33 x 33 coarse cells to 8192 x 8192, into a DEM and
 // lattices that have been touched before. BM_midpoint: the whole stage, with the memory it allocates, first touch
 // included. One and two threads.
+#include <cstring>
+
+#include <benchmark/benchmark.h>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/internal/refine.hpp>
 #include <thalweg/fractal/midpoint.hpp>
-
-#include <benchmark/benchmark.h>
-
-#include <cstring>
 
 namespace {
 

@@ -3,20 +3,18 @@
 // Laplace's equation on a grid with lines of fixed cells, to 1e-6: our solver, two of Eigen's on the very same problem,
 // and memcpy of a float grid. One thread. Memory counts, first touch included: ours from the problem to the solution,
 // Eigen's from the assembled matrix to the vector. max_error_m: against our solution to 1e-12.
-#include <thalweg/solver/grid/poisson.hpp>
-
-#include <solver/winding_lines.hpp>
-
-#include <benchmark/benchmark.h>
-
-#include <Eigen/IterativeLinearSolvers>
-#include <Eigen/SparseCholesky>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <cstring>
 #include <vector>
+
+#include <Eigen/IterativeLinearSolvers>
+#include <Eigen/SparseCholesky>
+#include <benchmark/benchmark.h>
+#include <solver/winding_lines.hpp>
+
+#include <thalweg/solver/grid/poisson.hpp>
 
 namespace {
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Lands from numbers: the transform, the random field, the statistics and the projection, on every core.
 // Arguments are sides of square grids but for BM_match_statistics_table_4, the land of table 4 of paper 001.
+#include <benchmark/benchmark.h>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
-
-#include <benchmark/benchmark.h>
 
 namespace {
 

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
 
-#include "../tests/network/masks.hpp"
-#include "../tests/network/plain_thinning.hpp"
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
+
+#include "../tests/network/masks.hpp"
+#include "../tests/network/plain_thinning.hpp"
 
 // Thinning beside its yardsticks, items = cells of the grid; allocation counts. Then what follows it.
 namespace {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <benchmark/benchmark.h>
-
 #include <tins.hpp>
 
 #include <thalweg/geometry/triangulate.hpp>

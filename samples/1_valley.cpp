@@ -4,15 +4,15 @@
 // Sample 1: where rivers run. Understand this one first.
 // Grows a cluster, draws its skeleton, and counts its streams by order (Horton 1945): each order has several times
 // fewer streams than the one below.
+#include <cstdio>
+#include <map>
+
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-
-#include <cstdio>
-#include <map>
 
 using namespace thalweg;
 

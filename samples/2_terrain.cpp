@@ -4,6 +4,9 @@
 // Sample 2: land around rivers that somebody drew.
 // Three lines become a network with heights, the network cells, the cells a surface, and the surface a file.
 //   build/release/bin/sample_terrain [dem.tif]
+#include <cmath>
+#include <cstdio>
+
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -12,9 +15,6 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
-
-#include <cmath>
-#include <cstdio>
 
 using namespace thalweg;
 

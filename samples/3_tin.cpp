@@ -4,15 +4,15 @@
 // Sample 3: terrain as triangles.
 // Points that somebody surveyed and the line of a stream become a TIN, the TIN cells, and the cells a smaller TIN.
 //   build/release/bin/sample_tin [tin.gpkg]
-#include <thalweg/core.hpp>
-#include <thalweg/geometry.hpp>
-#include <thalweg/io.hpp>
-#include <thalweg/surface.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
+
+#include <thalweg/core.hpp>
+#include <thalweg/geometry.hpp>
+#include <thalweg/io.hpp>
+#include <thalweg/surface.hpp>
 
 using namespace thalweg;
 

@@ -4,15 +4,15 @@
 // Sample 4: measuring a DEM, anybody's.
 // Its slopes, where its water runs, the streams that follow, and what each of them drains.
 //   build/release/bin/sample_measure samples/bigtujunga_srtm1.tif
+#include <algorithm>
+#include <cstdio>
+#include <numeric>
+
 #include <thalweg/core.hpp>
 #include <thalweg/flow.hpp>
 #include <thalweg/io.hpp>
 #include <thalweg/measure.hpp>
 #include <thalweg/network.hpp>
-
-#include <algorithm>
-#include <cstdio>
-#include <numeric>
 
 using namespace thalweg;
 

@@ -3,12 +3,12 @@
 //
 // Sample 5: a profile of one's own.
 // How a hillside rises from its river is a function; any will do. Here: a terrace every ten cells.
-#include <thalweg/core.hpp>
-#include <thalweg/surface.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
+
+#include <thalweg/core.hpp>
+#include <thalweg/surface.hpp>
 
 using namespace thalweg;
 

@@ -4,15 +4,15 @@
 // Sample 6: rivers by a rule of one's own.
 // Whoever can say which place drains to which has a network; from there on the library does the rest. The rule is
 // Scheidegger's (1967): from every place of a lattice water runs south-west or south-east, as a coin falls.
+#include <algorithm>
+#include <cstdio>
+#include <vector>
+
 #include <thalweg/core.hpp>
 #include <thalweg/flow.hpp>
 #include <thalweg/measure.hpp>
 #include <thalweg/network.hpp>
 #include <thalweg/surface.hpp>
-
-#include <algorithm>
-#include <cstdio>
-#include <vector>
 
 using namespace thalweg;
 

@@ -4,13 +4,13 @@
 // Sample 7: one network says little; an ensemble has a mean and a spread.
 // Networks of several seeds are grown in parallel. Each depends on its seed alone, so that neither the number of
 // threads nor the order in which they finish changes a figure.
-#include <thalweg/core.hpp>
-#include <thalweg/network.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
+
+#include <thalweg/core.hpp>
+#include <thalweg/network.hpp>
 
 using namespace thalweg;
 

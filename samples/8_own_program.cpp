@@ -3,13 +3,13 @@
 //
 // Sample 8: the library inside a program that owns its data.
 // Arrays in, arrays out, no file; the program shows progress, can cancel, and survives what goes wrong.
-#include <thalweg/core.hpp>
-#include <thalweg/surface.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <vector>
+
+#include <thalweg/core.hpp>
+#include <thalweg/surface.hpp>
 
 using namespace thalweg;
 

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <gtest/gtest.h>
-
 #include <cstdlib>
 #include <filesystem>
 #include <fstream>
 #include <iterator>
 #include <string>
 #include <string_view>
+
+#include <gtest/gtest.h>
 
 /// Compares text with tests/data/NAME; with THALWEG_RENEW=1 in the environment, writes the file anew instead.
 inline void expect_golden(std::string const& name, std::string const& text) {

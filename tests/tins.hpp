@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/tin.hpp>
-#include <thalweg/geometry/triangles.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cstdint>
 #include <map>
 #include <set>
 #include <vector>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/tin.hpp>
+#include <thalweg/geometry/triangles.hpp>
 
 namespace test {
 

@@ -1,25 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "help/complaint.hpp"
-#include "help/describe.hpp"
-#include "terminal/interrupt.hpp"
-#include "terminal/terminal.hpp"
-#include "terminal/threads.hpp"
-
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/memory.hpp>
-#include <thalweg/core/run/messages.hpp>
-#include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/pipeline/report/report.hpp>
-#include <thalweg/solver/opencl/devices.hpp>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
-#include <signal.h>
-#include <unistd.h>
-
 #include <chrono>
 #include <csignal>
 #include <cstdio>
@@ -28,9 +8,28 @@
 #include <map>
 #include <new>
 #include <optional>
+#include <signal.h>
 #include <sstream>
 #include <string>
+#include <unistd.h>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/memory.hpp>
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/solver/opencl/devices.hpp>
+
+#include "commands/commands.hpp"
+#include "help/complaint.hpp"
+#include "help/describe.hpp"
+#include "terminal/interrupt.hpp"
+#include "terminal/terminal.hpp"
+#include "terminal/threads.hpp"
 
 namespace {
 

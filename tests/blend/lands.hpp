@@ -8,6 +8,7 @@
 #include <string>
 
 #include <support.hpp>
+
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>

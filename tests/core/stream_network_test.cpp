@@ -5,8 +5,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace stream_network_test {

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/draw/diagrams.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <cmath>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
+#include <thalweg/core/run/error.hpp>
 
 #include "pictures.hpp"
 #include "small_land.hpp"

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/draw/map.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
 #include <limits>
 #include <sstream>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/run/error.hpp>
 
 #include "pictures.hpp"
 #include "small_land.hpp"

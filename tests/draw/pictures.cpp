@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "pictures.hpp"
+#include <algorithm>
 
 #include <cpl_minixml.h>
 #include <cpl_vsi.h>
 #include <gdal_priv.h>
 
-#include <algorithm>
+#include "pictures.hpp"
 
 namespace test {
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/draw/diagrams.hpp>
-#include <thalweg/draw/sections.hpp>
-
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/sections.hpp>
 
 #include "pictures.hpp"
 #include "small_land.hpp"

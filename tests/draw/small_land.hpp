@@ -7,6 +7,7 @@
 #include <limits>
 
 #include <support.hpp>
+
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/order/order.hpp>

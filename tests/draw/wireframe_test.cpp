@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/draw/internal/wireframe.hpp>
-#include <thalweg/draw/wireframe.hpp>
-
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
 
 #include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/wireframe.hpp>
 
 #include "pictures.hpp"
 #include "small_land.hpp"

@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/raster.hpp>
-#include <thalweg/flow/internal/condition.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
@@ -14,6 +9,11 @@
 #include <queue>
 #include <utility>
 #include <vector>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 /// Filling and breaching as their definitions have them, for comparison.
 namespace plain {

@@ -3,7 +3,6 @@
 #include <thalweg/flow/direction.hpp>
 
 #include <gtest/gtest.h>
-
 #include <measure/dems.hpp>
 
 namespace steepest_descent_test {

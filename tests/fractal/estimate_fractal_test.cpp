@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/estimate_fractal.hpp>
 
-#include "land.hpp"
-
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-#include <string>
+#include <thalweg/core/run/error.hpp>
+
+#include "land.hpp"
 
 namespace estimate_fractal_test {
 

@@ -3,21 +3,21 @@
 // Stencil::exact of midpoint: a fractional Brownian surface through the coarse cells.
 #include <thalweg/fractal/midpoint.hpp>
 
-#include "land.hpp"
-#include "ordinary_kriging.hpp"
-
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <array>
 #include <cmath>
 #include <cstdio>
 #include <map>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+
+#include "land.hpp"
+#include "ordinary_kriging.hpp"
 
 namespace exact_midpoint_test {
 

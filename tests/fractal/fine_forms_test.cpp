@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/match_statistics.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <cmath>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-#include <cmath>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace fine_forms_test {
 

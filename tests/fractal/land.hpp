@@ -2,15 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <support.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/raster.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include <support.hpp>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/raster.hpp>
 
 namespace land {
 

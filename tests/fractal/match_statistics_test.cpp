@@ -8,8 +8,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/measure/relief/statistics.hpp>

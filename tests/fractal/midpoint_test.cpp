@@ -2,23 +2,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/midpoint.hpp>
 
-#include "land.hpp"
-#include "ordinary_kriging.hpp"
-
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/fractal/estimate_fractal.hpp>
-#include <thalweg/fractal/internal/refine.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <array>
 #include <cmath>
 #include <map>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/fractal/estimate_fractal.hpp>
+#include <thalweg/fractal/internal/refine.hpp>
+
+#include "land.hpp"
+#include "ordinary_kriging.hpp"
 
 namespace midpoint_test {
 

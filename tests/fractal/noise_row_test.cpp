@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/midpoint.hpp>
 
-#include <Random123/philox.h>
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstdint>
 #include <vector>
+
+#include <Random123/philox.h>
+#include <gtest/gtest.h>
 
 namespace noise_row_test {
 

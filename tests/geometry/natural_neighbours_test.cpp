@@ -7,10 +7,10 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <tins.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace natural_neighbours_test {
 

@@ -14,12 +14,12 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+#include <tins.hpp>
+
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
-#include <tins.hpp>
 
 namespace tin_of_dem_test {
 

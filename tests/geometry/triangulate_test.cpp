@@ -11,11 +11,11 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+#include <tins.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangles.hpp>
-#include <tins.hpp>
 
 namespace triangulate_test {
 

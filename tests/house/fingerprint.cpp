@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Prints a hash of the bits of every stage's result from chance to surface. Every machine, compiler, build type and
 // number of threads must print tests/data/fingerprint.txt. Usage: fingerprint [THREADS]
-#include "fnv.hpp"
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <cstdlib>
+#include <limits>
 
 #include <thalweg/blend/deform.hpp>
 #include <thalweg/blend/paste.hpp>
@@ -62,11 +66,7 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <cstdlib>
-#include <limits>
+#include "fnv.hpp"
 
 using namespace thalweg;
 

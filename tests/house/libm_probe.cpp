@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Hashes what libm gives. It tells whether masking the processor's features has any effect: where it has none,
 // comparing fingerprints with and without them shows nothing.
-#include "fnv.hpp"
-
 #include <cmath>
 #include <cstdio>
+
+#include "fnv.hpp"
 
 int main() {
     Fnv fnv;

@@ -3,7 +3,6 @@
 #pragma once
 
 #include <csignal>
-
 #include <sys/resource.h>
 
 /// Lets no file grow beyond some bytes while it lives: what a full disk is to a program.

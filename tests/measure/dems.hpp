@@ -8,8 +8,8 @@
 #include <vector>
 
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 

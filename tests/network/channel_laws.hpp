@@ -8,9 +8,9 @@
 #include <set>
 #include <utility>
 
+#include <network/networks.hpp>
 #include <rapidcheck.h>
 
-#include <network/networks.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 

@@ -8,6 +8,7 @@
 #include <vector>
 
 #include <support.hpp>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 

@@ -7,9 +7,9 @@
 #include <utility>
 #include <vector>
 
+#include <network/masks.hpp>
 #include <rapidcheck.h>
 
-#include <network/masks.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <support.hpp>
+
 #include <thalweg/pipeline/make/make.hpp>
 
 namespace test {

@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <gdal_priv.h>
-#include <gdal_utils.h>
-
-#include <io/scratch_folder.hpp>
-
-#include "ascii_grid.hpp"
-
 #include <cmath>
 #include <filesystem>
 #include <functional>
 #include <stdexcept>
 #include <string>
 #include <vector>
+
+#include <gdal_priv.h>
+#include <gdal_utils.h>
+#include <io/scratch_folder.hpp>
+
+#include "ascii_grid.hpp"
 
 /// A folder with one small file for each key that names a file. All lie on or over the two places where recipes without
 /// `grid.origin` lie: south-east of (500000, 5000000), and around the rivers at (500900, 5000800).

@@ -6,6 +6,7 @@
 #include <cstdint>
 
 #include <support.hpp>
+
 #include <thalweg/core/raster.hpp>
 
 using test::frame;

@@ -10,8 +10,8 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace noise_along_test {

@@ -7,8 +7,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/internal/normal_row.hpp>
 #include <thalweg/skeleton/random_fields.hpp>

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/regress.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/skeleton/scatter.hpp>
+#include <cmath>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-#include <cmath>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 
 namespace regress_test {
 

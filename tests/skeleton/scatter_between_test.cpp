@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/scatter.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace scatter_between_test {
 

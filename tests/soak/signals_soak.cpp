@@ -1,18 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "long_make.hpp"
-#include "spawned.hpp"
+#include <chrono>
+#include <signal.h>
+#include <string>
+#include <thread>
+#include <unistd.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <signal.h>
-#include <unistd.h>
-
-#include <chrono>
-#include <string>
-#include <thread>
-#include <vector>
+#include "command.hpp"
+#include "long_make.hpp"
+#include "spawned.hpp"
 
 namespace fs = std::filesystem;
 

@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Servers that the command line names, accept a connection and never say a word.
-#include "command.hpp"
-#include "listening.hpp"
-#include "spawned.hpp"
-
-#include <gtest/gtest.h>
-
 #include <chrono>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include "command.hpp"
+#include "listening.hpp"
+#include "spawned.hpp"
 
 TEST(Unanswered, ServersAreGivenUpAfterTenSeconds) {
     Listening const server; // nobody reads what is sent to it

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cstdint>
+#include <vector>
+
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
-
-#include <algorithm>
-#include <cstdint>
-#include <vector>
 
 /// Rivers at random, for whatever is drawn around them.
 namespace channel_trees {

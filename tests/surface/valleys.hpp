@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <support.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/raster.hpp>
-
-#include <rapidcheck.h>
-
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <string>
 #include <vector>
+
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/raster.hpp>
 
 namespace valleys {
 

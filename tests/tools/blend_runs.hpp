@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <string>
+
 #include "command.hpp"
 #include "refused.hpp"
-
-#include <string>
 
 namespace blend_runs {
 

@@ -1,12 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-
-#include <sys/wait.h>
-
 #include <cstdlib>
 #include <fstream>
 #include <iterator>
+#include <sys/wait.h>
+
+#include "command.hpp"
 
 namespace fs = std::filesystem;
 

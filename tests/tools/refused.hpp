@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "command.hpp"
-
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <map>
 #include <string>
+
+#include <gtest/gtest.h>
+
+#include "command.hpp"
 
 /// Everything below a folder, with the bytes of the files.
 inline std::map<std::string, std::string> content(std::filesystem::path const& folder) {

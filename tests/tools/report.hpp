@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "command.hpp"
+#include <filesystem>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <filesystem>
-#include <string>
+#include "command.hpp"
 
 /// The report.json of a folder.
 inline nlohmann::json report_of(std::filesystem::path const& folder) {

@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "command.hpp"
-
-#include <gtest/gtest.h>
-
 #include <filesystem>
 #include <functional>
 #include <limits>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
-#include <sys/types.h>
+#include <gtest/gtest.h>
+
+#include "command.hpp"
 
 /// How a process that a test started came to its end.
 struct Ended {

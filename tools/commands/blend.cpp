@@ -1,7 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -9,15 +16,8 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/make_blend.hpp>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <cstdio>
-#include <memory>
-#include <string>
-#include <utility>
-#include <vector>
+#include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

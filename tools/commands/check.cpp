@@ -1,22 +1,22 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/network_options.hpp"
-#include "commands/nodata_option.hpp"
-#include "commands/verdict.hpp"
-#include "terminal/terminal.hpp"
-
-#include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/commands/check_files.hpp>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <cstdio>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/pipeline/commands/check_files.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/network_options.hpp"
+#include "commands/nodata_option.hpp"
+#include "commands/verdict.hpp"
+#include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "help/complete.hpp"
+#include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <memory>
-#include <string>
+#include "commands/commands.hpp"
+#include "help/complete.hpp"
 
 namespace thalweg::tools {
 

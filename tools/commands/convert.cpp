@@ -1,23 +1,23 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/network_options.hpp"
-#include "commands/nodata_option.hpp"
+#include <algorithm>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/pipeline/commands/convert.hpp>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <algorithm>
-#include <cstdio>
-#include <limits>
-#include <memory>
-#include <string>
+#include "commands/commands.hpp"
+#include "commands/network_options.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

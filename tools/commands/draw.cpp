@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
-
-#include <thalweg/pipeline/commands/draw_files.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
-#include <memory>
-#include <string>
+#include <thalweg/pipeline/commands/draw_files.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

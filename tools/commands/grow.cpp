@@ -1,7 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/seed.hpp"
+#include <cstdio>
+#include <memory>
+#include <string>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/draw/map.hpp>
@@ -10,14 +16,8 @@
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 #include <thalweg/network/order/order.hpp>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
-#include <cstdio>
-#include <memory>
-#include <string>
-#include <vector>
+#include "commands/commands.hpp"
+#include "commands/seed.hpp"
 
 namespace thalweg::tools {
 

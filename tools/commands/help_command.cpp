@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "help/describe.hpp"
+#include <memory>
+#include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <memory>
-#include <string>
-#include <vector>
+#include "commands/commands.hpp"
+#include "help/describe.hpp"
 
 namespace thalweg::tools {
 

@@ -1,11 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/forecast_words.hpp"
-#include "commands/network_options.hpp"
-#include "commands/seed.hpp"
-#include "commands/verdict.hpp"
-#include "terminal/terminal.hpp"
+#include <algorithm>
+#include <cstdint>
+#include <cstdio>
+#include <map>
+#include <memory>
+#include <optional>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -16,18 +22,12 @@
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cstdint>
-#include <cstdio>
-#include <map>
-#include <memory>
-#include <optional>
-#include <string>
-#include <utility>
-#include <vector>
+#include "commands/commands.hpp"
+#include "commands/forecast_words.hpp"
+#include "commands/network_options.hpp"
+#include "commands/seed.hpp"
+#include "commands/verdict.hpp"
+#include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
 

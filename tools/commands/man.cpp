@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "help/man_pages.hpp"
-
-#include <thalweg/io/files/files.hpp>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <thalweg/io/files/files.hpp>
+
+#include "commands/commands.hpp"
+#include "help/man_pages.hpp"
 
 namespace thalweg::tools {
 

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/network_options.hpp"
-#include "commands/nodata_option.hpp"
-
-#include <thalweg/pipeline/commands/make_measures.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
-#include <memory>
-#include <string>
+#include <thalweg/pipeline/commands/make_measures.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/network_options.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

@@ -2,11 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/network_options.hpp"
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/io/network/schema.hpp>
-
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/network/schema.hpp>
 
 namespace thalweg::tools {
 

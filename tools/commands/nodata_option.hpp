@@ -2,9 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <CLI/CLI.hpp>
-
 #include <optional>
+
+#include <CLI/CLI.hpp>
 
 namespace thalweg::tools {
 

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
-
-#include <thalweg/io/files/files.hpp>
-#include <thalweg/io/mesh/points.hpp>
-#include <thalweg/pipeline/commands/make_points.hpp>
-
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
-
 #include <cstdint>
 #include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/mesh/points.hpp>
+#include <thalweg/pipeline/commands/make_points.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "terminal/terminal.hpp"
-
-#include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/commands/replay.hpp>
+#include <cstdio>
+#include <memory>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <cstdio>
-#include <memory>
-#include <string>
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/pipeline/commands/replay.hpp>
+
+#include "commands/commands.hpp"
+#include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
 

@@ -1,7 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include <cmath>
+#include <cstdint>
+#include <cstdio>
+#include <limits>
+#include <memory>
+#include <optional>
+#include <string>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
@@ -14,16 +22,8 @@
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
-#include <CLI/CLI.hpp>
-#include <fmt/format.h>
-
-#include <cmath>
-#include <cstdint>
-#include <cstdio>
-#include <limits>
-#include <memory>
-#include <optional>
-#include <string>
+#include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

@@ -1,20 +1,20 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
-
-#include <thalweg/io/files/files.hpp>
-#include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/pipeline/commands/make_tin.hpp>
+#include <cstdio>
+#include <memory>
+#include <optional>
+#include <string>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
-#include <memory>
-#include <optional>
-#include <string>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/io/mesh/tin.hpp>
+#include <thalweg/pipeline/commands/make_tin.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/nodata_option.hpp"
 
 namespace thalweg::tools {
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/complaint.hpp"
 
-#include "help/describe.hpp"
-
-#include <thalweg/core/run/messages.hpp>
+#include <algorithm>
+#include <cctype>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cctype>
+#include <thalweg/core/run/messages.hpp>
+
+#include "help/describe.hpp"
 
 namespace thalweg::tools {
 

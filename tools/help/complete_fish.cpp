@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "help/complete.hpp"
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
+#include "help/complete.hpp"
 
 namespace thalweg::tools {
 

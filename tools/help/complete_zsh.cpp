@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "help/complete.hpp"
-
-#include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <string_view>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <string_view>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+#include "help/complete.hpp"
 
 namespace thalweg::tools {
 

@@ -2,10 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/describe.hpp"
 
-#include <CLI/CLI.hpp>
-
 #include <algorithm>
 #include <string_view>
+
+#include <CLI/CLI.hpp>
 
 namespace thalweg::tools {
 

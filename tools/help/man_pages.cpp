@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/man_pages.hpp"
 
-#include "help/roff.hpp"
-
-#include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <algorithm>
+#include <cctype>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <algorithm>
-#include <cctype>
-#include <utility>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+#include "help/roff.hpp"
 
 namespace thalweg::tools {
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "help/print_keys.hpp"
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/messages.hpp>
+#include <algorithm>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 namespace thalweg::tools {
 

@@ -2,13 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terminal/interrupt.hpp"
 
-#include "terminal/terminal.hpp"
-
+#include <cerrno>
+#include <csignal>
 #include <signal.h>
 #include <unistd.h>
 
-#include <cerrno>
-#include <csignal>
+#include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
 

@@ -2,19 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terminal/terminal.hpp"
 
-#include <thalweg/core/run/messages.hpp>
-
-#include <fmt/format.h>
-
-#include <sys/ioctl.h>
-#include <unistd.h>
-
 #include <algorithm>
 #include <array>
 #include <cerrno>
 #include <charconv>
 #include <cstdlib>
+#include <sys/ioctl.h>
 #include <system_error>
+#include <unistd.h>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/messages.hpp>
 
 namespace thalweg::tools {
 

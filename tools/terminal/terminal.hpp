@@ -2,9 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include "terminal/bar.hpp"
-#include "terminal/stage_times.hpp"
-
 #include <chrono>
 #include <cstdio>
 #include <mutex>
@@ -12,6 +9,9 @@
 #include <string_view>
 #include <utility>
 #include <vector>
+
+#include "terminal/bar.hpp"
+#include "terminal/stage_times.hpp"
 
 namespace thalweg::tools {
 

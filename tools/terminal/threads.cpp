@@ -2,14 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "terminal/threads.hpp"
 
-#include <unistd.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
 #include <new>
 #include <system_error>
 #include <thread>
+#include <unistd.h>
 #include <vector>
 
 namespace thalweg::tools {

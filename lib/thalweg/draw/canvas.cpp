@@ -6,6 +6,7 @@
 #include <array>
 #include <cctype>
 #include <cmath>
+#include <malloc.h>
 #include <memory>
 #include <unordered_map>
 
@@ -14,7 +15,6 @@
 #include <cairo.h>
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
-#include <malloc.h>
 
 #include <thalweg/core/run/error.hpp>
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/internal/wireframe.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <unordered_map>
 #include <utility>
+
+#include <thalweg/draw/internal/wireframe.hpp>
 
 namespace thalweg::draw {
 namespace {

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/draw/internal/map.hpp>
-
 #include <algorithm>
 #include <cmath>
 
 #include <cairo.h>
 #include <fmt/format.h>
+
+#include <thalweg/draw/internal/map.hpp>
 
 namespace thalweg::draw {
 namespace {

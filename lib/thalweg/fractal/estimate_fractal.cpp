@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/fractal/estimate_fractal.hpp>
 
-#include <thalweg/core/indexed.hpp>
-#include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parameters.hpp>
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parameters.hpp>
 
 namespace thalweg::fractal {
 namespace {

@@ -1,11 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/fractal/midpoint.hpp>
-
 #include <array>
 #include <bit>
 #include <cmath>
 #include <cstring>
+
+#include <thalweg/fractal/midpoint.hpp>
 
 namespace thalweg::fractal {
 namespace {

@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/skeleton/regress.hpp>
 
-#include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/parameters.hpp>
-#include <thalweg/solver/linear/linear.hpp>
-
-#include <fmt/format.h>
-
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/solver/linear/linear.hpp>
 
 namespace thalweg::skeleton {
 

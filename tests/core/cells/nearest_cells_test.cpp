@@ -4,7 +4,6 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
 
 namespace nearest_cells_test {

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/numbers/elementary.hpp>
 
-#include <thalweg/core/numbers/random.hpp>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -13,6 +9,10 @@
 #include <limits>
 #include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/numbers/random.hpp>
 
 namespace elementary_test {
 

@@ -2,12 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/run.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <atomic>
 #include <cstddef>
@@ -15,6 +9,12 @@
 #include <stdexcept>
 #include <stop_token>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace parallel_test {
 

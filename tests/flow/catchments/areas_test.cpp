@@ -9,16 +9,15 @@
 #include <tuple>
 
 #include <gtest/gtest.h>
+#include <measure/dems.hpp>
+#include <measure/trees.hpp>
 #include <rapidcheck.h>
+#include <support.hpp>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
-
-#include <measure/dems.hpp>
-#include <measure/trees.hpp>
-#include <support.hpp>
 
 namespace areas_test {
 

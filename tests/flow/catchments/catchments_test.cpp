@@ -7,15 +7,14 @@
 #include <numeric>
 
 #include <gtest/gtest.h>
+#include <measure/dems.hpp>
+#include <measure/trees.hpp>
 #include <rapidcheck.h>
+#include <support.hpp>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
-
-#include <measure/dems.hpp>
-#include <measure/trees.hpp>
-#include <support.hpp>
 
 namespace catchments_test {
 

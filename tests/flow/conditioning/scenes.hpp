@@ -10,8 +10,8 @@
 #include <vector>
 
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>

@@ -8,9 +8,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <measure/dems.hpp>
+#include <rapidcheck.h>
 
 namespace flow_lengths_test {
 

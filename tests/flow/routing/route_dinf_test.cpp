@@ -9,13 +9,13 @@
 #include <optional>
 
 #include <gtest/gtest.h>
+#include <measure/dems.hpp>
 #include <rapidcheck.h>
+#include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
 
 #include "filled_slowly.hpp"
-#include <measure/dems.hpp>
-#include <support.hpp>
 
 namespace route_dinf_test {
 

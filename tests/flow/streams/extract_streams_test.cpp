@@ -8,14 +8,13 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <measure/dems.hpp>
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
-
-#include <measure/dems.hpp>
 
 namespace extract_streams_test {
 

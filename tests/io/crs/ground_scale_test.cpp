@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/crs/internal/into_metres.hpp>
 
 #include <cmath>
 #include <limits>
@@ -9,10 +8,11 @@
 
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 
 namespace ground_scale_test {

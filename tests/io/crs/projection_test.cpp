@@ -2,8 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/crs/crs.hpp>
 
-#include "scratch_folder.hpp"
-
 #include <cmath>
 #include <filesystem>
 #include <fstream>
@@ -12,10 +10,12 @@
 #include <cpl_error.h>
 #include <gtest/gtest.h>
 #include <ogr_spatialref.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/driver.hpp>
+
+#include "scratch_folder.hpp"
 
 namespace projection_test {
 

@@ -7,8 +7,8 @@
 #include <memory>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 #include "full_disk.hpp"

@@ -11,8 +11,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 #include "scratch_folder.hpp"

@@ -14,12 +14,12 @@
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
-
 #include <support.hpp>
+#include <tins.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/gdal/driver.hpp>
-#include <tins.hpp>
 
 #include "full_disk.hpp"
 #include "point_files.hpp"

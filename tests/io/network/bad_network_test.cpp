@@ -6,6 +6,7 @@
 #include <fstream>
 
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/write_network.hpp>

@@ -6,6 +6,7 @@
 #include <set>
 
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/write_network.hpp>
 

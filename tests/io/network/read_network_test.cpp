@@ -9,8 +9,8 @@
 
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/write_network.hpp>
 

@@ -7,8 +7,8 @@
 #include <sstream>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace schema_test {

@@ -10,8 +10,8 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/read_network.hpp>
 

@@ -5,11 +5,11 @@
 #include <memory>
 
 #include <gtest/gtest.h>
+#include <measure/trees.hpp>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
-
-#include <measure/trees.hpp>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/write_network.hpp>

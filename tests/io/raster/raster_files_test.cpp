@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/dem_derivatives.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
 
 #include <algorithm>
 #include <array>
@@ -17,11 +16,12 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include "full_disk.hpp"
 #include "scratch_folder.hpp"

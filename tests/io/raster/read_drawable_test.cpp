@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/io/raster/read_drawable.hpp>
-
-#include <gdal_priv.h>
-#include <gtest/gtest.h>
-#include <ogr_spatialref.h>
 
 #include <cmath>
 #include <fstream>
 #include <limits>
 #include <vector>
 
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <ogr_spatialref.h>
+
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/raster/read_drawable.hpp>
 
 #include "scratch_folder.hpp"
 

@@ -5,8 +5,8 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/io/raster/read_drawable.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -13,9 +12,10 @@
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/raster/read_drawable.hpp>
 
 #include "scratch_folder.hpp"
 

@@ -6,8 +6,8 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 

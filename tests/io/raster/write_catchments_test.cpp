@@ -9,8 +9,8 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/raster/internal/polygons.hpp>

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/drainage/certificate.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <limits>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace extract_ridges_test {
 

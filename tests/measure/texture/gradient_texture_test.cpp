@@ -6,8 +6,8 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 #include "dems.hpp"

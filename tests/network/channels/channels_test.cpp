@@ -10,10 +10,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/channel_laws.hpp>
 #include <network/networks.hpp>
+#include <rapidcheck.h>
+
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 

@@ -5,9 +5,9 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
+#include <network/networks.hpp>
 #include <rapidcheck.h>
 
-#include <network/networks.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace choose_lakes_test {

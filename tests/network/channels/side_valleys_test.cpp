@@ -3,6 +3,15 @@
 // Valleys that a land has grown around given rivers, as arcs.
 #include <thalweg/network/channels/side_valleys.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <set>
+#include <utility>
+
+#include <gtest/gtest.h>
+#include <network/networks.hpp>
+#include <rapidcheck.h>
+
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
@@ -11,16 +20,6 @@
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
-#include <network/networks.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <set>
-#include <utility>
 
 namespace side_valleys_test {
 

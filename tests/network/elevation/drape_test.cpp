@@ -7,9 +7,9 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <measure/trees.hpp>
 #include <rapidcheck.h>
 
-#include <measure/trees.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace drape_test {

@@ -6,9 +6,9 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <network/networks.hpp>
 #include <rapidcheck.h>
 
-#include <network/networks.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/channels/channels.hpp>

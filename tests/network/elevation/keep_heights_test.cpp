@@ -1,9 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/elevation/known_heights.hpp>
 
 #include <gtest/gtest.h>
+
+#include <thalweg/network/elevation/known_heights.hpp>
 
 namespace keep_heights_test {
 

@@ -7,9 +7,9 @@
 #include <utility>
 
 #include <gtest/gtest.h>
+#include <network/networks.hpp>
 #include <rapidcheck.h>
 
-#include <network/networks.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/order.hpp>
 

@@ -8,10 +8,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/networks.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace set_heights_graded_test {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/choose_cell.hpp>
 
-#include <network/rivers.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <cmath>
 
 #include <gtest/gtest.h>
+#include <network/rivers.hpp>
 #include <rapidcheck/gtest.h>
 
-#include <cmath>
+#include <thalweg/core/run/error.hpp>
 
 namespace choose_cell_test {
 

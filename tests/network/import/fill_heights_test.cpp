@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-
 #include <network/rivers.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace fill_heights_test {

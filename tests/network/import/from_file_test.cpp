@@ -7,10 +7,10 @@
 #include <limits>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <measure/trees.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/order/order.hpp>

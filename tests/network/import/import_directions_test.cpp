@@ -12,10 +12,10 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/rivers.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/network/import/internal/import_reaches.hpp>
 
 namespace import_directions_test {

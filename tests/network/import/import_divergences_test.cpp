@@ -10,10 +10,10 @@
 #include <utility>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/rivers.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace import_divergences_test {

@@ -10,10 +10,10 @@
 #include <stop_token>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/rivers.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 

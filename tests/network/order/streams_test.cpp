@@ -8,10 +8,10 @@
 #include <set>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/networks.hpp>
 #include <network/plain_streams.hpp>
+#include <rapidcheck.h>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 

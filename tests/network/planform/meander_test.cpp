@@ -6,10 +6,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/networks.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>

@@ -8,10 +8,10 @@
 #include <numbers>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <measure/trees.hpp>
 #include <network/networks.hpp>
+#include <rapidcheck.h>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/order/order.hpp>

@@ -7,9 +7,9 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <network/networks.hpp>
 #include <rapidcheck.h>
 
-#include <network/networks.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace cut_corners_test {

@@ -9,10 +9,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/networks.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace prune_test {

@@ -8,10 +8,10 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/networks.hpp>
+#include <rapidcheck.h>
 #include <support.hpp>
+
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>

@@ -5,10 +5,10 @@
 #include <algorithm>
 
 #include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <network/masks.hpp>
 #include <network/plain_thinning.hpp>
+#include <rapidcheck.h>
+
 #include <thalweg/core/run/error.hpp>
 
 namespace thin_test {

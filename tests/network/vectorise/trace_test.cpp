@@ -8,9 +8,9 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <network/masks.hpp>
 #include <rapidcheck.h>
 
-#include <network/masks.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace trace_test {

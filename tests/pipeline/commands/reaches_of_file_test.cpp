@@ -6,8 +6,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
 

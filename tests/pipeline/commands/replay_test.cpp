@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What make leaves needs no other file: every key that names one.
 #include <thalweg/pipeline/commands/replay.hpp>
-#include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/report/report.hpp>
-
-#include <gtest/gtest.h>
-
-#include <pipeline/walk_files.hpp>
 
 #include <filesystem>
 #include <map>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <pipeline/walk_files.hpp>
+
+#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 namespace replay_test {
 

@@ -9,11 +9,10 @@
 #include <vector>
 
 #include <fmt/format.h>
-
 #include <gtest/gtest.h>
-
 #include <io/scratch_folder.hpp>
 #include <pipeline/made.hpp>
+
 #include <thalweg/core/vec.hpp>
 
 namespace given_test {

@@ -3,6 +3,18 @@
 // Recipes of land in equilibrium, from keys to checks.
 #include <thalweg/pipeline/make/make.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <io/scratch_folder.hpp>
+#include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
@@ -10,21 +22,8 @@
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
 
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <io/scratch_folder.hpp>
-#include <support.hpp>
-
 #include "ascii_grid.hpp"
 #include "made.hpp"
-
-#include <algorithm>
-#include <cmath>
-#include <cstdint>
-#include <string>
-#include <string_view>
-#include <vector>
 
 namespace land_in_equilibrium_test {
 

@@ -2,21 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/make.hpp>
 
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/surface/tin/rasterise_tin.hpp>
-
-#include <gtest/gtest.h>
-
-#include <io/scratch_folder.hpp>
-
-#include "made.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
 #include <fstream>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <io/scratch_folder.hpp>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/surface/tin/rasterise_tin.hpp>
+
+#include "made.hpp"
 
 namespace land_test {
 

@@ -8,9 +8,9 @@
 #include <set>
 
 #include <gtest/gtest.h>
+#include <network/networks.hpp>
 #include <rapidcheck.h>
 
-#include <network/networks.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>

@@ -15,10 +15,10 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
-
 #include <io/scratch_folder.hpp>
 #include <pipeline/ascii_grid.hpp>
 #include <support.hpp>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/extract_streams.hpp>

@@ -2,21 +2,20 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/make.hpp>
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/io/files/files.hpp>
-
-#include <gtest/gtest.h>
-
-#include <io/scratch_folder.hpp>
-#include <support.hpp>
-
-#include "made.hpp"
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <io/scratch_folder.hpp>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
+
+#include "made.hpp"
 
 namespace rivers_of_forest_test {
 

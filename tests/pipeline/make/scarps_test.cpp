@@ -3,14 +3,14 @@
 // Scarps at ridges, the fault of dilation by the first paper, on its own network and what the harmonic base leaves.
 #include <thalweg/pipeline/make/make.hpp>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <fstream>
 #include <iterator>
 #include <string>
+
+#include <gtest/gtest.h>
 
 namespace scarps_test {
 

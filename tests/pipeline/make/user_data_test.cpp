@@ -6,8 +6,8 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-
 #include <network/networks.hpp>
+
 #include <thalweg/network/order/order.hpp>
 
 namespace user_data_test {

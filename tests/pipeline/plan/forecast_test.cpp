@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/plan.hpp>
 
-#include "old_recipes.hpp"
+#include <filesystem>
+#include <string>
+#include <vector>
 
+#include <gtest/gtest.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
-#include <gtest/gtest.h>
-
-#include <filesystem>
-#include <string>
-#include <vector>
+#include "old_recipes.hpp"
 
 namespace forecast_test {
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/frame.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <algorithm>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <support.hpp>
 
-#include <algorithm>
+#include <thalweg/core/run/error.hpp>
 
 namespace frame_test {
 

@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-#include <string>
+#include <thalweg/core/run/error.hpp>
 
 namespace stray_vertex_test {
 

@@ -6,8 +6,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace documented_keys_test {

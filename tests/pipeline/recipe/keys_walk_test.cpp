@@ -3,17 +3,6 @@
 // Every key of the table in a small recipe of every method: where the table says that it has an effect, another value
 // changes the terrain or a file; where it says that it has none, the recipe is refused.
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-#include <thalweg/pipeline/report/report.hpp>
-
-#include <thalweg/core/run/error.hpp>
-
-#include <fmt/format.h>
-#include <gtest/gtest.h>
-
-#include <house/fnv.hpp>
-#include <pipeline/walk_files.hpp>
-#include <support.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -21,6 +10,16 @@
 #include <set>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
+#include <gtest/gtest.h>
+#include <house/fnv.hpp>
+#include <pipeline/walk_files.hpp>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 namespace keys_walk_test {
 

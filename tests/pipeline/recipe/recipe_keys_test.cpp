@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
 
 #include <set>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 namespace recipe_keys_test {
 

@@ -1,12 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-#include <string>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace recipe_test {
 

@@ -2,21 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // recipe.toml files that version 0.1.0 wrote, one of each method: they list every key of their sections, used or not.
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-
-#include <thalweg/io/files/files.hpp>
-
-#include <gtest/gtest.h>
-
-#include <golden.hpp>
-#include <house/fnv.hpp>
-
-#include <fmt/format.h>
 
 #include <algorithm>
 #include <filesystem>
 #include <string>
 #include <vector>
+
+#include <fmt/format.h>
+#include <golden.hpp>
+#include <gtest/gtest.h>
+#include <house/fnv.hpp>
+
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 namespace recipes_0_1_0_test {
 

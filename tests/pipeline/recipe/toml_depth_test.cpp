@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <string>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-#include <string>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace toml_depth_test {
 

@@ -1,14 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/internal/page.hpp>
-#include <thalweg/pipeline/report/internal/page_template.hpp>
-
-#include <gtest/gtest.h>
 
 #include <fstream>
 #include <iterator>
 #include <stdexcept>
 #include <string>
+
+#include <gtest/gtest.h>
+
+#include <thalweg/pipeline/report/internal/page_template.hpp>
 
 namespace fill_page_test {
 

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/internal/page.hpp>
 
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
-#include <measure/dems.hpp>
-#include <pipeline/page_decoder.hpp>
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
 #include <cmath>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <measure/dems.hpp>
+#include <pipeline/page_decoder.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace page_heights_test {
 

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/internal/page.hpp>
 
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
-#include <pipeline/page_decoder.hpp>
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
 #include <cmath>
 #include <limits>
 #include <numeric>
 #include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
+#include <pipeline/page_decoder.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace page_lines_test {
 

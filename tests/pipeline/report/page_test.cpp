@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/report/internal/page.hpp>
 
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
-#include <pipeline/page_decoder.hpp>
-#include <thalweg/pipeline/report/report.hpp>
-#include <unpacked.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <pipeline/page_decoder.hpp>
+#include <unpacked.hpp>
+
+#include <thalweg/pipeline/report/report.hpp>
 
 namespace page_test {
 

@@ -2,14 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/poisson.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/solver/grid/internal/poisson.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
@@ -18,7 +10,14 @@
 #include <utility>
 #include <vector>
 
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
 #include <solver/winding_lines.hpp>
+#include <support.hpp>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/solver/grid/internal/poisson.hpp>
 
 namespace poisson_test {
 

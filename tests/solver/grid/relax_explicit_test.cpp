@@ -2,17 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/grid/poisson.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstring>
 #include <limits>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace relax_explicit_test {
 

@@ -3,6 +3,14 @@
 // The solver on skeletons as the pipeline makes them and as land has them.
 #include <thalweg/solver/grid/poisson.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <cstdio>
+#include <limits>
+#include <string>
+
+#include <gtest/gtest.h>
+
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
@@ -12,14 +20,6 @@
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <cmath>
-#include <cstdio>
-#include <limits>
-#include <string>
 
 namespace skeletons_test {
 

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/linear/linear.hpp>
 
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <cmath>
+#include <limits>
 
 #include <gtest/gtest.h>
 
-#include <cmath>
-#include <limits>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace least_squares_test {
 

@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/statistics/field_statistics.hpp>

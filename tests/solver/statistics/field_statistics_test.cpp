@@ -8,8 +8,8 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+
 #include <thalweg/core/numbers/random.hpp>
 
 namespace field_statistics_test {

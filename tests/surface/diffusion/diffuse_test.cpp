@@ -2,19 +2,19 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/diffusion/diffusion.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/surface/diffusion/internal/diffusion.hpp>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <bit>
 #include <cmath>
 #include <limits>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 #include "valleys.hpp"
 

@@ -2,7 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/diffusion/diffusion.hpp>
 
+#include <algorithm>
+#include <bit>
+#include <cmath>
+#include <cstdio>
+
+#include <gtest/gtest.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
@@ -11,13 +18,6 @@
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
-
-#include <gtest/gtest.h>
-
-#include <algorithm>
-#include <bit>
-#include <cmath>
-#include <cstdio>
 
 #include "valleys.hpp"
 

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "valleys.hpp"
+#include <cmath>
+
+#include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 
-#include <gtest/gtest.h>
-
-#include <cmath>
+#include "valleys.hpp"
 
 namespace dilate_over_test {
 

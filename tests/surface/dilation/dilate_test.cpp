@@ -2,17 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/dilation.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
 #include <numeric>
 
 #include <golden.hpp>
+#include <gtest/gtest.h>
 #include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 #include "valleys.hpp"
 

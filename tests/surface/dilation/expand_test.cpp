@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/dilation.hpp>
-#include <thalweg/surface/dilation/separable.hpp>
-
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
 
 #include <algorithm>
 #include <cmath>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/surface/dilation/separable.hpp>
 
 #include "valleys.hpp"
 

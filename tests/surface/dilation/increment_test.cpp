@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/increment.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <stdexcept>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 #include "valleys.hpp"
 

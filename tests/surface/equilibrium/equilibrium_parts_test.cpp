@@ -1,10 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <support.hpp>
-#include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/surface/equilibrium/internal/level.hpp>
-#include <thalweg/surface/equilibrium/internal/steps.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <limits>
@@ -12,6 +7,11 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/surface/equilibrium/internal/level.hpp>
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 #include "channel_trees.hpp"
 

@@ -2,11 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/flow/direction.hpp>
-
 #include <bit>
 #include <cmath>
 #include <cstring>
@@ -17,6 +12,11 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/direction.hpp>
 
 #include "channel_trees.hpp"
 

@@ -2,10 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/surface/equilibrium/equilibrium.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -13,6 +9,10 @@
 #include <set>
 
 #include <gtest/gtest.h>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/random.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace region_test {
 

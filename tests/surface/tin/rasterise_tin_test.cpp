@@ -8,13 +8,13 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
-
 #include <support.hpp>
+#include <tins.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>
-#include <tins.hpp>
 
 namespace rasterise_tin_test {
 

@@ -1,13 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "blend_runs.hpp"
-
-#include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <functional>
@@ -15,6 +7,14 @@
 #include <map>
 #include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+
+#include <thalweg/io/mesh/tin.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+
+#include "blend_runs.hpp"
 
 namespace blend_mesh_test {
 

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "blend_runs.hpp"
-
-#include <support.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
 #include <cmath>
 #include <iterator>
 #include <limits>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support.hpp>
+
+#include <thalweg/io/raster/raster_files.hpp>
+
+#include "blend_runs.hpp"
 
 namespace blend_test {
 

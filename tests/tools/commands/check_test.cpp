@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-
-#include <gdal_priv.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
-
-#include <io/sample_networks.hpp>
-
 #include <map>
 #include <string>
 #include <vector>
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <io/sample_networks.hpp>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include "command.hpp"
 
 namespace check_test {
 

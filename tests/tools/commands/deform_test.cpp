@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-
-#include <support.hpp>
-#include <thalweg/io/mesh/tin.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
-
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support.hpp>
+
+#include <thalweg/io/mesh/tin.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
+
+#include "command.hpp"
 
 namespace deform_test {
 

@@ -1,7 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "refused.hpp"
+#include <algorithm>
+#include <cmath>
+#include <limits>
+#include <set>
+#include <string>
+#include <sys/resource.h>
+#include <vector>
 
 #include <cpl_minixml.h>
 #include <gdal_alg.h>
@@ -10,14 +15,8 @@
 #include <nlohmann/json.hpp>
 #include <ogr_spatialref.h>
 
-#include <sys/resource.h>
-
-#include <algorithm>
-#include <cmath>
-#include <limits>
-#include <set>
-#include <string>
-#include <vector>
+#include "command.hpp"
+#include "refused.hpp"
 
 namespace draw_test {
 

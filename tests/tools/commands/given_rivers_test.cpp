@@ -1,16 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // `thalweg make RIVERS`: terrain around a file of lines, without a recipe.
-#include "command.hpp"
-#include "refused.hpp"
-#include "report.hpp"
-
-#include <fmt/format.h>
-#include <gdal_priv.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
@@ -18,7 +8,17 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
 #include <thalweg/core/vec.hpp>
+
+#include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
 
 namespace given_rivers_test {
 

@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Land from numbers and from points, as the command line makes it.
-#include "command.hpp"
-#include "refused.hpp"
-#include "report.hpp"
+#include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cmath>
-#include <cstdlib>
-#include <string>
+#include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
 
 namespace land_test {
 

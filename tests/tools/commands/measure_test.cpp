@@ -1,19 +1,19 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "refused.hpp"
-
-#include <gdal_priv.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
-
 #include <cmath>
 #include <cstdlib>
 #include <map>
 #include <memory>
 #include <string>
 #include <vector>
+
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
+#include "command.hpp"
+#include "refused.hpp"
 
 namespace measure_test {
 

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
+#include <algorithm>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
 #include <pipeline/page_decoder.hpp>
 #include <unpacked.hpp>
 
-#include <algorithm>
-#include <string>
+#include "command.hpp"
 
 namespace page_test {
 

@@ -1,17 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "refused.hpp"
-
-#include <gtest/gtest.h>
-#include <io/point_files.hpp>
-#include <nlohmann/json.hpp>
-
 #include <algorithm>
 #include <iterator>
 #include <map>
 #include <string>
 #include <utility>
+
+#include <gtest/gtest.h>
+#include <io/point_files.hpp>
+#include <nlohmann/json.hpp>
+
+#include "command.hpp"
+#include "refused.hpp"
 
 namespace points_test {
 

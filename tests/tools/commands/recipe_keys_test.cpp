@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
-
 #include <support.hpp>
 
-#include <string>
+#include "command.hpp"
 
 namespace recipe_keys_test {
 

@@ -1,14 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Files of rivers as their publishers make them: every line is found again, on the arcs or in layer secondary.
-#include "command.hpp"
-#include "report.hpp"
-
-#include <gdal_priv.h>
-#include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
-
 #include <algorithm>
 #include <cmath>
 #include <map>
@@ -16,7 +8,15 @@
 #include <string>
 #include <vector>
 
+#include <gdal_priv.h>
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <ogrsf_frmts.h>
+
 #include <thalweg/core/numbers/random.hpp>
+
+#include "command.hpp"
+#include "report.hpp"
 
 namespace river_files_test {
 

@@ -1,21 +1,21 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rivers by branching rules, along strokes, and with relief pasted over them, as the command line makes them.
-#include "command.hpp"
-#include "refused.hpp"
-#include "report.hpp"
-
-#include <support.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
+#include <cmath>
+#include <cstdlib>
+#include <string>
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
-#include <cmath>
-#include <cstdlib>
-#include <string>
+#include <thalweg/io/raster/raster_files.hpp>
+
+#include "command.hpp"
+#include "refused.hpp"
+#include "report.hpp"
 
 namespace rivers_test {
 

@@ -1,18 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "report.hpp"
+#include <cmath>
+#include <map>
+#include <set>
+#include <string>
+#include <vector>
 
 #include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
 
-#include <cmath>
-#include <map>
-#include <set>
-#include <string>
-#include <vector>
+#include "command.hpp"
+#include "report.hpp"
 
 namespace samples_test {
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "refused.hpp"
+#include <cstdio>
+#include <iterator>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdio>
-#include <iterator>
-#include <string>
+#include "command.hpp"
+#include "refused.hpp"
 
 namespace tin_test {
 

@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/verdict.hpp"
-
 #include <gtest/gtest.h>
+
+#include "commands/verdict.hpp"
 
 namespace verdict_test {
 

@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "refused.hpp"
-
-#include <gtest/gtest.h>
-
-#include <support.hpp>
-
 #include <cstdlib>
 #include <iterator>
 #include <string>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include "command.hpp"
+#include "refused.hpp"
 
 namespace bad_input_test {
 

@@ -1,24 +1,23 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Recipes and files from strangers: they make thalweg neither connect nor open what lies elsewhere.
-#include "command.hpp"
-#include "listening.hpp"
-
-#include <gtest/gtest.h>
-
-#include <sys/inotify.h>
-#include <sys/socket.h>
-#include <sys/stat.h>
-#include <unistd.h>
-
 #include <array>
 #include <atomic>
 #include <cstdlib>
 #include <stdexcept>
 #include <string>
+#include <sys/inotify.h>
+#include <sys/socket.h>
+#include <sys/stat.h>
 #include <thread>
+#include <unistd.h>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
+
+#include "command.hpp"
+#include "listening.hpp"
 
 namespace hostile_test {
 

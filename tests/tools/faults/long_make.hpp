@@ -2,11 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <sys/types.h>
-
 #include <fstream>
 #include <sstream>
 #include <string>
+#include <sys/types.h>
 #include <vector>
 
 /// Grows for many seconds.

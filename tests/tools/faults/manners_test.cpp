@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
+#include <cstdlib>
+#include <regex>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 
-#include <cstdlib>
-#include <regex>
-#include <string>
+#include "command.hpp"
 
 namespace manners_test {
 

@@ -2,20 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What messages are made of comes from files and command lines: they neither act on the terminal, nor flood it, nor
 // tell passwords.
-#include "command.hpp"
+#include <algorithm>
+#include <cstdlib>
+#include <fstream>
+#include <string>
+#include <sys/wait.h>
 
 #include <gtest/gtest.h>
-
 #include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/messages.hpp>
 
-#include <algorithm>
-#include <sys/wait.h>
-
-#include <cstdlib>
-#include <fstream>
-#include <string>
+#include "command.hpp"
 
 namespace messages_test {
 

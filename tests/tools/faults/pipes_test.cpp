@@ -1,15 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Opening a pipe waits until someone writes to it: as an input it is refused, by its own name or another file's.
-#include "command.hpp"
-#include "spawned.hpp"
+#include <string>
+#include <sys/stat.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <sys/stat.h>
-
-#include <string>
-#include <vector>
+#include "command.hpp"
+#include "spawned.hpp"
 
 namespace pipes_test {
 

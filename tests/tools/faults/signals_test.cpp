@@ -1,19 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "long_make.hpp"
-#include "spawned.hpp"
+#include <array>
+#include <signal.h>
+#include <string>
+#include <sys/resource.h>
+#include <thread>
+#include <unistd.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <signal.h>
-#include <sys/resource.h>
-#include <unistd.h>
-
-#include <array>
-#include <string>
-#include <thread>
-#include <vector>
+#include "command.hpp"
+#include "long_make.hpp"
+#include "spawned.hpp"
 
 namespace signals_test {
 

@@ -1,16 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "command.hpp"
-#include "spawned.hpp"
+#include <fcntl.h>
+#include <functional>
+#include <string>
+#include <unistd.h>
+#include <vector>
 
 #include <gtest/gtest.h>
 
-#include <fcntl.h>
-#include <unistd.h>
-
-#include <functional>
-#include <string>
-#include <vector>
+#include "command.hpp"
+#include "spawned.hpp"
 
 namespace streams_test {
 

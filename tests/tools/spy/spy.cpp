@@ -8,7 +8,6 @@
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
-
 #include <dlfcn.h>
 #include <fcntl.h>
 #include <signal.h>

@@ -1,13 +1,13 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "terminal/bar.hpp"
-#include "terminal/terminal.hpp"
+#include <cmath>
+#include <string>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include <cmath>
-#include <string>
+#include "terminal/bar.hpp"
+#include "terminal/terminal.hpp"
 
 namespace bar_test {
 

@@ -1,14 +1,14 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "terminal/stage_times.hpp"
+#include <string>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include <string>
-#include <utility>
-#include <vector>
+#include "terminal/stage_times.hpp"
 
 namespace stage_times_test {
 

@@ -7,7 +7,6 @@
 #include <fstream>
 #include <limits>
 #include <string>
-
 #include <sys/mman.h>
 #include <sys/resource.h>
 

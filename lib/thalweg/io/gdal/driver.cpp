@@ -6,6 +6,7 @@
 #include <cstdlib>
 #include <cstring>
 #include <exception>
+#include <unistd.h>
 #include <utility>
 #include <vector>
 
@@ -13,7 +14,6 @@
 #include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_srs_api.h>
-#include <unistd.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>

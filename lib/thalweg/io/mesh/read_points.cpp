@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/points.hpp>
-
 #include <algorithm>
 #include <array>
 #include <charconv>
@@ -29,6 +27,7 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 namespace thalweg::io {
 namespace {

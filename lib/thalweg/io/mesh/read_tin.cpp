@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/tin.hpp>
-
 #include <algorithm>
 #include <array>
 #include <cctype>
@@ -17,6 +15,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 
 namespace thalweg::io {
 namespace {

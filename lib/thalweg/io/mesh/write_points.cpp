@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/points.hpp>
-
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -12,6 +10,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
+#include <thalweg/io/mesh/points.hpp>
 
 namespace thalweg::io {
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/mesh/tin.hpp>
-
 #include <cmath>
 #include <cstddef>
 #include <iterator>
@@ -14,6 +12,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/table.hpp>
 
 namespace thalweg::io {

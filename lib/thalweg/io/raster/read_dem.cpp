@@ -4,6 +4,7 @@
 
 #include <filesystem>
 #include <memory>
+#include <unistd.h>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
@@ -11,7 +12,6 @@
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
-#include <unistd.h>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>

@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/choose_cell.hpp>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/raster.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <fmt/format.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <limits>
 #include <utility>
 #include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::network {
 

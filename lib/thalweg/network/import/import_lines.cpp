@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/network/import/internal/import_lines.hpp>
+
 #include <cmath>
 #include <utility>
 
@@ -8,7 +10,6 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network {
 namespace {

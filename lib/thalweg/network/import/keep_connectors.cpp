@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/import/prepare_lines.hpp>
-
 #include <cmath>
 #include <map>
 #include <queue>
@@ -12,6 +10,7 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
 
 namespace thalweg::network {
 namespace {

@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/import/land_and_sea.hpp>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/network/import/prepare_lines.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <unordered_map>
 #include <utility>
 #include <vector>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/network/import/prepare_lines.hpp>
+#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 

@@ -1,13 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/vectorise/vectorise.hpp>
-
 #include <algorithm>
 #include <array>
 #include <bit>
 #include <vector>
 
 #include <thalweg/core/indexed.hpp>
+#include <thalweg/network/vectorise/vectorise.hpp>
 
 namespace thalweg::network {
 

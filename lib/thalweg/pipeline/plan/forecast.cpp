@@ -1,15 +1,15 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-
-#include <algorithm>
-#include <cmath>
-#include <string_view>
 
 namespace thalweg::pipeline {
 

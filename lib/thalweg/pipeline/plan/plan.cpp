@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
@@ -21,7 +23,6 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>

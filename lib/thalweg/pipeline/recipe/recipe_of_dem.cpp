@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/io/crs/crs.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <algorithm>
+#include <filesystem>
+#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <algorithm>
-#include <filesystem>
-#include <utility>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 

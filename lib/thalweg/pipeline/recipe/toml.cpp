@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-
 #include <algorithm>
 #include <charconv>
 #include <filesystem>
@@ -14,6 +12,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -1,6 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/report.hpp>
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <map>
+#include <utility>
+
+#include <fmt/format.h>
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/draw/diagrams.hpp>
@@ -21,14 +27,7 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
-
-#include <fmt/format.h>
-
-#include <algorithm>
-#include <cmath>
-#include <filesystem>
-#include <map>
-#include <utility>
+#include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
 

@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/solver/grid/internal/poisson.hpp>
-
 #include <bit>
 #include <cstring>
+
+#include <thalweg/solver/grid/internal/poisson.hpp>
 
 namespace thalweg::solver {
 namespace {

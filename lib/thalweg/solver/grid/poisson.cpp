@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/solver/grid/internal/poisson.hpp>
+
 #include <cmath>
 #include <utility>
 
@@ -9,7 +11,6 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
-#include <thalweg/solver/grid/internal/poisson.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>
 
 namespace thalweg::solver {

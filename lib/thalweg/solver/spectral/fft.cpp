@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/solver/spectral/fft.hpp>
 
-#include <unsupported/Eigen/FFT>
-
 #include <algorithm>
 #include <cstddef>
 #include <utility>
 #include <vector>
+
+#include <unsupported/Eigen/FFT>
 
 #include <thalweg/core/numbers/elementary.hpp>
 

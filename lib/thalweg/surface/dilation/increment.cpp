@@ -2,18 +2,18 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/increment.hpp>
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/core/run/messages.hpp>
-
-#include <fmt/format.h>
-#include <muParser.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
 #include <memory>
 #include <numeric>
 #include <string_view>
+
+#include <fmt/format.h>
+#include <muParser.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/messages.hpp>
 
 namespace thalweg::surface {
 namespace {

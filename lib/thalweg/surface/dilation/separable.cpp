@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/dilation/separable.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
 #include <algorithm>
 #include <atomic>
 #include <cstring>
 #include <new>
 #include <thread>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace thalweg::surface::separable {
 namespace {

@@ -2,13 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
+#include <algorithm>
+#include <cmath>
+
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/vec.hpp>
-
-#include <algorithm>
-#include <cmath>
 
 namespace thalweg::surface {
 

@@ -2,15 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <network/chi_squared.hpp>
-#include <network/unit_step_dla.hpp>
-#include <support.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -22,6 +13,14 @@
 #include <stop_token>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <network/chi_squared.hpp>
+#include <network/unit_step_dla.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace grow_dla_test {
 

@@ -3,8 +3,6 @@
 // What the growth must look like: the measured laws of specification and literature, on means over several seeds.
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 
-#include <gtest/gtest.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
@@ -13,6 +11,8 @@
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
 
 namespace growth_law_test {
 

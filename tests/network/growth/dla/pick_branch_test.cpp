@@ -2,16 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <cstdlib>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace pick_branch_test {
 

@@ -2,15 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
-
-#include <network/chi_squared.hpp>
-#include <network/unit_step_dla.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <array>
 #include <cmath>
@@ -21,6 +12,14 @@
 #include <numeric>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <network/chi_squared.hpp>
+#include <network/unit_step_dla.hpp>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 
 namespace walk_test {
 

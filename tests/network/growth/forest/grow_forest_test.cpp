@@ -2,17 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <network/chi_squared.hpp>
-#include <network/growth_params.hpp>
-#include <network/masks.hpp>
-#include <network/plain_forest.hpp>
-#include <support.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <array>
 #include <cstddef>
@@ -20,6 +9,16 @@
 #include <limits>
 #include <stop_token>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <network/chi_squared.hpp>
+#include <network/growth_params.hpp>
+#include <network/masks.hpp>
+#include <network/plain_forest.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace grow_forest_test {
 

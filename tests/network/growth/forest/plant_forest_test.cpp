@@ -2,26 +2,25 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 
-#include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
-#include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/network/elevation/set_heights.hpp>
-#include <thalweg/network/growth/forest/coast.hpp>
-#include <thalweg/network/order/order.hpp>
-
-#include <network/growth_params.hpp>
-#include <network/masks.hpp>
-#include <support.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
 #include <map>
 #include <string>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <network/growth_params.hpp>
+#include <network/masks.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
+#include <thalweg/network/order/order.hpp>
 
 namespace plant_forest_test {
 

@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/forest/coast.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <network/masks.hpp>
-#include <support.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <network/masks.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace shape_island_test {
 

@@ -2,18 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/forest/coast.hpp>
 
-#include <thalweg/core/run/error.hpp>
-
-#include <network/masks.hpp>
-
-#include <gtest/gtest.h>
-#include <rapidcheck.h>
-
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <limits>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <network/masks.hpp>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace spread_outlets_test {
 

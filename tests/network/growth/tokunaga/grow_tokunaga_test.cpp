@@ -5,10 +5,10 @@
 #include <cmath>
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
-
 #include <network/plain_streams.hpp>
+#include <rapidcheck/gtest.h>
 #include <support.hpp>
+
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/order.hpp>
 

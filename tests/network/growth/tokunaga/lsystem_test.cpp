@@ -3,9 +3,8 @@
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 #include <gtest/gtest.h>
-#include <rapidcheck/gtest.h>
-
 #include <network/plain_streams.hpp>
+#include <rapidcheck/gtest.h>
 
 namespace lsystem_test {
 

@@ -2,15 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
-#include <support.hpp>
-#include <thalweg/core/run/error.hpp>
-
-#include <gtest/gtest.h>
-
 #include <cmath>
 #include <string>
 #include <utility>
 #include <vector>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace rewrite_test {
 

@@ -1,7 +1,5 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/network/growth/forest/grow_forest.hpp>
-
 #include <cstddef>
 #include <optional>
 #include <string>
@@ -13,6 +11,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/network/growth/forest/coast.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 namespace thalweg::network {
