@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 # readme.sh, after scripts/demo: the other commands of README.md, with what the demo installed and nothing else.
 # As run_docs.py, but without Python: a command is a line that begins with "$ " in a block marked sh, and exits with 0 or
-# with N where its line ends in "# exit N".
+# with N where its line ends in "# exit N". What builds and installs runs here, with a home of its own to install into.
 set -u
 source=$(pwd)
 place=$(mktemp -d)
@@ -15,17 +15,22 @@ export PATH="$place/.bin:$PATH"
 run=0 failed=0
 while IFS= read -r line; do
     line=${line#build/release/bin/}
+    folder=$place home=${HOME-}
     case $line in
+    scripts/packages\ * | cmake\ --preset\ * | cmake\ --build\ *) folder=$source ;;
+    cmake\ --install\ *) folder=$source home=$place ;;
     scripts/* | ./* | cmake\ * | git\ * | cd\ * | ctest\ * | build/*) continue ;;
     esac
     wanted=$(sed -n 's/.*# exit \([0-9]*\) *$/\1/p' <<<"$line")
     code=0
-    said=$(cd "$place" && bash -c "$line" 2>&1 </dev/null) || code=$?
+    said=$(cd "$folder" && HOME=$home bash -c "$line" 2>&1 </dev/null) || code=$?
     run=$((run + 1))
     if [ "$code" -ne "${wanted:-0}" ]; then
         failed=$((failed + 1))
         printf 'README.md: %s\nexit %s, wanted %s\n%s\n' "$line" "$code" "${wanted:-0}" "$said"
     fi
 done < <(sed -n '/^```sh$/,/^```$/s/^\$ //p' README.md)
+# What README.md installs works.
+"$place/.local/bin/thalweg" --version || failed=$((failed + 1))
 echo "readme.sh: $run commands run, $failed failed"
 [ "$run" -gt 0 ] && [ "$failed" -eq 0 ]
