@@ -5,16 +5,16 @@ set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME thalweg)
 set(CPACK_PACKAGE_VENDOR "the thalweg authors")
 set(CPACK_PACKAGE_CONTACT "the thalweg authors <thalweg@example.org>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "terrain built from its rivers outward")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "terrain from its rivers outward")
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
 set(CPACK_DEBIAN_PACKAGE_SECTION science)
 set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "\
-thalweg grows valley networks, draws them as strokes or reads them from river
-files, and builds the terrain around them. It writes a topology-checked river
-network (GeoPackage, Shapefile), a DEM that these rivers drain, contours,
-pictures and a report page.")
+thalweg reads river networks from files, or grows them, and makes the terrain
+around them. It writes a topology-checked river network (GeoPackage,
+Shapefile), a DEM that these rivers drain, contours, pictures and a report
+page.")
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
 set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
 set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-noto-cjk")
