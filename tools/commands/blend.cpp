@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -81,16 +81,13 @@ std::string blend_in_words(pipeline::MadeBlend const& made, bool fills) {
 
 void take_numbers(BlendOptions& options) {
     if (!options.at.empty()) {
-        if (options.at.size() != 2) {
-            throw BadParameter(fmt::format("--at has {} numbers; it takes two, X,Y", options.at.size()));
-        }
+        refuse_if<BadParameter>(options.at.size() != 2, "--at has {} numbers; it takes two, X,Y", options.at.size());
         options.params.at = Vec2{options.at[0], options.at[1]};
     }
     if (!options.window.empty()) {
-        if (options.window.size() != 4) {
-            throw BadParameter(
-                fmt::format("--window has {} numbers; it takes four, COLUMN,ROW,WIDTH,HEIGHT", options.window.size()));
-        }
+        refuse_if<BadParameter>(options.window.size() != 4,
+                                "--window has {} numbers; it takes four, COLUMN,ROW,WIDTH,HEIGHT",
+                                options.window.size());
         options.params.window = {options.window[0], options.window[1], options.window[2], options.window[3]};
     }
     options.params.relief = options.mixed ? blend::Relief::mixed : blend::Relief::source;
@@ -104,9 +101,7 @@ void refuse_options_of_dems(BlendOptions const& options) {
           std::pair{"--keep", !options.params.keep.empty()},
           std::pair{"--feather", options.params.feather_cells != 0.0}, std::pair{"--mixed", options.mixed},
           std::pair{"--fill-holes", options.fills}, std::pair{"--nodata", options.params.nodata.has_value()}}) {
-        if (given) {
-            throw BadParameter(fmt::format("{} is for DEMs: a mesh is pasted whole, inside its outline", name));
-        }
+        refuse_if<BadParameter>(given, "{} is for DEMs: a mesh is pasted whole, inside its outline", name);
     }
 }
 
@@ -126,12 +121,9 @@ std::string as_json(pipeline::MadeBlendTin const& made, std::string const& file)
 
 int blend_meshes(BlendOptions const& options, Session const& session) {
     for (std::string const& path : {options.params.target, options.params.source}) {
-        if (!io::holds_tin(path)) {
-            throw BadParameter(
-                fmt::format("{} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg tin` makes "
-                            "a mesh of a DEM",
-                            path));
-        }
+        refuse_if<BadParameter>(
+            !io::holds_tin(path),
+            "{} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg tin` makes a mesh of a DEM", path);
     }
     refuse_options_of_dems(options);
     auto const format = io::tin_format("", options.file);
@@ -159,10 +151,9 @@ int blend_files(BlendOptions& options, Session const& session) {
     if (io::holds_tin(options.params.target) || io::holds_tin(options.params.source)) {
         return blend_meshes(options, session);
     }
-    if (!options.source_crs.empty()) {
-        throw BadParameter(
-            "--source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS by gdal_edit.py -a_srs");
-    }
+    refuse_if<BadParameter>(
+        !options.source_crs.empty(),
+        "--source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS by gdal_edit.py -a_srs");
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeBlend const made = pipeline::make_blend(options.params, session.run);
     io::write_dem(made.pasted.dem, file.staging(), session.run);

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -33,30 +33,23 @@ struct DeformOptions {
 };
 
 void take_handles(DeformOptions& options) {
-    if (options.pull.size() % 3 != 0) {
-        throw BadParameter(
-            fmt::format("--pull has {} numbers; it takes three for each place, X,Y,Z", options.pull.size()));
-    }
+    refuse_if<BadParameter>(options.pull.size() % 3 != 0, "--pull has {} numbers; it takes three for each place, X,Y,Z",
+                            options.pull.size());
     for (std::size_t i = 0; i < options.pull.size(); i += 3) {
         options.params.handles.push_back({options.pull[i], options.pull[i + 1], options.pull[i + 2]});
     }
 }
 
 int deform_mesh(DeformOptions const& options, Session const& session) {
-    if (options.params.nodata) {
-        throw BadParameter("--nodata is for DEMs: a mesh has no cells");
-    }
+    refuse_if<BadParameter>(options.params.nodata.has_value(), "--nodata is for DEMs: a mesh has no cells");
     pipeline::MakeDeformTinParams params{options.params.target, options.params.mask, options.params.scale,
                                          options.rotate_deg};
     params.handles = options.params.handles;
     params.source_crs = options.source_crs;
     if (!options.axis.empty()) {
-        if (options.axis.size() != 3) {
-            throw BadParameter(fmt::format("--axis has {} numbers; it takes three, X,Y,Z", options.axis.size()));
-        }
-        if (options.axis == std::vector<double>(3, 0.0)) {
-            throw BadParameter("--axis 0,0,0 has no direction");
-        }
+        refuse_if<BadParameter>(options.axis.size() != 3, "--axis has {} numbers; it takes three, X,Y,Z",
+                                options.axis.size());
+        refuse_if<BadParameter>(options.axis == std::vector<double>(3, 0.0), "--axis 0,0,0 has no direction");
         params.axis = {options.axis[0], options.axis[1], options.axis[2]};
     }
     auto const format = io::tin_format("", options.file);
@@ -78,14 +71,12 @@ int deform_file(DeformOptions& options, Session const& session) {
     if (io::holds_tin(options.params.target)) {
         return deform_mesh(options, session);
     }
-    if (options.rotate_deg != 0.0 || !options.axis.empty()) {
-        throw BadParameter("--rotate and --axis turn meshes (.2dm, .obj, .off); a DEM has one height a cell. `thalweg "
-                           "tin` makes a mesh of it, `thalweg blend --rotate` turns a patch about the vertical");
-    }
-    if (!options.source_crs.empty()) {
-        throw BadParameter(
-            "--source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS by gdal_edit.py -a_srs");
-    }
+    refuse_if<BadParameter>(options.rotate_deg != 0.0 || !options.axis.empty(),
+                            "--rotate and --axis turn meshes (.2dm, .obj, .off); a DEM has one height a cell. `thalweg "
+                            "tin` makes a mesh of it, `thalweg blend --rotate` turns a patch about the vertical");
+    refuse_if<BadParameter>(
+        !options.source_crs.empty(),
+        "--source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS by gdal_edit.py -a_srs");
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     blend::Deformed const made = pipeline::make_deform(options.params, session.run);
     io::write_dem(made.dem, file.staging(), session.run);

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
@@ -100,9 +100,8 @@ draw::Format format_of(std::string const& path) {
     auto const ends = [&](std::string_view ending) {
         return path.size() > ending.size() && path.compare(path.size() - ending.size(), ending.size(), ending) == 0;
     };
-    if (!ends(".svg") && !ends(".png") && !ends(".pdf")) {
-        throw BadParameter(fmt::format("'{}' is not a picture: end its name in .svg, .png or .pdf", path));
-    }
+    refuse_if<BadParameter>(!ends(".svg") && !ends(".png") && !ends(".pdf"),
+                            "'{}' is not a picture: end its name in .svg, .png or .pdf", path);
     return ends(".svg") ? draw::Format::svg : ends(".png") ? draw::Format::png : draw::Format::pdf;
 }
 
@@ -117,12 +116,10 @@ void write_picture(GrowOptions const& options, std::vector<std::vector<Vec2>> co
 /// Rewrites the word of a rules file: draws it, or prints it.
 int rewrite_rules(GrowOptions const& options, Session const& session) {
     constexpr std::int64_t most_bytes = 1 << 20;
-    if (options.shapes_tree) {
-        throw BadParameter("--generator, --order and --rule are those of Tokunaga networks: --rules has its own");
-    }
-    if (options.picture.empty() == !options.lsystem) {
-        throw BadParameter("--rules needs --lsystem, to print the word, or -o FILE, to draw it");
-    }
+    refuse_if<BadParameter>(options.shapes_tree,
+                            "--generator, --order and --rule are those of Tokunaga networks: --rules has its own");
+    refuse_if<BadParameter>(options.picture.empty() == !options.lsystem,
+                            "--rules needs --lsystem, to print the word, or -o FILE, to draw it");
     network::LSystem const system = network::read_rules(io::read_text(options.rules, most_bytes), options.rules);
     std::string const word = network::rewrite(system, options.params.seed, session.run);
     if (options.picture.empty()) {
@@ -144,15 +141,11 @@ int grow(GrowOptions const& options, Session const& session) {
     if (!options.rules.empty()) {
         return rewrite_rules(options, session);
     }
-    if (!options.picture.empty()) {
-        throw BadParameter("-o draws the word of --rules FILE: give both");
-    }
+    refuse_if<BadParameter>(!options.picture.empty(), "-o draws the word of --rules FILE: give both");
     network::TokunagaParams params = options.params;
     params.rule = rule_of(options.rule);
     if (options.lsystem) {
-        if (session.json) {
-            throw BadParameter("thalweg grow prints a word or JSON: give --lsystem or --json, not both");
-        }
+        refuse_if<BadParameter>(session.json, "thalweg grow prints a word or JSON: give --lsystem or --json, not both");
         params.banks = network::BankRule::alternating; // as the rules are written
         fmt::print("{}\n", network::lsystem(params, session.run));
         return Exit::done;

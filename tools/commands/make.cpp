@@ -13,7 +13,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
@@ -71,11 +71,10 @@ pipeline::Recipe with_fields(pipeline::Recipe recipe, std::vector<std::string> c
                                                          {"type", "network.lines.type_field"}};
     for (auto const& [quantity, name] : fields_by_quantity(fields)) {
         auto const key = keys.find(quantity);
-        if (key == keys.end()) {
-            throw BadParameter(fmt::format("--field {}={}: make reads arc_id, ds_arc, key (a rank that falls "
-                                           "downstream) and type from fields that are named",
-                                           quantity, name));
-        }
+        refuse_if<BadParameter>(key == keys.end(),
+                                "--field {}={}: make reads arc_id, ds_arc, key (a rank that falls downstream) and type "
+                                "from fields that are named",
+                                quantity, name);
         pipeline::set_key(recipe, fmt::format("{}={}", key->second, name));
     }
     return recipe;

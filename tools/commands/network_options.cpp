@@ -3,9 +3,8 @@
 #include "commands/network_options.hpp"
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/schema.hpp>
 
 namespace thalweg::tools {
@@ -14,9 +13,8 @@ std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> c
     std::map<std::string, std::string> named;
     for (std::string const& field : fields) {
         std::size_t const equals = field.find('=');
-        if (equals == std::string::npos || equals == 0 || equals + 1 == field.size()) {
-            throw BadParameter(fmt::format("--field {}: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN", field));
-        }
+        refuse_if<BadParameter>(equals == std::string::npos || equals == 0 || equals + 1 == field.size(),
+                                "--field {}: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN", field);
         named[field.substr(0, equals)] = field.substr(equals + 1);
     }
     return named;

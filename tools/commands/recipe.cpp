@@ -9,8 +9,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
@@ -30,9 +30,8 @@ int print_keys(std::string const& word, Session const& session) {
 }
 
 int print_for(std::string const& rivers, std::string const& source_crs, Session const& session) {
-    if (!is_utf8(std::filesystem::absolute(rivers).string())) {
-        throw BadInput(fmt::format("the path of {} is not UTF-8, and recipes are: rename it", rivers));
-    }
+    refuse_if<BadInput>(!is_utf8(std::filesystem::absolute(rivers).string()),
+                        "the path of {} is not UTF-8, and recipes are: rename it", rivers);
     pipeline::Recipe recipe = pipeline::rivers_recipe(rivers);
     if (!source_crs.empty()) {
         pipeline::set_key(recipe, "network.lines.source_crs=" + source_crs);

@@ -11,8 +11,8 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
@@ -90,9 +90,8 @@ void print_recipe(pipeline::DemRecipe const& made) {
 }
 
 int stats(StatsOptions const& options, Session const& session) {
-    if (options.recipe && session.json) {
-        throw BadParameter("thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
-    }
+    refuse_if<BadParameter>(options.recipe && session.json,
+                            "thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
     // A recipe has cells of its own: recipe_of_dem says how large.
     io::ReadDemParams const reading{.nodata = options.nodata};
     pipeline::MetricDem const read = options.recipe

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/blend/internal/region.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -19,10 +19,9 @@ using solver::outside_cell;
 
 void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
     require_in("blend.deform", "scale", params.scale, Range::finite());
-    if (region.grid() != target.grid()) {
-        throw BadInput(fmt::format("blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
-                                   region.width(), region.height(), target.width(), target.height()));
-    }
+    refuse_if<BadInput>(region.grid() != target.grid(),
+                        "blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
+                        region.width(), region.height(), target.width(), target.height());
 }
 
 // Cells with data; an infinite one could not be bent.

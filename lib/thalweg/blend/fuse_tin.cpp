@@ -12,7 +12,7 @@
 
 #include <thalweg/blend/internal/cut_tin.hpp>
 #include <thalweg/blend/tin.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -69,11 +69,10 @@ void require_simple(Tin const& mesh, std::vector<std::uint32_t> const& ring, std
     line[0].push_back(line[0].front());
     for (geometry::Crossing const& c : geometry::crossings(line, run)) {
         bool const closes = (c.segment == 0 && c.along == 0.0) || (c.segment + 1 == ring.size() && c.along == 1.0);
-        if (!closes) {
-            throw BadInput(fmt::format("blend.outline_of: {}: its boundary meets itself in plan at ({}, {}): the mesh "
-                                       "covers itself there",
-                                       name, c.at.x, c.at.y));
-        }
+        refuse_if<BadInput>(
+            !closes,
+            "blend.outline_of: {}: its boundary meets itself in plan at ({}, {}): the mesh covers itself there", name,
+            c.at.x, c.at.y);
     }
 }
 
@@ -85,14 +84,11 @@ Tin facing_up(Tin mesh, std::string const& name) {
     for (std::size_t i = 0; i < mesh.triangles.size(); ++i) {
         auto const& t = mesh.triangles[i];
         for (std::uint32_t const v : t) {
-            if (v >= mesh.vertices.size()) {
-                throw BadInput(
-                    fmt::format("blend.facing_up: {}: triangle {} names a vertex that is not there", name, i + 1));
-            }
+            refuse_if<BadInput>(v >= mesh.vertices.size(),
+                                "blend.facing_up: {}: triangle {} names a vertex that is not there", name, i + 1);
             Vec3 const& p = mesh.vertices[v];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                throw BadInput(fmt::format("blend.facing_up: {}: vertex {} is not finite", name, v + 1));
-            }
+            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
+                                "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
         }
         int const side =
             geometry::side_of_line(plan(mesh.vertices[t[0]]), plan(mesh.vertices[t[1]]), plan(mesh.vertices[t[2]]));
@@ -122,9 +118,7 @@ Tin facing_up(Tin mesh, std::string const& name) {
 
 std::vector<std::uint32_t> outline_of(Tin const& mesh, std::string const& name, Run const& run) {
     std::map<std::uint32_t, std::uint32_t> const next = boundary(mesh, name);
-    if (next.empty()) {
-        throw BadInput(fmt::format("blend.outline_of: {} has no triangles", name));
-    }
+    refuse_if<BadInput>(next.empty(), "blend.outline_of: {} has no triangles", name);
     std::vector<std::uint32_t> ring;
     std::uint32_t v = next.begin()->first;
     do {
@@ -399,12 +393,10 @@ void require_whole(Tin const& target, std::vector<Triangle> const& near, Overlay
                 p.x, p.y));
         }
     }
-    if (std::fabs(after_cut - before_cut) > 1e-6 * before_cut) {
-        throw BadInput(
-            fmt::format("blend.cut_tin: the target covers itself in plan where the patch lies: its triangles "
-                        "there have {} m2, their outline {} m2; repair the target",
-                        before_cut, after_cut));
-    }
+    refuse_if<BadInput>(std::fabs(after_cut - before_cut) > 1e-6 * before_cut,
+                        "blend.cut_tin: the target covers itself in plan where the patch lies: its triangles there "
+                        "have {} m2, their outline {} m2; repair the target",
+                        before_cut, after_cut);
 }
 
 } // namespace
@@ -547,12 +539,10 @@ Region region_of(Tin const& patch, std::vector<std::uint32_t> const& outline, Cu
 void require_area(Tin const& tin) {
     for (Triangle const& t : tin.triangles) {
         Vec3 const& a = tin.vertices[t[0]];
-        if (geometry::side_of_line(plan(a), plan(tin.vertices[t[1]]), plan(tin.vertices[t[2]])) <= 0) {
-            throw BadInput(
-                fmt::format("blend.fuse_tin: near ({}, {}) vertices of the target and of the patch's outline "
-                            "lie too close to be told apart; move the patch a little",
-                            a.x, a.y));
-        }
+        refuse_if<BadInput>(geometry::side_of_line(plan(a), plan(tin.vertices[t[1]]), plan(tin.vertices[t[2]])) <= 0,
+                            "blend.fuse_tin: near ({}, {}) vertices of the target and of the patch's outline lie too "
+                            "close to be told apart; move the patch a little",
+                            a.x, a.y);
     }
 }
 

@@ -9,17 +9,16 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::blend {
 namespace {
 
 void check(Polygon const& polygon, std::string const& name) {
     for (auto const& ring : polygon.rings) {
-        if (ring.size() < 3) {
-            throw BadInput(fmt::format("blend.mask_polygons: feature {} of {} has a ring of {} vertices; remove it",
-                                       polygon.feature, name, ring.size()));
-        }
+        refuse_if<BadInput>(ring.size() < 3,
+                            "blend.mask_polygons: feature {} of {} has a ring of {} vertices; remove it",
+                            polygon.feature, name, ring.size());
         for (std::size_t i = 0; i < ring.size(); ++i) {
             if (!std::isfinite(ring[i].x) || !std::isfinite(ring[i].y)) {
                 throw BadInput(fmt::format("blend.mask_polygons: vertex {} of feature {} of {} is not finite: ({}, {})",

@@ -13,8 +13,8 @@
 #include <thalweg/blend/internal/region.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -169,12 +169,12 @@ void check(PlacePatchParams const& params) {
 
 SourceWindow window_of(Raster<float> const& source, PlacePatchParams const& params) {
     SourceWindow const w = params.window.value_or(SourceWindow{0, 0, source.width(), source.height()});
-    if (w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
-        w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height) {
-        throw BadInput(fmt::format("blend.place_patch: a window of {} x {} cells at column {}, row {} of a source of "
-                                   "{} x {} cells; it lies within the source",
-                                   w.width, w.height, w.col, w.row, source.width(), source.height()));
-    }
+    refuse_if<BadInput>(w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
+                            w.height > source.height() || w.col > source.width() - w.width ||
+                            w.row > source.height() - w.height,
+                        "blend.place_patch: a window of {} x {} cells at column {}, row {} of a source of {} x {} "
+                        "cells; it lies within the source",
+                        w.width, w.height, w.col, w.row, source.width(), source.height());
     return w;
 }
 
@@ -224,15 +224,11 @@ Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchPar
     check(params);
     SourceWindow const window = window_of(source, params);
     bool const has_part = params.part.cells() > 0;
-    if (has_part && params.part.grid() != target) {
-        throw BadInput(
-            fmt::format("blend.place_patch: a mask of {} x {} cells for a target of {} x {}: they share a grid",
-                        params.part.width(), params.part.height(), target.width, target.height));
-    }
+    refuse_if<BadInput>(has_part && params.part.grid() != target,
+                        "blend.place_patch: a mask of {} x {} cells for a target of {} x {}: they share a grid",
+                        params.part.width(), params.part.height(), target.width, target.height);
     std::int64_t const wanted = has_part ? count(params.part, run) : 0;
-    if (has_part && wanted == 0) {
-        throw BadInput("blend.place_patch: the mask holds no cell of the target");
-    }
+    refuse_if<BadInput>(has_part && wanted == 0, "blend.place_patch: the mask holds no cell of the target");
     Placement const placement(source, window, params);
     Patch patch{Mask(target), Raster<double>(target, not_a_number)};
     Span const span = span_of(placement, target);
@@ -274,12 +270,11 @@ using solver::outside_cell;
 void check(Raster<float> const& target, Patch const& patch, PasteParams const& params) {
     require_in("blend.paste", "feather", params.feather_cells, Range::between(0.0, 1e6), "cells");
     auto const require = [&](Grid const& grid, char const* what) {
-        if (grid != target.grid()) {
-            throw BadInput(fmt::format("blend.paste: {} of {} x {} cells from ({}, {}) for a target of {} x {} cells "
-                                       "from ({}, {}): they share a grid",
-                                       what, grid.width, grid.height, grid.west, grid.north, target.width(),
-                                       target.height(), target.grid().west, target.grid().north));
-        }
+        refuse_if<BadInput>(grid != target.grid(),
+                            "blend.paste: {} of {} x {} cells from ({}, {}) for a target of {} x {} cells from ({}, "
+                            "{}): they share a grid",
+                            what, grid.width, grid.height, grid.west, grid.north, target.width(), target.height(),
+                            target.grid().west, target.grid().north);
     };
     require(patch.mask.grid(), "a mask");
     require(patch.z.grid(), "a patch");

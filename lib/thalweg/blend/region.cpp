@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -42,9 +42,8 @@ Box box_of(Mask const& changes, std::string const& stage) {
         box.first = {std::min(box.first.col, first - cells.begin()), std::min(box.first.row, row)};
         box.last = {std::max(box.last.col, cells.rend() - last - 1), row};
     }
-    if (box.last.row < 0) {
-        throw BadInput(stage + ": no cell of the target would change: take a mask that holds cells with heights");
-    }
+    refuse_if<BadInput>(box.last.row < 0,
+                        "{}: no cell of the target would change: take a mask that holds cells with heights", stage);
     return {{std::max<std::int64_t>(box.first.col - 1, 0), std::max<std::int64_t>(box.first.row - 1, 0)},
             {std::min(box.last.col + 1, changes.width() - 1), std::min(box.last.row + 1, changes.height() - 1)}};
 }
@@ -90,11 +89,10 @@ void require_held(Opening const& opening, Grid const& target, std::string const&
         if (held) {
             continue;
         }
-        if (cells == target.cells()) {
-            throw BadInput(fmt::format("{}: all {} x {} cells of the target would change: leave at least one that "
-                                       "keeps its height",
-                                       stage, target.width, target.height));
-        }
+        refuse_if<BadInput>(
+            cells == target.cells(),
+            "{}: all {} x {} cells of the target would change: leave at least one that keeps its height", stage,
+            target.width, target.height);
         Cell const c = grid.at(start);
         Cell const there{c.col + opening.corner.col, c.row + opening.corner.row};
         Vec2 const p = target.centre(there);
@@ -126,10 +124,9 @@ Opening open_target(Raster<float> const& target, Mask const& changes, Mask const
         if (!is_given && (!is_beside || std::isnan(target[there]))) {
             continue;
         }
-        if (!is_given && std::isinf(target[there])) {
-            throw BadInput(fmt::format("{}: the target's height at column {}, row {} is infinite: correct it", stage,
-                                       there.col, there.row));
-        }
+        refuse_if<BadInput>(!is_given && std::isinf(target[there]),
+                            "{}: the target's height at column {}, row {} is infinite: correct it", stage, there.col,
+                            there.row);
         opening.kind[i] = fixed_cell;
         ++opening.neighbours;
     }

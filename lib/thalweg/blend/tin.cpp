@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/linear/linear.hpp>
 
 namespace thalweg::blend {
@@ -33,11 +33,9 @@ Vec3 seen(Vec3 const& p, Measured measured) {
 
 LinearMap rotation(Vec3 axis, double angle_deg, double scale) {
     double const axis_length = norm(axis);
-    if (!(axis_length > 0.0) || !std::isfinite(axis_length) || !(std::fabs(angle_deg) <= 1e6) ||
-        !std::isfinite(scale)) {
-        throw BadParameter(fmt::format("blend.rotation: {} degrees about ({}, {}, {}) with a scale of {}", angle_deg,
-                                       axis.x, axis.y, axis.z, scale));
-    }
+    refuse_if<BadParameter>(
+        !(axis_length > 0.0) || !std::isfinite(axis_length) || !(std::fabs(angle_deg) <= 1e6) || !std::isfinite(scale),
+        "blend.rotation: {} degrees about ({}, {}, {}) with a scale of {}", angle_deg, axis.x, axis.y, axis.z, scale);
     Vec3 const u = (1.0 / axis_length) * axis;
     double const c = portable::cos(angle_deg * (portable::pi / 180.0));
     double const s = portable::sin(angle_deg * (portable::pi / 180.0));
@@ -61,10 +59,9 @@ std::array<Vec3, 3> hat_gradients_by_area(Vec3 const& a, Vec3 const& b, Vec3 con
 
 std::vector<CoordinateGradients> gradients_of(Tin const& parameter, std::vector<Vec3> const& places,
                                               Measured measured) {
-    if (places.size() != parameter.vertices.size()) {
-        throw BadInput(fmt::format("blend.gradients_of: {} places for a mesh of {} vertices", places.size(),
-                                   parameter.vertices.size()));
-    }
+    refuse_if<BadInput>(places.size() != parameter.vertices.size(),
+                        "blend.gradients_of: {} places for a mesh of {} vertices", places.size(),
+                        parameter.vertices.size());
     geometry::half_cotangents(parameter, measured); // has every triangle area?
     std::vector<CoordinateGradients> gradients;
     gradients.reserve(parameter.triangles.size());
@@ -94,24 +91,21 @@ bool is_finite(Vec3 const& v) {
 }
 
 void check(Tin const& parameter, std::vector<CoordinateGradients> const& guidance) {
-    if (guidance.size() != parameter.triangles.size()) {
-        throw BadInput(fmt::format("blend.paste_tin: guidance for {} triangles, the mesh has {}", guidance.size(),
-                                   parameter.triangles.size()));
-    }
+    refuse_if<BadInput>(guidance.size() != parameter.triangles.size(),
+                        "blend.paste_tin: guidance for {} triangles, the mesh has {}", guidance.size(),
+                        parameter.triangles.size());
     for (std::size_t i = 0; i < guidance.size(); ++i) {
-        if (!is_finite(guidance[i].x) || !is_finite(guidance[i].y) || !is_finite(guidance[i].z)) {
-            throw BadInput(fmt::format("blend.paste_tin: the guidance of triangle {} is not finite", i + 1));
-        }
+        refuse_if<BadInput>(!is_finite(guidance[i].x) || !is_finite(guidance[i].y) || !is_finite(guidance[i].z),
+                            "blend.paste_tin: the guidance of triangle {} is not finite", i + 1);
     }
 }
 
 std::vector<std::optional<Vec3>> places_of(Tin const& parameter, std::vector<FixedVertex> const& fixed) {
     std::vector<std::optional<Vec3>> places(parameter.vertices.size());
     for (FixedVertex const& f : fixed) {
-        if (f.vertex >= places.size() || !is_finite(f.at)) {
-            throw BadInput(fmt::format("blend.paste_tin: vertex {} of {} is fixed at ({}, {}, {})", f.vertex + 1,
-                                       places.size(), f.at.x, f.at.y, f.at.z));
-        }
+        refuse_if<BadInput>(f.vertex >= places.size() || !is_finite(f.at),
+                            "blend.paste_tin: vertex {} of {} is fixed at ({}, {}, {})", f.vertex + 1, places.size(),
+                            f.at.x, f.at.y, f.at.z);
         auto& place = places[f.vertex];
         if (place && *place != f.at) {
             throw BadInput(fmt::format("blend.paste_tin: vertex {} is fixed at ({}, {}, {}) and at ({}, {}, {}): give "

@@ -5,9 +5,7 @@
 #include <algorithm>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg {
 namespace {
@@ -15,10 +13,9 @@ namespace {
 void require_nodes(NetworkDraft const& draft) {
     for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
         NodeId const last = std::max(draft.arcs[a].from, draft.arcs[a].to);
-        if (last >= draft.nodes.size()) {
-            throw BadInput(fmt::format("core.StreamNetwork: arc {} ends at node {} of {}; add the node first", a + 1,
-                                       last + 1, draft.nodes.size()));
-        }
+        refuse_if<BadInput>(last >= draft.nodes.size(),
+                            "core.StreamNetwork: arc {} ends at node {} of {}; add the node first", a + 1, last + 1,
+                            draft.nodes.size());
     }
 }
 

@@ -16,7 +16,7 @@
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::draw {
 namespace {
@@ -56,9 +56,7 @@ void load_fonts() {
         if (fonts != nullptr) {
             FcConfigDestroy(fonts); // the current one has its own reference
         }
-        if (!is_current) {
-            throw IoError("draw.paint: the system's fonts cannot be read: out of memory");
-        }
+        refuse_if<IoError>(!is_current, "draw.paint: the system's fonts cannot be read: out of memory");
         return true;
     }();
 }

@@ -8,8 +8,8 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 
 namespace thalweg::draw {
@@ -110,22 +110,19 @@ struct Reach {
 
 std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders const& orders) {
     std::size_t const arcs = network.plan.arc_count();
-    if (network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
-        orders.node_dist_out_m.size() != network.plan.node_count()) {
-        throw BadInput(fmt::format(
-            "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again",
-            arcs));
-    }
+    refuse_if<BadInput>(
+        network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
+            orders.node_dist_out_m.size() != network.plan.node_count(),
+        "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again", arcs);
     std::vector<Reach> reaches;
     std::size_t number_of_arc = 0;
     for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
         std::size_t const k = number_of_arc++;
         std::vector<Vec2> const& line = network.plan.arc(arc).line;
         std::vector<double> const& z = network.arc_z[k];
-        if (z.size() != line.size()) {
-            throw BadInput(fmt::format("draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
-                                       line.size(), z.size()));
-        }
+        refuse_if<BadInput>(z.size() != line.size(),
+                            "draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
+                            line.size(), z.size());
         if (orders.arc_basin[k] < 1 || line.empty()) {
             continue;
         }
@@ -133,11 +130,9 @@ std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders cons
         double to_outlet = orders.node_dist_out_m[network.plan.to(arc)];
         for (std::size_t i = line.size(); i-- > 0;) {
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
-            if (!std::isfinite(to_outlet) || !std::isfinite(z[i])) {
-                throw BadInput(fmt::format("draw.profile: arc {}, vertex {}: place or height is not a number; mend the "
-                                           "network",
-                                           k + 1, i));
-            }
+            refuse_if<BadInput>(!std::isfinite(to_outlet) || !std::isfinite(z[i]),
+                                "draw.profile: arc {}, vertex {}: place or height is not a number; mend the network",
+                                k + 1, i);
             reach.points[i] = {to_outlet, z[i]};
         }
         reaches.push_back(std::move(reach));
@@ -233,9 +228,8 @@ void demand_curve(std::vector<Vec2> const& curve, double integral) {
                 curve[i].x, curve[i].y));
         }
     }
-    if (!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0)) {
-        throw BadInput(fmt::format("draw.hypsometry: the integral is {}, must lie in [0, 1]", integral));
-    }
+    refuse_if<BadInput>(!curve.empty() && !std::isnan(integral) && !(integral >= 0.0 && integral <= 1.0),
+                        "draw.hypsometry: the integral is {}, must lie in [0, 1]", integral);
 }
 
 /// Fills the ground below the curve and draws the curve.

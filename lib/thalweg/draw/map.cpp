@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/internal/map.hpp>
 
 #include <algorithm>
@@ -12,7 +13,6 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 
 namespace thalweg::draw {
@@ -39,9 +39,8 @@ LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
     LinesBox all;
     for (auto const& line : lines) {
         for (Vec2 const p : line) {
-            if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-                throw BadInput("draw.lines: a line has a coordinate that is not finite");
-            }
+            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y),
+                                "draw.lines: a line has a coordinate that is not finite");
             all.low = {std::min(all.low.x, p.x), std::min(all.low.y, p.y)};
             all.high = {std::max(all.high.x, p.x), std::max(all.high.y, p.y)};
         }
@@ -433,10 +432,9 @@ void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, 
 
 void demand_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
-        if (!std::isfinite(line[i].x) || !std::isfinite(line[i].y)) {
-            throw BadInput(fmt::format("draw.map: {} {}, vertex {} has no finite coordinates; mend the line", what,
-                                       number_of_line, i));
-        }
+        refuse_if<BadInput>(!std::isfinite(line[i].x) || !std::isfinite(line[i].y),
+                            "draw.map: {} {}, vertex {} has no finite coordinates; mend the line", what, number_of_line,
+                            i);
     }
 }
 
@@ -444,19 +442,14 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
     require_in("draw.map", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.map", "contour_interval_m", params.contour_interval_m, Range::at_least(0.0));
     Grid const& grid = sheet.dem.grid();
-    if (grid.width < 1 || grid.height < 1) {
-        throw BadInput(
-            fmt::format("draw.map: the DEM has {} x {} cells; draw one that has some", grid.width, grid.height));
-    }
-    if (!(grid.cell_m > 0.0) || !std::isfinite(grid.east()) || !std::isfinite(grid.south())) {
-        throw BadInput(fmt::format("draw.map: the grid's cell of {} m or its origin ({}, {}) is not usable; mend its "
-                                   "georeference",
-                                   grid.cell_m, grid.west, grid.north));
-    }
-    if (sheet.hillshade.width() != grid.width || sheet.hillshade.height() != grid.height) {
-        throw BadInput(fmt::format("draw.map: the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM",
-                                   sheet.hillshade.width(), sheet.hillshade.height(), grid.width, grid.height));
-    }
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1,
+                        "draw.map: the DEM has {} x {} cells; draw one that has some", grid.width, grid.height);
+    refuse_if<BadInput>(!(grid.cell_m > 0.0) || !std::isfinite(grid.east()) || !std::isfinite(grid.south()),
+                        "draw.map: the grid's cell of {} m or its origin ({}, {}) is not usable; mend its georeference",
+                        grid.cell_m, grid.west, grid.north);
+    refuse_if<BadInput>(sheet.hillshade.width() != grid.width || sheet.hillshade.height() != grid.height,
+                        "draw.map: the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM",
+                        sheet.hillshade.width(), sheet.hillshade.height(), grid.width, grid.height);
     for (std::size_t i = 0; i < sheet.contours.size(); ++i) {
         demand_finite(sheet.contours[i].second, "contour", i);
     }
@@ -473,11 +466,9 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
         throw BadInput(fmt::format("draw.map: a network of {} arcs comes with {} orders; order this network", arcs,
                                    sheet.orders == nullptr ? 0 : sheet.orders->strahler.size()));
     }
-    if (!sheet.areas_m2.empty() && sheet.areas_m2.size() != arcs) {
-        throw BadInput(
-            fmt::format("draw.map: a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
-                        sheet.areas_m2.size()));
-    }
+    refuse_if<BadInput>(!sheet.areas_m2.empty() && sheet.areas_m2.size() != arcs,
+                        "draw.map: a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
+                        sheet.areas_m2.size());
     for (ArcId a = 0; a < arcs; ++a) {
         demand_finite(sheet.network->plan.arc(a).line, "arc", a + 1);
     }

@@ -9,8 +9,8 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/sections.hpp>
 
@@ -124,10 +124,9 @@ double height_at(Raster<float> const& dem, Vec2 position) {
 std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                                   int count) {
     Grid const& grid = dem.grid();
-    if (grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0)) {
-        throw BadInput(fmt::format("draw.cut_sections: a DEM of {} x {} cells of {} m; take one that has some",
-                                   grid.width, grid.height, grid.cell_m));
-    }
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
+                        "draw.cut_sections: a DEM of {} x {} cells of {} m; take one that has some", grid.width,
+                        grid.height, grid.cell_m);
     MainStem const stem = network == nullptr || orders == nullptr ? MainStem{} : main_stem(network->plan, *orders);
     if (stem.line.size() < 2 || !(stem.from_out_m.back() > 0.0)) {
         return through_the_middle(dem);

@@ -10,8 +10,8 @@
 #include <cairo.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/internal/canvas.hpp>
 #include <thalweg/draw/internal/sections.hpp>
 #include <thalweg/draw/internal/wireframe.hpp>
@@ -340,10 +340,9 @@ void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
     require_in(stage, "exaggeration", params.exaggeration, Range::between(0.0, 1e6));
     require_in(stage, "lines", params.lines, Range::between(2, 200));
     Grid const& grid = scene.dem.grid();
-    if (grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0) || !std::isfinite(grid.cell_m)) {
-        throw BadInput(fmt::format("draw.wireframe: a DEM of {} x {} cells of {} m; draw one that has some", grid.width,
-                                   grid.height, grid.cell_m));
-    }
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0) || !std::isfinite(grid.cell_m),
+                        "draw.wireframe: a DEM of {} x {} cells of {} m; draw one that has some", grid.width,
+                        grid.height, grid.cell_m);
     if (scene.network != nullptr) {
         std::size_t const arcs = scene.network->plan.arc_count();
         if (scene.orders == nullptr || scene.orders->strahler.size() != arcs) {

@@ -10,10 +10,8 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/internal/condition.hpp>
@@ -315,11 +313,9 @@ private:
 
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
     check_drainable(dem, valley);
-    if (least.grid() != dem.grid()) {
-        throw BadInput(fmt::format("flow.carve: the least heights have {} x {} cells, the land {} x {}; make both "
-                                   "on one grid",
-                                   least.width(), least.height(), dem.width(), dem.height()));
-    }
+    refuse_if<BadInput>(least.grid() != dem.grid(),
+                        "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
+                        least.width(), least.height(), dem.width(), dem.height());
     // Pits below a river's banks want to be filled before they are cut. A cut that is the better one for its lake may
     // leave others more to do: so the better of both ways of the whole land.
     bool const banks =

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::flow {
 namespace {
@@ -17,9 +17,8 @@ namespace {
 constexpr std::int32_t nowhere = -1;
 
 void require_countable(std::size_t count, char const* what) {
-    if (std::cmp_greater(count, std::numeric_limits<std::int32_t>::max())) {
-        throw BadInput(fmt::format("flow.catchments: {} {}, 2^31 or more", count, what));
-    }
+    refuse_if<BadInput>(std::cmp_greater(count, std::numeric_limits<std::int32_t>::max()),
+                        "flow.catchments: {} {}, 2^31 or more", count, what);
 }
 
 } // namespace
@@ -167,10 +166,9 @@ std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Gri
     constexpr Key step = Key{1} << 32U;
     constexpr Key nothing = Key{1} << 62U;
     constexpr std::int64_t most = std::int64_t{1} << 30U; // of either half of a key
-    if (grid.width + grid.height > most || static_cast<std::int64_t>(cells.size()) > most) {
-        throw BadInput(fmt::format("flow.areas_nearest: {} x {} cells with {} river cells are beyond 2^30 of either",
-                                   grid.width, grid.height, cells.size()));
-    }
+    refuse_if<BadInput>(grid.width + grid.height > most || static_cast<std::int64_t>(cells.size()) > most,
+                        "flow.areas_nearest: {} x {} cells with {} river cells are beyond 2^30 of either", grid.width,
+                        grid.height, cells.size());
     auto const width = static_cast<std::size_t>(grid.width);
     Raster<Key> keys(grid, nothing);
     for (std::size_t i = 0; i < cells.size(); ++i) {

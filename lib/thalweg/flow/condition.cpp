@@ -6,7 +6,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/internal/condition.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>
 
@@ -20,14 +20,10 @@ void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run co
 
 void check_drainable(Raster<float> const& dem, Valley const& valley) {
     Grid const& grid = dem.grid();
-    if (grid.cells() == 0) {
-        throw BadInput("flow.condition: the land has no cells");
-    }
-    if (valley.z.grid() != grid) {
-        throw BadInput(fmt::format("flow.condition: the valley has {} x {} cells, the land {} x {}; make both on one "
-                                   "grid",
-                                   valley.z.width(), valley.z.height(), grid.width, grid.height));
-    }
+    refuse_if<BadInput>(grid.cells() == 0, "flow.condition: the land has no cells");
+    refuse_if<BadInput>(valley.z.grid() != grid,
+                        "flow.condition: the valley has {} x {} cells, the land {} x {}; make both on one grid",
+                        valley.z.width(), valley.z.height(), grid.width, grid.height);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (std::isinf(dem[i]) || (std::isnan(dem[i]) && !std::isnan(valley.z[i]))) {
             Cell const cell = grid.at(i);
@@ -76,16 +72,12 @@ float rounded_up(double z) {
 } // namespace
 
 Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBanksParams const& params, Run const& run) {
-    if (!(params.margin_m >= 0.0 && params.margin_m < 1e6)) {
-        throw BadParameter(fmt::format("flow.confine_channels: margin {} m; give one from 0", params.margin_m));
-    }
+    refuse_if<BadParameter>(!(params.margin_m >= 0.0 && params.margin_m < 1e6),
+                            "flow.confine_channels: margin {} m; give one from 0", params.margin_m);
     Grid const& grid = dem.grid();
-    if (valley.z.grid() != grid) {
-        throw BadInput(
-            fmt::format("flow.confine_channels: the valley has {} x {} cells, the land {} x {}; make both on one "
-                        "grid",
-                        valley.z.width(), valley.z.height(), grid.width, grid.height));
-    }
+    refuse_if<BadInput>(valley.z.grid() != grid,
+                        "flow.confine_channels: the valley has {} x {} cells, the land {} x {}; make both on one grid",
+                        valley.z.width(), valley.z.height(), grid.width, grid.height);
     Banks banks{dem, Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         if (i % (1 << 20) == 0) {

@@ -10,9 +10,7 @@
 #include <numeric>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::flow {
 namespace {
@@ -67,15 +65,13 @@ void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
 ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const& dem,
                                  ExtractStreamsParams const& params, Run const& run) {
     Grid const& grid = drainage.area_cells.grid();
-    if (params.support_cells < 1) {
-        throw BadParameter(
-            fmt::format("flow.extract_streams: the support is {} cells; it must be at least 1", params.support_cells));
-    }
-    if (grid.width != dem.width() || grid.height != dem.height()) {
-        throw BadInput(fmt::format("flow.extract_streams: a DEM of {} x {} cells and the drainage of {} x {}; drain "
-                                   "the DEM itself",
-                                   dem.width(), dem.height(), grid.width, grid.height));
-    }
+    refuse_if<BadParameter>(params.support_cells < 1,
+                            "flow.extract_streams: the support is {} cells; it must be at least 1",
+                            params.support_cells);
+    refuse_if<BadInput>(
+        grid.width != dem.width() || grid.height != dem.height(),
+        "flow.extract_streams: a DEM of {} x {} cells and the drainage of {} x {}; drain the DEM itself", dem.width(),
+        dem.height(), grid.width, grid.height);
     ExtractedStreams streams;
     NetworkDraft plan;
     streams.areas.source = "d8";
@@ -118,9 +114,8 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
 }
 
 std::int64_t support_for_length(FlowField const& drainage, double length_m, Run const& run) {
-    if (!(length_m > 0.0) || std::isinf(length_m)) {
-        throw BadParameter(fmt::format("flow.support_for_length: the length is {} m; it must be above 0", length_m));
-    }
+    refuse_if<BadParameter>(!(length_m > 0.0) || std::isinf(length_m),
+                            "flow.support_for_length: the length is {} m; it must be above 0", length_m);
     Raster<std::int64_t> const& area = drainage.area_cells;
     auto const octave_of = [&](std::int64_t cell) {
         return static_cast<std::size_t>(std::bit_width(static_cast<std::uint64_t>(area[cell]))) - 1;

@@ -5,7 +5,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>
 
 namespace thalweg::flow {
@@ -132,9 +132,8 @@ std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>
 Sinks framed_sinks(Raster<float> const& dem, Grid const& framed, std::vector<std::int64_t> const& sinks) {
     Sinks cells;
     for (std::int64_t const sink : sinks) {
-        if (sink < 0 || sink >= dem.cells() || std::isnan(dem[sink])) {
-            throw BadInput(fmt::format("flow.route: the sink in cell {} has no height; give cells of the DEM", sink));
-        }
+        refuse_if<BadInput>(sink < 0 || sink >= dem.cells() || std::isnan(dem[sink]),
+                            "flow.route: the sink in cell {} has no height; give cells of the DEM", sink);
         Cell const c = dem.grid().at(sink);
         cells.push_back(framed.index({c.col + 1, c.row + 1}));
     }
@@ -150,9 +149,7 @@ FlowField route(Raster<float> const& dem, Run const& run) {
 
 FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks, Run const& run) {
     Grid const& grid = dem.grid();
-    if (grid.cells() == 0) {
-        throw BadInput("flow.route: the DEM has no cells");
-    }
+    refuse_if<BadInput>(grid.cells() == 0, "flow.route: the DEM has no cells");
     auto const values = dem.values();
     auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
     if (infinite != values.end()) {

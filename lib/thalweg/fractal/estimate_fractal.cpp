@@ -7,12 +7,10 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::fractal {
 namespace {
@@ -135,11 +133,10 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params,
         for (std::int64_t row = first; row < last; ++row) {
             run.check();
             for (float const z : dem.row(row)) {
-                if (std::isinf(z)) {
-                    throw BadInput(fmt::format("fractal.estimate_fractal: a height in row {} is infinite; make it "
-                                               "finite, or NaN where nothing is known",
-                                               row));
-                }
+                refuse_if<BadInput>(std::isinf(z),
+                                    "fractal.estimate_fractal: a height in row {} is infinite; make it finite, or NaN "
+                                    "where nothing is known",
+                                    row);
             }
             rows[row] = sums_of_row(dem, all, row, params.differences);
         }

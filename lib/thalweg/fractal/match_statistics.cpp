@@ -13,8 +13,8 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/solver/linear/linear.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
@@ -35,17 +35,14 @@ void check_extreme(Raster<float> const& dem, char const* what, std::optional<Fix
         return;
     }
     Cell const cell = extreme->cell;
-    if (!dem.grid().contains(cell)) {
-        throw BadParameter(fmt::format(
-            "fractal.match_statistics: the {} at column {}, row {} lies off the grid of {} x {} cells; columns "
-            "and rows count from 0",
-            what, cell.col, cell.row, dem.width(), dem.height()));
-    }
-    if (std::isnan(dem[cell])) {
-        throw BadParameter(
-            fmt::format("fractal.match_statistics: the {} at column {}, row {} lies in a hole; give a cell with data",
-                        what, cell.col, cell.row));
-    }
+    refuse_if<BadParameter>(!dem.grid().contains(cell),
+                            "fractal.match_statistics: the {} at column {}, row {} lies off the grid of {} x {} cells; "
+                            "columns and rows count from 0",
+                            what, cell.col, cell.row, dem.width(), dem.height());
+    refuse_if<BadParameter>(
+        std::isnan(dem[cell]),
+        "fractal.match_statistics: the {} at column {}, row {} lies in a hole; give a cell with data", what, cell.col,
+        cell.row);
     check_range(what, extreme->z, -1e9, 1e9, "m");
 }
 
@@ -68,10 +65,8 @@ void check_targets(Raster<float> const& dem, Targets const& targets) {
             fmt::format("fractal.match_statistics: the highest and the lowest point are both at column {}, row {}",
                         targets.max->cell.col, targets.max->cell.row));
     }
-    if (!(min < max)) {
-        throw BadParameter(fmt::format(
-            "fractal.match_statistics: the lowest point of {} m is not below the highest of {} m", min, max));
-    }
+    refuse_if<BadParameter>(
+        !(min < max), "fractal.match_statistics: the lowest point of {} m is not below the highest of {} m", min, max);
     if (targets.mean && !(min < *targets.mean && *targets.mean < max)) {
         throw BadParameter(fmt::format(
             "fractal.match_statistics: a mean of {} m is not between the lowest point of {} m and the highest "
@@ -97,12 +92,10 @@ std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& t
     std::map<std::int64_t, double> seen;
     auto const keep = [&](FixedHeight const& one) {
         Cell const cell = one.cell;
-        if (!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z)) {
-            throw BadInput(
-                fmt::format("fractal.match_statistics: the fixed height of {} m at column {}, row {} is not finite, "
-                            "or lies off the grid or in a hole; leave it out",
-                            one.z, cell.col, cell.row));
-        }
+        refuse_if<BadInput>(!dem.grid().contains(cell) || std::isnan(dem[cell]) || !std::isfinite(one.z),
+                            "fractal.match_statistics: the fixed height of {} m at column {}, row {} is not finite, or "
+                            "lies off the grid or in a hole; leave it out",
+                            one.z, cell.col, cell.row);
         auto const [at, fresh] = seen.emplace(dem.grid().index(cell), one.z);
         if (fresh) {
             kept.push_back(one);
@@ -118,11 +111,9 @@ std::vector<FixedHeight> kept_heights(Raster<float> const& dem, Targets const& t
         }
     }
     std::for_each(fixed.begin(), fixed.end(), keep);
-    if (kept.size() > most_fixed) {
-        throw BadInput(
-            fmt::format("fractal.match_statistics: {} heights are fixed; at most {} can be kept, so thin them out",
-                        kept.size(), most_fixed));
-    }
+    refuse_if<BadInput>(kept.size() > most_fixed,
+                        "fractal.match_statistics: {} heights are fixed; at most {} can be kept, so thin them out",
+                        kept.size(), most_fixed);
     return kept;
 }
 
@@ -701,13 +692,12 @@ Raster<double> difference_of_means(Raster<float> const& land, Raster<float> cons
 Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
     require_in("fractal.with_fine_forms", "window", cells, {0.0, 1000.0, false, true}, "cells");
     auto const finite = [](float z) { return std::isfinite(z); };
-    if (land.grid() != fine.grid() || !std::all_of(land.values().begin(), land.values().end(), finite) ||
-        !std::all_of(fine.values().begin(), fine.values().end(), finite)) {
-        throw BadInput(
-            fmt::format("fractal.with_fine_forms: DEMs of {} x {} and {} x {} cells, or heights that are not "
-                        "finite: give two complete DEMs on one grid",
-                        land.width(), land.height(), fine.width(), fine.height()));
-    }
+    refuse_if<BadInput>(land.grid() != fine.grid() ||
+                            !std::all_of(land.values().begin(), land.values().end(), finite) ||
+                            !std::all_of(fine.values().begin(), fine.values().end(), finite),
+                        "fractal.with_fine_forms: DEMs of {} x {} and {} x {} cells, or heights that are not finite: "
+                        "give two complete DEMs on one grid",
+                        land.width(), land.height(), fine.width(), fine.height());
     Raster<double> const means = difference_of_means(land, fine, cells, run);
     Raster<float> out(land.grid());
     for (std::int64_t i = 0; i < out.cells(); ++i) {

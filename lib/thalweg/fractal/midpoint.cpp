@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
 #include <thalweg/fractal/internal/refine.hpp>
 #include <thalweg/solver/linear/linear.hpp>
@@ -163,12 +163,10 @@ std::vector<Cell> cells_with_heights(Raster<float> const& coarse) {
             cells.push_back(coarse.grid().at(i));
         }
     }
-    if (static_cast<std::int64_t>(cells.size()) > most_conditioning_cells) {
-        throw BadParameter(fmt::format(
-            "fractal.midpoint: {} coarse cells have heights (detail.stencil = \"exact\" takes up to {}); choose more "
-            "levels (detail.levels) from fewer coarse cells, or detail.stencil = 16",
-            cells.size(), most_conditioning_cells));
-    }
+    refuse_if<BadParameter>(static_cast<std::int64_t>(cells.size()) > most_conditioning_cells,
+                            "fractal.midpoint: {} coarse cells have heights (detail.stencil = \"exact\" takes up to "
+                            "{}); choose more levels (detail.levels) from fewer coarse cells, or detail.stencil = 16",
+                            cells.size(), most_conditioning_cells);
     return cells;
 }
 
@@ -319,33 +317,27 @@ constexpr std::int64_t longest_side = std::int64_t{1} << 40;
 
 void check_params(MidpointParams const& params) {
     require_in("fractal.midpoint", "levels", params.levels, Range::between(0, most_levels));
-    if (params.width < 0 || params.height < 0) {
-        throw BadParameter(fmt::format("fractal.midpoint: a result of {} x {} cells; give a width and "
-                                       "height above 0, or 0 for all the coarse raster covers",
-                                       params.width, params.height));
-    }
+    refuse_if<BadParameter>(params.width < 0 || params.height < 0,
+                            "fractal.midpoint: a result of {} x {} cells; give a width and height above 0, or 0 for "
+                            "all the coarse raster covers",
+                            params.width, params.height);
     if (params.hurst) {
         require_in("fractal.midpoint", "H", *params.hurst, Range::between(least_hurst, greatest_hurst));
     }
     if (params.sigma) {
         require_in("fractal.midpoint", "sigma", *params.sigma, Range::between(0.0, greatest_height_m), "m");
     }
-    if (params.stencil == Stencil::exact && params.noise != Noise::normal) {
-        throw BadParameter("fractal.midpoint: the exact surface has normal increments only; choose normal noise, or a "
-                           "stencil of 16");
-    }
-    if (params.stencil == Stencil::exact && params.adaptation != Adaptation::global) {
-        throw BadParameter(
-            "fractal.midpoint: the exact surface has one H and one sigma; choose global adaptation, or a "
-            "stencil of 16");
-    }
+    refuse_if<BadParameter>(
+        params.stencil == Stencil::exact && params.noise != Noise::normal,
+        "fractal.midpoint: the exact surface has normal increments only; choose normal noise, or a stencil of 16");
+    refuse_if<BadParameter>(
+        params.stencil == Stencil::exact && params.adaptation != Adaptation::global,
+        "fractal.midpoint: the exact surface has one H and one sigma; choose global adaptation, or a stencil of 16");
 }
 
 /// Throws where there is no height to use. Gives whether there are holes.
 bool check_heights(Raster<float> const& coarse) {
-    if (coarse.cells() == 0) {
-        throw BadInput("fractal.midpoint: the coarse raster has no cells; give one at least");
-    }
+    refuse_if<BadInput>(coarse.cells() == 0, "fractal.midpoint: the coarse raster has no cells; give one at least");
     bool holes = false;
     for (std::int64_t i = 0; i < coarse.cells(); ++i) {
         double const z = static_cast<double>(coarse[i]);
@@ -366,11 +358,10 @@ std::int64_t coarse_cells(std::int64_t cells, int levels) {
 
 Grid result_grid(Grid const& coarse, MidpointParams const& params) {
     std::int64_t const longest = std::max(coarse.width, coarse.height) - 1;
-    if (longest > longest_side >> params.levels) {
-        throw BadParameter(fmt::format("fractal.midpoint: {} x {} coarse cells halved {} times are more than 2^40 in a "
-                                       "row; choose fewer levels",
-                                       coarse.width, coarse.height, params.levels));
-    }
+    refuse_if<BadParameter>(
+        longest > longest_side >> params.levels,
+        "fractal.midpoint: {} x {} coarse cells halved {} times are more than 2^40 in a row; choose fewer levels",
+        coarse.width, coarse.height, params.levels);
     std::int64_t const all_cols = ((coarse.width - 1) << params.levels) + 1;
     std::int64_t const all_rows = ((coarse.height - 1) << params.levels) + 1;
     Grid grid = coarse;

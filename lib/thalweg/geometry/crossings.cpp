@@ -13,9 +13,8 @@
 #include <CGAL/Exact_predicates_inexact_constructions_kernel.h>
 #include <CGAL/Exact_rational.h>
 #include <CGAL/box_intersection_d.h>
-#include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::geometry {
 namespace {
@@ -149,9 +148,8 @@ private:
 
 void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<Box>& boxes) {
     for (std::size_t v = 0; v < line.size(); ++v) {
-        if (!std::isfinite(line[v].x) || !std::isfinite(line[v].y)) {
-            throw BadInput(fmt::format("geometry.crossings: vertex {} of line {} is not finite", v, number));
-        }
+        refuse_if<BadInput>(!std::isfinite(line[v].x) || !std::isfinite(line[v].y),
+                            "geometry.crossings: vertex {} of line {} is not finite", v, number);
     }
     std::size_t const before = boxes.size();
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {
@@ -284,9 +282,8 @@ bool share_node(Lines const& lines, std::vector<EndNodes> const& nodes, std::siz
 } // namespace
 
 std::vector<Meeting> meetings(Lines const& lines, std::vector<EndNodes> const& nodes, Run const& run) {
-    if (nodes.size() != lines.size()) {
-        throw BadInput(fmt::format("geometry.meetings: {} polylines but nodes of {}", lines.size(), nodes.size()));
-    }
+    refuse_if<BadInput>(nodes.size() != lines.size(), "geometry.meetings: {} polylines but nodes of {}", lines.size(),
+                        nodes.size());
     std::vector<Meeting> found;
     auto const add = [&](LineSegment s, LineSegment t) {
         if (std::tie(t.line, t.segment) < std::tie(s.line, s.segment)) {

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/internal/diagram.hpp>
 
 #include <algorithm>
@@ -19,9 +20,7 @@
 #include <CGAL/Triangulation_vertex_base_with_info_2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
-#include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::geometry {
@@ -197,11 +196,11 @@ void sort(std::vector<RawDiagram::Link>& links) {
 
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
                        std::string const& what) {
-    if (!(bounds.west < bounds.east) || !(bounds.south < bounds.north) || !std::isfinite(bounds.east - bounds.west) ||
-        !std::isfinite(bounds.north - bounds.south)) {
-        throw BadParameter(fmt::format("{}: bounds from ({}, {}) to ({}, {}) have no area", what, bounds.west,
-                                       bounds.south, bounds.east, bounds.north));
-    }
+    refuse_if<BadParameter>(!(bounds.west < bounds.east) || !(bounds.south < bounds.north) ||
+                                !std::isfinite(bounds.east - bounds.west) ||
+                                !std::isfinite(bounds.north - bounds.south),
+                            "{}: bounds from ({}, {}) to ({}, {}) have no area", what, bounds.west, bounds.south,
+                            bounds.east, bounds.north);
     LabelledSites out;
     Bounds all = bounds;
     std::map<std::pair<double, double>, std::size_t> point_at;
@@ -210,9 +209,8 @@ LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bou
         auto& chain = chains.emplace_back();
         for (std::size_t v = 0; v < lines[l].line.size(); ++v) {
             Vec2 const p{lines[l].line[v].x + 0.0, lines[l].line[v].y + 0.0};
-            if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
-                throw BadInput(fmt::format("{}: vertex {} of line {} is not finite; remove it", what, v, l));
-            }
+            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y),
+                                "{}: vertex {} of line {} is not finite; remove it", what, v, l);
             auto const [place, is_new] = point_at.try_emplace({p.x, p.y}, out.sites.size());
             if (is_new) {
                 out.sites.push_back({l, v, p, p});

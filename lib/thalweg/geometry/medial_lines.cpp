@@ -17,9 +17,8 @@
 #include <CGAL/Spatial_sort_traits_adapter_2.h>
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
-#include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/internal/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>
@@ -222,12 +221,10 @@ void require_vertices_where_lines_meet(std::vector<LabelledLine> const& lines, R
         drawn.push_back(line.line);
     }
     for (auto const& c : crossings(drawn, run)) {
-        if (c.at != drawn[c.line][c.segment] && c.at != drawn[c.line][c.segment + 1]) {
-            throw BadInput(
-                fmt::format("geometry.medial_lines: line {} meets another at ({:.6f}, {:.6f}), away from its "
-                            "vertices; cut the lines where they meet",
-                            c.line, c.at.x, c.at.y));
-        }
+        refuse_if<BadInput>(c.at != drawn[c.line][c.segment] && c.at != drawn[c.line][c.segment + 1],
+                            "geometry.medial_lines: line {} meets another at ({:.6f}, {:.6f}), away from its vertices; "
+                            "cut the lines where they meet",
+                            c.line, c.at.x, c.at.y);
     }
 }
 

@@ -15,8 +15,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/triangles.hpp>
 #include <thalweg/geometry/triangulate.hpp>
@@ -436,10 +436,9 @@ private:
 
 void require_sound(Raster<float> const& dem, TinOfDemParams const& params) {
     require_in("geometry.tin_of_dem", "error", params.error_m, Range::above(0.0).or_infinite(), "m");
-    if (dem.width() > most_cells_a_side || dem.height() > most_cells_a_side) {
-        throw BadInput(fmt::format("geometry.tin_of_dem: {} x {} cells: at most {} a side; cut the DEM", dem.width(),
-                                   dem.height(), most_cells_a_side));
-    }
+    refuse_if<BadInput>(dem.width() > most_cells_a_side || dem.height() > most_cells_a_side,
+                        "geometry.tin_of_dem: {} x {} cells: at most {} a side; cut the DEM", dem.width(), dem.height(),
+                        most_cells_a_side);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (std::isinf(dem[i])) {
             throw BadInput(fmt::format("geometry.tin_of_dem: the height at column {}, row {} is {}",
@@ -462,12 +461,10 @@ SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params,
         left_out += has && !land.holds(c.col, c.row) ? 1 : 0;
     }
     auto const lines = outlines_of(dem, land, run);
-    if (lines.empty()) {
-        throw BadInput(
-            fmt::format("geometry.tin_of_dem: of {} x {} cells {} have data, and no three of them meet: there "
-                        "are no triangles",
-                        dem.width(), dem.height(), data));
-    }
+    refuse_if<BadInput>(
+        lines.empty(),
+        "geometry.tin_of_dem: of {} x {} cells {} have data, and no three of them meet: there are no triangles",
+        dem.width(), dem.height(), data);
     Mesh mesh(dem, params.error_m, triangulate({}, lines, run).tin, land);
     mesh.refine(run);
     SimplifiedDem simplified = mesh.result();

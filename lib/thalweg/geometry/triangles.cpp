@@ -11,9 +11,8 @@
 #include <CGAL/Exact_rational.h>
 #include <CGAL/Simple_cartesian.h>
 #include <CGAL/Weights/utils.h>
-#include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::geometry {
 namespace {
@@ -181,15 +180,11 @@ template <class Point> std::array<double, 3> of_triangle(Point const& a, Point c
 void require_area(Tin const& tin, std::size_t number, Measured measured) {
     auto const& t = tin.triangles[number];
     for (std::uint32_t const v : t) {
-        if (v >= tin.vertices.size()) {
-            throw BadInput(fmt::format("geometry.half_cotangents: triangle {} has vertex {} of {}", number + 1, v + 1,
-                                       tin.vertices.size()));
-        }
+        refuse_if<BadInput>(v >= tin.vertices.size(), "geometry.half_cotangents: triangle {} has vertex {} of {}",
+                            number + 1, v + 1, tin.vertices.size());
         Vec3 const& p = tin.vertices[v];
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            throw BadInput(
-                fmt::format("geometry.half_cotangents: vertex {} is not finite: ({}, {}, {})", v + 1, p.x, p.y, p.z));
-        }
+        refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
+                            "geometry.half_cotangents: vertex {} is not finite: ({}, {}, {})", v + 1, p.x, p.y, p.z);
     }
     Vec3 const& a = tin.vertices[t[0]];
     Vec3 const& b = tin.vertices[t[1]];
@@ -197,10 +192,9 @@ void require_area(Tin const& tin, std::size_t number, Measured measured) {
     bool const in_plan = (b.x - a.x) * (c.y - a.y) != (c.x - a.x) * (b.y - a.y);
     bool const upright = (b.x - a.x) * (c.z - a.z) != (c.x - a.x) * (b.z - a.z) ||
                          (b.y - a.y) * (c.z - a.z) != (c.y - a.y) * (b.z - a.z);
-    if (!in_plan && !(upright && measured == Measured::on_surface)) {
-        throw BadInput(fmt::format("geometry.half_cotangents: triangle {} at ({}, {}, {}) has no area{}", number + 1,
-                                   a.x, a.y, a.z, upright ? " in plan" : ""));
-    }
+    refuse_if<BadInput>(!in_plan && !(upright && measured == Measured::on_surface),
+                        "geometry.half_cotangents: triangle {} at ({}, {}, {}) has no area{}", number + 1, a.x, a.y,
+                        a.z, upright ? " in plan" : "");
 }
 
 } // namespace

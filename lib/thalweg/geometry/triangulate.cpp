@@ -20,7 +20,7 @@
 #include <CGAL/spatial_sort.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/triangles.hpp>
 
@@ -74,9 +74,8 @@ Places collect(std::vector<Vec3> const& points, std::vector<std::vector<Vec3>> c
             places.at.push_back(breaklines[l][i]);
         }
     }
-    if (places.at.size() >= unnumbered / 2) {
-        throw BadInput(fmt::format("geometry.triangulate: {} points are more than a TIN can number", places.at.size()));
-    }
+    refuse_if<BadInput>(places.at.size() >= unnumbered / 2,
+                        "geometry.triangulate: {} points are more than a TIN can number", places.at.size());
     places.given = places.at.size();
     return places;
 }
@@ -132,10 +131,8 @@ bool cut(Places& places, double& greatest_dz_m, Run const& run) {
 void cut_all(Places& places, double& greatest_dz_m, Run const& run) {
     constexpr int most_rounds = 50;
     for (int round = 0; cut(places, greatest_dz_m, run); ++round) {
-        if (round == most_rounds) {
-            throw BadInput("geometry.triangulate: breaklines still cross after being cut 50 times: they lie closer "
-                           "than their coordinates can tell; snap them");
-        }
+        refuse_if<BadInput>(round == most_rounds, "geometry.triangulate: breaklines still cross after being cut 50 "
+                                                  "times: they lie closer than their coordinates can tell; snap them");
     }
 }
 
@@ -169,10 +166,8 @@ template <class Mesh> void require_area(Mesh const& mesh, Places const& places) 
         return;
     }
     auto const differ = mesh.number_of_vertices();
-    if (differ < 3) {
-        throw BadInput(fmt::format("geometry.triangulate: {} points in {} different places: a triangulation takes 3",
-                                   places.at.size(), differ));
-    }
+    refuse_if<BadInput>(differ < 3, "geometry.triangulate: {} points in {} different places: a triangulation takes 3",
+                        places.at.size(), differ);
     auto const [first, last] =
         std::ranges::minmax_element(places.at, {}, [](Vec3 const& p) { return std::pair(p.x, p.y); });
     throw BadInput(

@@ -11,8 +11,8 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/skeleton/internal/perlin.hpp>
 
 namespace thalweg::skeleton {
@@ -31,15 +31,13 @@ void demand(NoiseAlongParams const& params) {
 Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wavelength_m) {
     constexpr double farthest = 0x1p20; // libnoise folds coordinates beyond 2^30, after three doublings
     Vec2 const at{(place.at.x - origin.x) / wavelength_m, (place.at.y - origin.y) / wavelength_m};
-    if (!(std::fabs(at.x) <= farthest && std::fabs(at.y) <= farthest)) {
-        throw BadInput(fmt::format("skeleton.noise_along: place {} at ({}, {}) is not within 2^20 wavelengths of {} m "
-                                   "from ({}, {}); lengthen the wave",
-                                   number, place.at.x, place.at.y, wavelength_m, origin.x, origin.y));
-    }
-    if (!(place.share >= 0.0 && place.share <= 1.0)) {
-        throw BadInput(fmt::format("skeleton.noise_along: place {} at ({}, {}) has a share of {}; give one from 0 to 1",
-                                   number, place.at.x, place.at.y, place.share));
-    }
+    refuse_if<BadInput>(!(std::fabs(at.x) <= farthest && std::fabs(at.y) <= farthest),
+                        "skeleton.noise_along: place {} at ({}, {}) is not within 2^20 wavelengths of {} m from ({}, "
+                        "{}); lengthen the wave",
+                        number, place.at.x, place.at.y, wavelength_m, origin.x, origin.y);
+    refuse_if<BadInput>(!(place.share >= 0.0 && place.share <= 1.0),
+                        "skeleton.noise_along: place {} at ({}, {}) has a share of {}; give one from 0 to 1", number,
+                        place.at.x, place.at.y, place.share);
     return at;
 }
 
@@ -89,11 +87,10 @@ void raise(Raster<float>& z, std::int64_t cell, double height) {
 
 void demand_height(Vec3 const& p, std::string const& what) {
     constexpr double highest = std::numeric_limits<float>::max();
-    if (!(std::fabs(p.z) <= highest)) {
-        throw BadInput(fmt::format("skeleton.draw_skeleton: {} at ({:.3f}, {:.3f}) has a height of {}; give every "
-                                   "vertex and point a number",
-                                   what, p.x, p.y, p.z));
-    }
+    refuse_if<BadInput>(
+        !(std::fabs(p.z) <= highest),
+        "skeleton.draw_skeleton: {} at ({:.3f}, {:.3f}) has a height of {}; give every vertex and point a number", what,
+        p.x, p.y, p.z);
 }
 
 std::vector<Cell> cells_of(std::vector<Vec3> const& line, Grid const& grid, std::string const& what) {
@@ -150,9 +147,7 @@ Raster<float> drawn_ridges(RidgeLines const& ridges, Grid const& grid, NoiseAlon
     for (std::size_t number = 1; RidgeLine const& ridge_line : ridges.lines) {
         std::string const what = fmt::format("ridge {}", number++);
         std::vector<Vec3> const& line = ridge_line.line;
-        if (line.empty()) {
-            throw BadInput(fmt::format("skeleton.draw_skeleton: {} has no vertices; leave it out", what));
-        }
+        refuse_if<BadInput>(line.empty(), "skeleton.draw_skeleton: {} has no vertices; leave it out", what);
         Trail const trail = trail_of(line, cells_of(line, grid, what), grid);
         std::vector<double> const noise = noise_along(trail.places, {grid.west, grid.north}, params, run);
         for (std::size_t i = 0; i < trail.cells.size(); ++i) {
@@ -164,11 +159,9 @@ Raster<float> drawn_ridges(RidgeLines const& ridges, Grid const& grid, NoiseAlon
 
 Raster<float> drawn_points(FeaturePoints const& points, Grid const& grid) {
     Raster<float> z(grid, std::numeric_limits<float>::quiet_NaN());
-    if (!points.crs.empty() && !grid.crs.empty() && points.crs != grid.crs) {
-        throw BadInput(
-            fmt::format("skeleton.draw_skeleton: the points are in {}, the valley in {}; reproject one of them",
-                        points.crs, grid.crs));
-    }
+    refuse_if<BadInput>(!points.crs.empty() && !grid.crs.empty() && points.crs != grid.crs,
+                        "skeleton.draw_skeleton: the points are in {}, the valley in {}; reproject one of them",
+                        points.crs, grid.crs);
     for (std::size_t number = 1; Vec3 const& p : points.points) {
         raise(z, grid.index(cells_of({p}, grid, fmt::format("point {}", number++)).front()), p.z);
     }

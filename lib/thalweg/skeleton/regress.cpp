@@ -10,8 +10,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/linear/linear.hpp>
 
 namespace thalweg::skeleton {
@@ -139,15 +139,13 @@ void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& 
     if (p.slope != SlopeMode::none && !(p.slope_rad > 0.0 && p.slope_rad < 0.5 * portable::pi)) {
         refuse(fmt::format("slope {} rad: give more than 0 and less than pi/2 = 1.5708", p.slope_rad));
     }
-    if (points.points.size() < terms) {
-        throw BadInput(fmt::format("skeleton.regress: {} points for {} terms: give {} or more, better twice as many",
-                                   points.points.size(), terms, terms));
-    }
+    refuse_if<BadInput>(points.points.size() < terms,
+                        "skeleton.regress: {} points for {} terms: give {} or more, better twice as many",
+                        points.points.size(), terms, terms);
     for (std::size_t i = 0; i < points.points.size(); ++i) {
         Vec3 const& q = points.points[i];
-        if (!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z)) {
-            throw BadInput(fmt::format("skeleton.regress: point {} is ({}, {}, {}), no numbers", i + 1, q.x, q.y, q.z));
-        }
+        refuse_if<BadInput>(!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z),
+                            "skeleton.regress: point {} is ({}, {}, {}), no numbers", i + 1, q.x, q.y, q.z);
     }
 }
 

@@ -16,8 +16,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>
@@ -250,20 +250,16 @@ void demand(RidgesParams const& params, Grid const& grid) {
                                       {"clear_m", params.clear_m}}) {
         require_in("skeleton.ridges", name, value, Range::at_least(0.0));
     }
-    if (grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0)) {
-        throw BadParameter(fmt::format("skeleton.ridges: a grid of {} x {} cells of {} m has no ground", grid.width,
-                                       grid.height, grid.cell_m));
-    }
+    refuse_if<BadParameter>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
+                            "skeleton.ridges: a grid of {} x {} cells of {} m has no ground", grid.width, grid.height,
+                            grid.cell_m);
 }
 
 void demand(ElevatedNetwork const& network, std::vector<std::int64_t> const& labels) {
     std::size_t const arcs = network.plan.arc_count();
-    if (labels.size() != arcs || network.arc_z.size() != arcs) {
-        throw BadInput(
-            fmt::format("skeleton.ridges: {} labels and heights of {} arcs for a network of {}; give one for "
-                        "each arc",
-                        labels.size(), network.arc_z.size(), arcs));
-    }
+    refuse_if<BadInput>(labels.size() != arcs || network.arc_z.size() != arcs,
+                        "skeleton.ridges: {} labels and heights of {} arcs for a network of {}; give one for each arc",
+                        labels.size(), network.arc_z.size(), arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const& line = network.plan.arc(a).line;
         auto const& z = network.arc_z[a];

@@ -16,17 +16,16 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::skeleton {
 
 Raster<float> attract(Raster<float> dem, Attraction const& attraction) {
     Cell const centre = attraction.centre;
-    if (!dem.grid().contains(centre)) {
-        throw BadParameter(fmt::format("skeleton.attract: column {}, row {} is off the grid of {} x {} cells",
-                                       centre.col, centre.row, dem.width(), dem.height()));
-    }
+    refuse_if<BadParameter>(!dem.grid().contains(centre),
+                            "skeleton.attract: column {}, row {} is off the grid of {} x {} cells", centre.col,
+                            centre.row, dem.width(), dem.height());
     require_in("skeleton.attract", "radius", attraction.radius_cells, Range::above(0.0).or_infinite(), "cells");
     require_in("skeleton.attract", "height", attraction.z, Range::finite(), "m");
     double const square = attraction.radius_cells * attraction.radius_cells;
@@ -408,9 +407,8 @@ void demand(Valley const& valley, Mask const& inside, ScatterBetweenParams const
     require_in(stage, "spacing", p.spacing_cells, Range::at_least(0.0), "cells");
     require_in(stage, "gain", p.gain, Range::at_least(0.0));
     require_in(stage, "farthest", p.farthest_m, Range::at_least(0.0), "m");
-    if (inside.cells() > 0 && inside.grid() != valley.z.grid()) {
-        throw BadInput("skeleton.scatter_between: the mask has another grid than the valley");
-    }
+    refuse_if<BadInput>(inside.cells() > 0 && inside.grid() != valley.z.grid(),
+                        "skeleton.scatter_between: the mask has another grid than the valley");
 }
 
 Mask rivers_of(Valley const& valley) {
@@ -418,9 +416,8 @@ Mask rivers_of(Valley const& valley) {
     for (std::int64_t i = 0; i < rivers.cells(); ++i) {
         rivers[i] = std::isnan(valley.z[i]) ? 0 : 1;
     }
-    if (std::find(rivers.values().begin(), rivers.values().end(), 1) == rivers.values().end()) {
-        throw BadInput("skeleton.scatter_between: no cell has a river; points need one to stand above");
-    }
+    refuse_if<BadInput>(std::find(rivers.values().begin(), rivers.values().end(), 1) == rivers.values().end(),
+                        "skeleton.scatter_between: no cell has a river; points need one to stand above");
     return rivers;
 }
 

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 #include <string>
 #include <type_traits>
@@ -58,6 +58,17 @@ TEST(Error, WhatIsThrownAgainKeepsItsFunction) {
     } catch (Error const& e) {
         EXPECT_STREQ(e.where(), "network.from_file");
         EXPECT_STREQ(e.what(), "arc 3 has no length; mend it");
+    }
+}
+
+TEST(Error, ARefusalThrowsOnlyWhereSomethingIsWrong) {
+    refuse_if<BadInput>(false, "network.prune: {} cells", 3);
+    try {
+        refuse_if<BadParameter>(true, "network.prune: {{{}}} of {:.1f}", std::string("a"), 2.25);
+        FAIL();
+    } catch (BadParameter const& e) {
+        EXPECT_STREQ(e.where(), "network.prune");
+        EXPECT_STREQ(e.what(), "{a} of 2.2");
     }
 }
 

@@ -14,7 +14,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/gdal/driver.hpp>
@@ -147,11 +147,9 @@ std::string projected_crs(std::string const& text) {
 
 std::string utm_zone(double longitude_deg, double latitude_deg) {
     // Written so that NaN is refused.
-    if (!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0)) {
-        throw BadInput(
-            fmt::format("io.utm_zone: no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
-                        longitude_deg, latitude_deg));
-    }
+    refuse_if<BadInput>(!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0),
+                        "io.utm_zone: no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
+                        longitude_deg, latitude_deg);
     auto const zone = static_cast<int>(std::floor((longitude_deg + 180.0) / 6.0));
     return fmt::format("EPSG:{}", (latitude_deg < 0.0 ? 32701 : 32601) + ((zone % 60) + 60) % 60);
 }

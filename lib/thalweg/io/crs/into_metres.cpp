@@ -11,7 +11,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
@@ -182,12 +182,10 @@ std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::
     Vec2 turned = at;
     bool const on_earth = turn && turn->Transform(1, &turned.x, &turned.y) != 0 && std::fabs(turned.x) <= 360.0 &&
                           std::fabs(turned.y) <= 90.0;
-    if (!on_earth) {
-        throw BadInput(
-            fmt::format("io.into_metres: the middle of {}, at ({}, {}), has no longitude and latitude in its "
-                        "CRS, {}; check both",
-                        name, at.x, at.y, from.GetName()));
-    }
+    refuse_if<BadInput>(
+        !on_earth,
+        "io.into_metres: the middle of {}, at ({}, {}), has no longitude and latitude in its CRS, {}; check both", name,
+        at.x, at.y, from.GetName());
     auto const degrees = degrees_of(box, *turn);
     bool const has_zone = turned.y >= -80.0 && turned.y <= 84.0;
     if (!has_zone || !degrees || utm_stretch(utm_zone(turned.x, turned.y), *degrees) <= most_stretch) {
@@ -274,9 +272,7 @@ IntoMetres::IntoMetres(OGRSpatialReference const& own, std::string const& wanted
     }
     OGRSpatialReference const to = read_reference(crs_);
     turn_->into.reset(OGRCreateCoordinateTransformation(&from, &to));
-    if (!turn_->into) {
-        throw BadInput(fmt::format("io.into_metres: {} cannot be reprojected to {}", name, crs_));
-    }
+    refuse_if<BadInput>(!turn_->into, "io.into_metres: {} cannot be reprojected to {}", name, crs_);
 }
 
 IntoMetres::~IntoMetres() = default;

@@ -15,6 +15,7 @@
 #include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <unistd.h>
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 
 namespace thalweg::io {
@@ -245,9 +246,7 @@ private:
 
 OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::vector<std::string> old_files)
     : old_files_(std::move(old_files)), adds_(existing == Existing::add) {
-    if (folder.empty()) {
-        throw BadParameter("io.output_folder: the name of the folder is empty");
-    }
+    refuse_if<BadParameter>(folder.empty(), "io.output_folder: the name of the folder is empty");
     fs::path place = fs::path(folder).lexically_normal();
     if (!place.has_filename()) {
         place = place.parent_path(); // "out/"
@@ -256,21 +255,15 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
     std::error_code error;
     existed_ = fs::exists(place, error);
     if (existed_) {
-        if (!fs::is_directory(place, error)) {
-            throw BadInput(fmt::format("io.output_folder: {} is not a folder", folder_));
-        }
+        refuse_if<BadInput>(!fs::is_directory(place, error), "io.output_folder: {} is not a folder", folder_);
         bool const empty = fs::is_empty(place, error);
         require(error, "io.output_folder: " + folder_);
-        if (!empty && existing == Existing::refuse) {
-            throw BadInput(
-                fmt::format("io.output_folder: {} already exists: name another or use --overwrite", folder_));
-        }
-        if (!empty && existing == Existing::replace && old_files_.empty()) {
-            throw BadInput(
-                fmt::format("io.output_folder: {} holds files but no report.json that lists them: nothing in "
-                            "it may be replaced, name another folder",
-                            folder_));
-        }
+        refuse_if<BadInput>(!empty && existing == Existing::refuse,
+                            "io.output_folder: {} already exists: name another or use --overwrite", folder_);
+        refuse_if<BadInput>(!empty && existing == Existing::replace && old_files_.empty(),
+                            "io.output_folder: {} holds files but no report.json that lists them: nothing in it may be "
+                            "replaced, name another folder",
+                            folder_);
         for (std::string const& name : old_files_) {
             require_removable(place, name);
         }
@@ -307,9 +300,7 @@ OutputFolder::~OutputFolder() {
 }
 
 std::string OutputFolder::path(std::string const& name) const {
-    if (!is_plain(name)) {
-        throw BadParameter(fmt::format("io.output_folder: '{}' is not a valid path within {}", name, folder_));
-    }
+    refuse_if<BadParameter>(!is_plain(name), "io.output_folder: '{}' is not a valid path within {}", name, folder_);
     fs::path const place = fs::path(staging_) / name;
     std::error_code error;
     fs::create_directories(place.parent_path(), error);
@@ -381,21 +372,16 @@ bool is_pipe_or_device(std::string const& path) {
 }
 
 void refuse_pipe(std::string const& path, std::string const& what) {
-    if (is_pipe_or_device(path)) {
-        throw BadInput(what + " is a pipe or a device, and inputs are read more than once: write it to a file first");
-    }
+    refuse_if<BadInput>(is_pipe_or_device(path),
+                        "{} is a pipe or a device, and inputs are read more than once: write it to a file first", what);
 }
 
 std::string read_text(std::string const& path, std::int64_t max_bytes) {
     std::string const what = "io.read_text: " + path;
     refuse_pipe(path, what);
     std::error_code error;
-    if (!fs::exists(path, error)) {
-        throw BadInput(what + " does not exist");
-    }
-    if (fs::is_directory(path, error)) {
-        throw BadInput(what + " is a folder");
-    }
+    refuse_if<BadInput>(!fs::exists(path, error), "{} does not exist", what);
+    refuse_if<BadInput>(fs::is_directory(path, error), "{} is a folder", what);
     File const file(std::fopen(path.c_str(), "rb"));
     if (file == nullptr) {
         fail(what, last_error());
@@ -404,9 +390,8 @@ std::string read_text(std::string const& path, std::int64_t max_bytes) {
     std::vector<char> block(std::size_t{1} << 16U);
     while (std::size_t const count = std::fread(block.data(), 1, block.size(), file.get())) {
         text.append(block.data(), count);
-        if (static_cast<std::int64_t>(text.size()) > max_bytes) {
-            throw BadInput(fmt::format("{} is larger than {} bytes", what, max_bytes));
-        }
+        refuse_if<BadInput>(static_cast<std::int64_t>(text.size()) > max_bytes, "{} is larger than {} bytes", what,
+                            max_bytes);
     }
     if (std::ferror(file.get()) != 0) {
         fail(what, last_error());
@@ -422,17 +407,13 @@ void write_text(std::string const& path, std::string_view text) {
 
 void copy_file(std::string const& from, std::string const& to) {
     std::error_code error;
-    if (!fs::is_regular_file(from, error)) {
-        throw BadInput(fmt::format("io.copy_file: {} is not a file", from));
-    }
+    refuse_if<BadInput>(!fs::is_regular_file(from, error), "io.copy_file: {} is not a file", from);
     fs::copy_file(from, to, fs::copy_options::none, error);
     require(error, fmt::format("io.copy_file: {} to {}", from, to));
 }
 
 OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path), existing_(existing) {
-    if (!fs::path(path).has_filename()) {
-        throw BadParameter(fmt::format("io.output_file: '{}' is not a valid file name", path));
-    }
+    refuse_if<BadParameter>(!fs::path(path).has_filename(), "io.output_file: '{}' is not a valid file name", path);
     fs::path const folder = fs::path(path).parent_path();
     std::error_code ignored;
     if (!folder.empty() && !fs::is_directory(folder, ignored)) {
@@ -455,12 +436,10 @@ void OutputFile::require_place() const {
     if (!fs::exists(status)) {
         return;
     }
-    if (!fs::is_regular_file(status)) {
-        throw BadInput(fmt::format("io.output_file: {} exists and is not a regular file: name another", path_));
-    }
-    if (existing_ == Existing::refuse) {
-        throw BadInput(fmt::format("io.output_file: {} already exists: name another or use --overwrite", path_));
-    }
+    refuse_if<BadInput>(!fs::is_regular_file(status),
+                        "io.output_file: {} exists and is not a regular file: name another", path_);
+    refuse_if<BadInput>(existing_ == Existing::refuse,
+                        "io.output_file: {} already exists: name another or use --overwrite", path_);
 }
 
 void OutputFile::commit() {

@@ -21,11 +21,10 @@
 #include <cpl_http.h>
 #include <cpl_string.h>
 #include <cpl_vsi_virtual.h>
-#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <proj.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
 
@@ -73,20 +72,16 @@ void require_allowed(std::string const& path) {
     if (!reads_recipe_files()) {
         return;
     }
-    if (names_connection(path)) {
-        throw BadInput(fmt::format("io.require_allowed: a recipe names files, and '{}' is a connection: name it on the "
-                                   "command line, or convert it to a file (ogr2ogr)",
-                                   path));
-    }
+    refuse_if<BadInput>(names_connection(path),
+                        "io.require_allowed: a recipe names files, and '{}' is a connection: name it on the command "
+                        "line, or convert it to a file (ogr2ogr)",
+                        path);
     refuse_pipe(path, "io.require_allowed: " + path);
     std::error_code ignored;
     auto const status = fs::status(path, ignored);
-    if (!fs::exists(status)) {
-        throw BadInput(fmt::format("io.require_allowed: there is no file '{}'", path));
-    }
-    if (!fs::is_regular_file(status) && !fs::is_directory(status)) {
-        throw BadInput(fmt::format("io.require_allowed: {} is neither a file nor a folder", path));
-    }
+    refuse_if<BadInput>(!fs::exists(status), "io.require_allowed: there is no file '{}'", path);
+    refuse_if<BadInput>(!fs::is_regular_file(status) && !fs::is_directory(status),
+                        "io.require_allowed: {} is neither a file nor a folder", path);
 }
 
 namespace {
@@ -384,22 +379,18 @@ Refusal take_refusal() {
 }
 
 void throw_refusal(Refusal const& refusal, std::string const& what) {
-    if (!refusal.address.empty()) {
-        throw BadInput(fmt::format("{} makes a connection ({}), and thalweg connects only to what the command line "
-                                   "names; take the address out of the file",
-                                   what, refusal.address));
-    }
-    if (!refusal.pipe.empty()) {
-        throw BadInput(
-            fmt::format("{} needs {}, which is a pipe or a device, and inputs are read more than once: write "
-                        "it to a file first",
-                        what, refusal.pipe));
-    }
-    if (!refusal.grid.empty()) {
-        throw BadInput(fmt::format("{} names {}, and a CRS names grids of PROJ's own folders (projinfo --searchpaths): "
-                                   "copy it there and leave its folder out",
-                                   what, refusal.grid));
-    }
+    refuse_if<BadInput>(!refusal.address.empty(),
+                        "{} makes a connection ({}), and thalweg connects only to what the command line names; take "
+                        "the address out of the file",
+                        what, refusal.address);
+    refuse_if<BadInput>(
+        !refusal.pipe.empty(),
+        "{} needs {}, which is a pipe or a device, and inputs are read more than once: write it to a file first", what,
+        refusal.pipe);
+    refuse_if<BadInput>(!refusal.grid.empty(),
+                        "{} names {}, and a CRS names grids of PROJ's own folders (projinfo --searchpaths): copy it "
+                        "there and leave its folder out",
+                        what, refusal.grid);
 }
 
 namespace {

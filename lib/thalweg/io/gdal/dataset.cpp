@@ -21,7 +21,7 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
@@ -185,22 +185,18 @@ std::vector<char const*> recipe_drivers() {
 void refuse_other_format(std::string const& name, std::string const& path) {
     GDALDriverH const driver = GDALIdentifyDriver(name.c_str(), nullptr);
     std::string const format = driver == nullptr ? "" : GDALGetDriverShortName(driver);
-    if (driver != nullptr && std::ranges::find(recipe_formats, format) == recipe_formats.end()) {
-        throw BadInput(
-            fmt::format("io.recipe_formats: {} is in the format {}, and a recipe names files that hold their "
-                        "data themselves, such as GeoPackage, Shapefile, GeoJSON, FlatGeobuf, CSV and "
-                        "GeoTIFF: convert it (ogr2ogr, gdal_translate), or name it on the command line",
-                        path, format));
-    }
+    refuse_if<BadInput>(driver != nullptr && std::ranges::find(recipe_formats, format) == recipe_formats.end(),
+                        "io.recipe_formats: {} is in the format {}, and a recipe names files that hold their data "
+                        "themselves, such as GeoPackage, Shapefile, GeoJSON, FlatGeobuf, CSV and GeoTIFF: convert it "
+                        "(ogr2ogr, gdal_translate), or name it on the command line",
+                        path, format);
 }
 
 // Throws: BadInput when a GeoPackage holds a virtual table, which may read any file; the index of shapes is none.
 void require_own_tables(GDALDataset& package, std::string const& path) {
     OGRLayer* const tables = package.ExecuteSQL(
         "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND (rootpage IS NULL OR rootpage < 1)", nullptr, "");
-    if (tables == nullptr) {
-        throw BadInput("io.recipe_formats: the tables of " + path + " cannot be listed");
-    }
+    refuse_if<BadInput>(tables == nullptr, "io.recipe_formats: the tables of {} cannot be listed", path);
     std::string foreign;
     for (auto const& row : *tables) {
         if (is_foreign_table(row->GetFieldAsString(1))) {
@@ -208,11 +204,10 @@ void require_own_tables(GDALDataset& package, std::string const& path) {
         }
     }
     package.ReleaseResultSet(tables);
-    if (!foreign.empty()) {
-        throw BadInput(fmt::format("io.recipe_formats: the table {} of {} is virtual: it may read any file; copy the "
-                                   "data into a new GeoPackage (ogr2ogr)",
-                                   foreign, path));
-    }
+    refuse_if<BadInput>(!foreign.empty(),
+                        "io.recipe_formats: the table {} of {} is virtual: it may read any file; copy the data into a "
+                        "new GeoPackage (ogr2ogr)",
+                        foreign, path);
 }
 
 } // namespace
@@ -365,33 +360,29 @@ void set_frame(GDALDataset& dataset, Grid const& grid) {
 
 void require_size(Grid const& grid, std::string const& what) {
     constexpr std::int64_t most = std::numeric_limits<int>::max();
-    if (grid.width < 1 || grid.height < 1 || grid.width > most || grid.height > most) {
-        throw BadInput(fmt::format("{}: a raster of {} x {} cells", what, grid.width, grid.height));
-    }
+    refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || grid.width > most || grid.height > most,
+                        "{}: a raster of {} x {} cells", what, grid.width, grid.height);
 }
 
 Dataset in_memory(Raster<float> const& dem, std::string const& what) {
     require_size(dem.grid(), what);
     Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
         "", static_cast<int>(dem.width()), static_cast<int>(dem.height()), 1, GDT_Float32, nullptr));
-    if (dataset == nullptr) {
-        throw IoError(fmt::format("{}: no memory for {} x {} cells", what, dem.width(), dem.height()));
-    }
+    refuse_if<IoError>(dataset == nullptr, "{}: no memory for {} x {} cells", what, dem.width(), dem.height());
     set_frame(*dataset, dem.grid());
     GDALRasterBand& band = *dataset->GetRasterBand(1);
     band.SetNoDataValue(static_cast<double>(nodata_height));
     std::vector<float> line(static_cast<std::size_t>(dem.width()));
     for (std::int64_t row = 0; row < dem.height(); ++row) {
         for (std::size_t col = 0; float const z : dem.row(row)) {
-            if (std::isinf(z) || z == nodata_height) {
-                throw BadInput(fmt::format("{}: the height at column {}, row {} is {}", what, col, row, z));
-            }
+            refuse_if<BadInput>(std::isinf(z) || z == nodata_height, "{}: the height at column {}, row {} is {}", what,
+                                col, row, z);
             line[col++] = std::isnan(z) ? nodata_height : z;
         }
-        if (band.RasterIO(GF_Write, 0, static_cast<int>(row), static_cast<int>(dem.width()), 1, line.data(),
-                          static_cast<int>(dem.width()), 1, GDT_Float32, 0, 0, nullptr) != CE_None) {
-            throw IoError(what + ": no copy in memory");
-        }
+        refuse_if<IoError>(band.RasterIO(GF_Write, 0, static_cast<int>(row), static_cast<int>(dem.width()), 1,
+                                         line.data(), static_cast<int>(dem.width()), 1, GDT_Float32, 0, 0,
+                                         nullptr) != CE_None,
+                           "{}: no copy in memory", what);
     }
     return dataset;
 }

@@ -11,11 +11,10 @@
 #include <vector>
 
 #include <cpl_error.h>
-#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogr_srs_api.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
 
 namespace thalweg::io {
@@ -92,16 +91,14 @@ std::string Driver::take() const {
 void Driver::check(std::string const& what) const {
     if (auto const words = take(); !words.empty()) {
         throw_refusal(take_refusal(), what);
-        if (words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos) {
-            throw BadInput(fmt::format("{}: thalweg connects only to what the command line names; take the address out "
-                                       "of the file ({})",
-                                       what, words));
-        }
-        if (words.find("crs not found") != std::string::npos) {
-            throw BadInput(fmt::format("{}: it names a CRS that does not exist ({}); correct it, or assign another "
-                                       "(ogr2ogr or gdal_edit.py -a_srs EPSG:n)",
-                                       what, words));
-        }
+        refuse_if<BadInput>(
+            words.find("ALLOW_NETWORK_ACCESS=NO") != std::string::npos,
+            "{}: thalweg connects only to what the command line names; take the address out of the file ({})", what,
+            words);
+        refuse_if<BadInput>(words.find("crs not found") != std::string::npos,
+                            "{}: it names a CRS that does not exist ({}); correct it, or assign another (ogr2ogr or "
+                            "gdal_edit.py -a_srs EPSG:n)",
+                            what, words);
         throw IoError(what + ": " + words);
     }
 }

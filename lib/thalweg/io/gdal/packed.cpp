@@ -8,9 +8,8 @@
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
-#include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 
 namespace thalweg::io {
@@ -29,10 +28,8 @@ struct Freed {
 
 std::string packed(std::span<std::uint8_t const> bytes) {
     std::string const what = "io.packed";
-    if (bytes.size() > most) {
-        throw BadInput(
-            fmt::format("{}: {} bytes are more than the {} that can be packed at once", what, bytes.size(), most));
-    }
+    refuse_if<BadInput>(bytes.size() > most, "{}: {} bytes are more than the {} that can be packed at once", what,
+                        bytes.size(), most);
     Driver const driver;
     std::uint8_t const none = 0;
     std::size_t size = 0;
@@ -48,9 +45,7 @@ std::string packed(std::span<std::uint8_t const> bytes) {
     for (std::size_t at = 0; at < size; at += piece) {
         std::unique_ptr<char, Freed> const part(
             CPLBase64Encode(static_cast<int>(std::min(piece, size - at)), data + at));
-        if (part == nullptr) {
-            throw IoError(what + ": out of memory");
-        }
+        refuse_if<IoError>(part == nullptr, "{}: out of memory", what);
         text += part.get();
     }
     return text;

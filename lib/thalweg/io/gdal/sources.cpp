@@ -17,7 +17,7 @@
 #include <ogr_spatialref.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
@@ -74,9 +74,7 @@ FileContent content_of(std::string const& path) {
             content.layer = "arcs";
         }
     }
-    if (!has_lines && !has_points) {
-        throw BadInput(what + " holds neither heights, nor points, nor lines");
-    }
+    refuse_if<BadInput>(!has_lines && !has_points, "{} holds neither heights, nor points, nor lines", what);
     content.kind = has_lines ? FileContent::Kind::lines : FileContent::Kind::points;
     return content;
 }

@@ -20,7 +20,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -96,11 +96,10 @@ public:
             }
         }
         bool const is_right = names_.size() == 3 || names_.size() == wanted_;
-        if (!is_right || std::ranges::any_of(names_, &std::string::empty)) {
-            throw BadParameter(fmt::format("io.read_points: '{}' does not name the columns of x, y and z: give three "
-                                           "names or numbers, such as 3,2,4, or pnezd",
-                                           columns));
-        }
+        refuse_if<BadParameter>(!is_right || std::ranges::any_of(names_, &std::string::empty),
+                                "io.read_points: '{}' does not name the columns of x, y and z: give three names or "
+                                "numbers, such as 3,2,4, or pnezd",
+                                columns);
     }
 
     /// Takes the first line. Gives: whether it holds names.
@@ -443,11 +442,9 @@ bool is_text_of_points(std::string const& path) {
 
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
     auto const name = std::filesystem::path(params.path).filename().string();
-    if (!params.columns.value_or("").empty() && !is_text_of_points(params.path)) {
-        throw BadParameter(fmt::format("io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns "
-                                       "to name",
-                                       name));
-    }
+    refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path),
+                            "io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns to name",
+                            name);
     FeaturePoints read;
     if (is_text_of_points(params.path)) {
         require_allowed(params.path);

@@ -13,7 +13,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 
@@ -301,9 +301,7 @@ bool holds_tin(std::string const& path) {
 }
 
 TinFile read_tin(std::string const& path, Run const& run) {
-    if (!holds_tin(path)) {
-        throw BadInput(fmt::format("io.read_tin: {} is not a mesh in 2DM, OBJ or OFF", path));
-    }
+    refuse_if<BadInput>(!holds_tin(path), "io.read_tin: {} is not a mesh in 2DM, OBJ or OFF", path);
     std::string const text = read_text(path, most_bytes);
     Words words(path, text, run);
     TinFile file;
@@ -320,15 +318,11 @@ TinFile read_tin(std::string const& path, Run const& run) {
             throw BadInput(fmt::format("io.read_tin: {}: face {} names a vertex that is not there", path, i + 1));
         }
         std::vector<std::uint32_t> corners = corners_of(faces[i]);
-        if (corners.size() < 3) {
-            throw BadInput(fmt::format("io.read_tin: {}: face {} has fewer than three corners", path, i + 1));
-        }
+        refuse_if<BadInput>(corners.size() < 3, "io.read_tin: {}: face {} has fewer than three corners", path, i + 1);
         file.split += corners.size() > 3 ? 1 : 0;
         FaceCutter(std::move(corners), file.tin.vertices).cut(file.tin.triangles);
     }
-    if (file.tin.triangles.empty()) {
-        throw BadInput(fmt::format("io.read_tin: {} has no triangles", path));
-    }
+    refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
     if (file.split > 0) {
         run.tell("note",
                  fmt::format("{}: {} faces with more than three corners are cut into triangles", path, file.split));

@@ -6,8 +6,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
 #include <thalweg/io/mesh/points.hpp>
@@ -32,10 +32,8 @@ struct ListedPoints {
                 step(static_cast<double>(i) / static_cast<double>(points.size()));
             }
             Vec3 const p = points[i];
-            if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-                throw BadInput(
-                    fmt::format("io.write_points: point {} is not finite: ({}, {}, {})", i + 1, p.x, p.y, p.z));
-            }
+            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
+                                "io.write_points: point {} is not finite: ({}, {}, {})", i + 1, p.x, p.y, p.z);
             visit(p.x, p.y, p.z, PointClass::key_point);
         }
     }
@@ -58,10 +56,8 @@ struct Cells {
                     continue;
                 }
                 Vec2 const at = z.grid().centre(cell);
-                if (!std::isfinite(height)) {
-                    throw BadInput(
-                        fmt::format("io.write_points: the height of the cell at ({}, {}) is {}", at.x, at.y, height));
-                }
+                refuse_if<BadInput>(!std::isfinite(height), "io.write_points: the height of the cell at ({}, {}) is {}",
+                                    at.x, at.y, height);
                 visit(at.x, at.y, height, class_of(cell));
             }
         }
@@ -84,9 +80,7 @@ std::uint64_t write(Source const& source, std::string const& path, PointFormat f
                     extent.add({x, y, static_cast<double>(z)});
                     ++count;
                 });
-    if (count == 0) {
-        throw BadInput(fmt::format("io.write_points: {}: there is no point to write", path));
-    }
+    refuse_if<BadInput>(count == 0, "io.write_points: {}: there is no point to write", path);
     if (format == PointFormat::las && count > std::numeric_limits<std::uint32_t>::max()) {
         throw BadInput(fmt::format("io.write_points: {}: LAS 1.2 holds at most {} points, not {}; take every "
                                    "second, or PLY",
@@ -156,13 +150,11 @@ std::uint64_t write_points(Skeleton const& skeleton, Mask const& rivers, std::st
                            WritePointsParams const& params, Run const& run) {
     require(params);
     Grid const& grid = skeleton.z.grid();
-    if (rivers.grid() != grid) {
-        throw BadInput(
-            fmt::format("io.write_points: rivers of {} x {} cells of {} m from ({}, {}), a skeleton of {} x {} "
-                        "cells of {} m from ({}, {}): they must have one frame",
+    refuse_if<BadInput>(rivers.grid() != grid,
+                        "io.write_points: rivers of {} x {} cells of {} m from ({}, {}), a skeleton of {} x {} cells "
+                        "of {} m from ({}, {}): they must have one frame",
                         rivers.width(), rivers.height(), rivers.grid().cell_m, rivers.grid().west, rivers.grid().north,
-                        grid.width, grid.height, grid.cell_m, grid.west, grid.north));
-    }
+                        grid.width, grid.height, grid.cell_m, grid.west, grid.north);
     return write(Cells{skeleton.z, &rivers, grid.crs, params.every}, path, params.format, run);
 }
 

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/internal/files.hpp>
@@ -32,19 +32,15 @@ private:
 };
 
 void require_whole(Tin const& tin, std::string const& what) {
-    if (tin.vertices.empty()) {
-        throw BadInput(what + ": the TIN has no vertices");
-    }
+    refuse_if<BadInput>(tin.vertices.empty(), "{}: the TIN has no vertices", what);
     constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-    if (tin.vertices.size() > most || tin.triangles.size() > most) {
-        throw BadInput(fmt::format("{}: {} vertices and {} triangles: files number at most {}", what,
-                                   tin.vertices.size(), tin.triangles.size(), most));
-    }
+    refuse_if<BadInput>(tin.vertices.size() > most || tin.triangles.size() > most,
+                        "{}: {} vertices and {} triangles: files number at most {}", what, tin.vertices.size(),
+                        tin.triangles.size(), most);
     for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
         Vec3 const& v = tin.vertices[i];
-        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
-            throw BadInput(fmt::format("{}: vertex {} is not finite: ({}, {}, {})", what, i + 1, v.x, v.y, v.z));
-        }
+        refuse_if<BadInput>(!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z),
+                            "{}: vertex {} is not finite: ({}, {}, {})", what, i + 1, v.x, v.y, v.z);
     }
     for (std::size_t i = 0; i < tin.triangles.size(); ++i) {
         auto const& t = tin.triangles[i];

@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 
 namespace thalweg::io {
@@ -270,9 +270,7 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
     NetworkOrders const& orders = tables.orders;
     std::size_t const arcs = tables.network.plan.arc_count();
     std::size_t const nodes = plan.node_count();
-    if (arcs == 0) {
-        throw BadInput(what + ": the network has no arcs");
-    }
+    refuse_if<BadInput>(arcs == 0, "{}: the network has no arcs", what);
     bool const by_arc = arc_z.size() == arcs && orders.strahler.size() == arcs && orders.shreve.size() == arcs &&
                         orders.hack.size() == arcs && orders.topological.size() == arcs &&
                         orders.arc_basin.size() == arcs && tables.us_area_m2.size() == arcs &&
@@ -282,11 +280,10 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
     bool const by_node = node_z.size() == nodes && orders.node_basin.size() == nodes &&
                          orders.node_strahler.size() == nodes && orders.node_dist_out_m.size() == nodes &&
                          tables.node_area_m2.size() == nodes;
-    if (!by_arc || !by_node) {
-        throw BadInput(fmt::format(
-            "{}: heights, orders, areas and what is braided do not have one value for each of {} arcs and {} nodes",
-            what, arcs, nodes));
-    }
+    refuse_if<BadInput>(
+        !by_arc || !by_node,
+        "{}: heights, orders, areas and what is braided do not have one value for each of {} arcs and {} nodes", what,
+        arcs, nodes);
     for (std::size_t i = 0; i < arcs; ++i) {
         auto const& line = plan.arc(i).line;
         NodeId const from = tables.network.plan.from(i);
@@ -294,10 +291,8 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
         bool const meets = line.size() >= 2 && arc_z[i].size() == line.size() && line.front() == plan.node(from).at &&
                            line.back() == plan.node(to).at && arc_z[i].front() == node_z[from] &&
                            arc_z[i].back() == node_z[to];
-        if (!meets) {
-            throw BadInput(
-                fmt::format("{}: arc {} does not begin at node {} and end at node {}", what, i + 1, from + 1, to + 1));
-        }
+        refuse_if<BadInput>(!meets, "{}: arc {} does not begin at node {} and end at node {}", what, i + 1, from + 1,
+                            to + 1);
     }
     for (NodeId n = 0; n < nodes; ++n) {
         if (tables.network.plan.basin(n) == 0) {

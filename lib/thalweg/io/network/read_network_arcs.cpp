@@ -7,7 +7,7 @@
 #include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/line_features.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/network/internal/river_fields.hpp>
@@ -120,9 +120,8 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
     nodes.each(driver, run, [&](OGRFeature const& feature) {
         ++number;
         auto const* const shape = feature.GetGeometryRef();
-        if (shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty()) {
-            throw BadInput(fmt::format("{}: feature {} is not a point", nodes.what, number));
-        }
+        refuse_if<BadInput>(shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty(),
+                            "{}: feature {} is not a point", nodes.what, number);
         OGRPoint const& p = *shape->toPoint();
         if (p.Is3D() == FALSE && file.says.heights) {
             notes.add(nodes.what, {"no_heights", 0, {}, 1.0, fmt::format("feature {} has no heights (Z)", number)});

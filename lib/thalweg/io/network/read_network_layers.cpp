@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {
@@ -58,13 +58,12 @@ NetworkPlace pair_of(fs::path const& path, bool whole) {
 // A line of GDAL's that says what is the matter with a database file, in our words.
 [[noreturn]] void refuse(std::string const& what, std::string const& words) {
     auto const say = [&](std::string_view part) { return words.find(part) != std::string::npos; };
-    if (say("database is locked")) {
-        throw IoError(what + " is locked by another program; close it there and try again");
-    }
-    if (say("readonly database")) {
-        throw IoError(what + " was left in the middle of a change (there is a -journal beside it); open it once with "
-                             "the program that wrote it");
-    }
+    refuse_if<IoError>(say("database is locked"), "{} is locked by another program; close it there and try again",
+                       what);
+    refuse_if<IoError>(say("readonly database"),
+                       "{} was left in the middle of a change (there is a -journal beside it); open it once with the "
+                       "program that wrote it",
+                       what);
     throw BadInput(fmt::format("{} cannot be read: {}", what, words));
 }
 
@@ -104,10 +103,9 @@ NetworkPlace find_network(std::string const& path, bool whole) {
     if (error) {
         throw IoError(fmt::format("io.read_network: {}: {}", path, error.message()));
     }
-    if (found.size() != 1) {
-        throw BadInput(fmt::format(
-            "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path, found.size()));
-    }
+    refuse_if<BadInput>(found.size() != 1,
+                        "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
+                        found.size());
     return pair_of(found.front(), true);
 }
 
@@ -343,9 +341,8 @@ void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFea
         ++read;
     }
     driver.check(what);
-    if (announced >= 0 && read != announced) {
-        throw IoError(fmt::format("{}: {} of {} features could be read: the file is damaged", what, read, announced));
-    }
+    refuse_if<IoError>(announced >= 0 && read != announced, "{}: {} of {} features could be read: the file is damaged",
+                       what, read, announced);
 }
 
 bool takes_any_lines(Wish const& wish) {
@@ -365,9 +362,8 @@ Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
         return named(*layer, what, "arcs");
     }
     std::vector<OGRLayer*> lines = source.layers();
-    if (wish.whole && (lines.size() != 1 || !may_hold_lines(*lines.front()))) {
-        throw BadInput(what + " has no layer arcs");
-    }
+    refuse_if<BadInput>(wish.whole && (lines.size() != 1 || !may_hold_lines(*lines.front())), "{} has no layer arcs",
+                        what);
     std::erase_if(lines, [](OGRLayer* layer) { return !may_hold_lines(*layer); });
     if (lines.size() > 1) {
         std::vector<OGRLayer*> understood = lines;

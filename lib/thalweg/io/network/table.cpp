@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/table.hpp>
 
 #include <algorithm>
@@ -13,7 +14,6 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 
@@ -200,10 +200,8 @@ void set_shape(OGRFeature& feature, Table const& table, std::size_t row, LayerTa
     }
     std::vector<Vec3> const positions = table.shape_at(row);
     for (Vec3 const& p : positions) {
-        if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
-            throw BadInput(
-                fmt::format("{}: {} {} has a vertex ({}, {}, {})", target.what, table.name, row + 1, p.x, p.y, p.z));
-        }
+        refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
+                            "{}: {} {} has a vertex ({}, {}, {})", target.what, table.name, row + 1, p.x, p.y, p.z);
     }
     if (table.shape == Table::Shape::point) {
         OGRPoint const point(positions.at(0).x, positions.at(0).y, positions.at(0).z);
@@ -283,25 +281,22 @@ constexpr ByEnum<LayerFormat, FileFormat, 4> file_formats{
     {{{"geopackage", "GPKG"}, {"shapefile", "ESRI Shapefile"}, {"flatgeobuf", "FlatGeobuf"}, {"geojson", "GeoJSON"}}}};
 
 void require_code(OGRSpatialReference const* reference, std::string const& what) {
-    if (reference == nullptr || reference->GetAuthorityCode(nullptr) == nullptr) {
-        throw BadInput(what + ": GeoJSON takes coordinates without an EPSG code for degrees: bring the network into a "
-                              "CRS that has one, or write FlatGeobuf");
-    }
+    refuse_if<BadInput>(reference == nullptr || reference->GetAuthorityCode(nullptr) == nullptr,
+                        "{}: GeoJSON takes coordinates without an EPSG code for degrees: bring the network into a CRS "
+                        "that has one, or write FlatGeobuf",
+                        what);
 }
 
 /// A CRS that could not be written, such as the .prj of a shapefile, leaves only a file without one, and no error.
 void require_crs(std::string const& path, OGRSpatialReference const& wanted, std::string const& what) {
     Dataset const written(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR | GDAL_OF_READONLY));
-    if (written == nullptr) {
-        throw IoError(what + " could not be read back");
-    }
+    refuse_if<IoError>(written == nullptr, "{} could not be read back", what);
     for (OGRLayer* const layer : written->GetLayers()) {
         OGRSpatialReference const* const found = layer->GetSpatialRef();
         bool const has_shape = layer->GetGeomType() != wkbNone;
-        if (has_shape && (found == nullptr || found->IsProjected() != wanted.IsProjected() ||
-                          found->IsGeographic() != wanted.IsGeographic())) {
-            throw IoError(what + ": the CRS could not be written");
-        }
+        refuse_if<IoError>(has_shape && (found == nullptr || found->IsProjected() != wanted.IsProjected() ||
+                                         found->IsGeographic() != wanted.IsGeographic()),
+                           "{}: the CRS could not be written", what);
     }
 }
 

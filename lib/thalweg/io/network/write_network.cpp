@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -91,10 +91,8 @@ public:
             return fmt::format("{}", *whole);
         }
         double const real = std::get<double>(value);
-        if (!std::isfinite(real)) {
-            throw BadInput(fmt::format("{}: {} {} has {} = {}, which cannot be written", what_, table.name, row + 1,
-                                       column.name, real));
-        }
+        refuse_if<BadInput>(!std::isfinite(real), "{}: {} {} has {} = {}, which cannot be written", what_, table.name,
+                            row + 1, column.name, real);
         return fmt::format("{:#}", real); // with a point: nobody takes it for an integer
     }
     std::string geometry(std::size_t row) const { return quote_(well_known(graph_.arcs.shape_at(row))); }

@@ -8,7 +8,7 @@
 #include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
@@ -39,11 +39,10 @@ Names names_of(std::string const& text) {
     std::size_t const dot = text.find('.');
     Names names{dot == std::string::npos ? "" : text.substr(0, dot),
                 dot == std::string::npos ? text : text.substr(dot + 1)};
-    if ((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name)) {
-        throw BadParameter(fmt::format("io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in "
-                                       "lower-case letters, digits and _, at most 50",
-                                       text));
-    }
+    refuse_if<BadParameter>((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name),
+                            "io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in lower-case "
+                            "letters, digits and _, at most 50",
+                            text);
     return names;
 }
 
@@ -151,10 +150,10 @@ std::vector<std::string> write_postgis(NetworkTables const& tables, std::string 
     if (!tables.crs.empty()) {
         reference = read_reference(tables.crs);
     }
-    if (!names.schema.empty() &&
-        database.ask(fmt::format("SELECT 1 FROM pg_namespace WHERE nspname = '{}'", names.schema)).empty()) {
-        throw BadInput(fmt::format("{}: the database has no schema {}: create it first", what, names.schema));
-    }
+    refuse_if<BadInput>(
+        !names.schema.empty() &&
+            database.ask(fmt::format("SELECT 1 FROM pg_namespace WHERE nspname = '{}'", names.schema)).empty(),
+        "{}: the database has no schema {}: create it first", what, names.schema);
     for (auto relation = relations.rbegin(); relation != relations.rend(); ++relation) { // the view before its table
         std::string const kind = database.ask(
             fmt::format("SELECT relkind FROM pg_class WHERE oid = to_regclass('{}')", names.full(*relation)));

@@ -12,8 +12,8 @@
 #include <gdal_utils.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/table.hpp>
@@ -63,12 +63,10 @@ void require_few_levels(Raster<float> const& dem, double interval_m) {
             first = false;
         }
     }
-    if ((high - low) / interval_m > most_levels) {
-        throw BadParameter(
-            fmt::format("io.contours: an interval of {} m in a relief of {} m gives more than {} levels: "
-                        "give a larger one",
-                        interval_m, high - low, most_levels));
-    }
+    refuse_if<BadParameter>(
+        (high - low) / interval_m > most_levels,
+        "io.contours: an interval of {} m in a relief of {} m gives more than {} levels: give a larger one", interval_m,
+        high - low, most_levels);
 }
 
 } // namespace
@@ -94,9 +92,7 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
                                                OGRLayer::ToHandle(layer), options.List(), &Watch::step, &watch);
     watch.settle();
     driver.check(what);
-    if (error != CE_None) {
-        throw IoError(what + " failed");
-    }
+    refuse_if<IoError>(error != CE_None, "{} failed", what);
     std::vector<ContourLine> lines;
     for (auto const& feature : *layer) {
         OGRLineString const& drawn_line = *feature->GetGeometryRef()->toLineString();
@@ -107,9 +103,8 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         lines.push_back(std::move(line));
     }
     driver.check(what); // an allocation that fails ends the loop, too
-    if (static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount()) {
-        throw IoError(what + ": contours are missing: free memory");
-    }
+    refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(),
+                       "{}: contours are missing: free memory", what);
     return lines;
 }
 

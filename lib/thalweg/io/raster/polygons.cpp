@@ -14,7 +14,7 @@
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
@@ -248,9 +248,7 @@ Dataset in_memory(Raster<std::int32_t> const& numbers, std::string const& what) 
     require_size(numbers.grid(), what);
     Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
         "", static_cast<int>(numbers.width()), static_cast<int>(numbers.height()), 1, GDT_Int32, nullptr));
-    if (dataset == nullptr) {
-        throw IoError(fmt::format("{}: no memory for {} x {} cells", what, numbers.width(), numbers.height()));
-    }
+    refuse_if<IoError>(dataset == nullptr, "{}: no memory for {} x {} cells", what, numbers.width(), numbers.height());
     set_frame(*dataset, numbers.grid());
     GDALRasterBand& band = *dataset->GetRasterBand(1);
     band.SetNoDataValue(none);
@@ -258,10 +256,10 @@ Dataset in_memory(Raster<std::int32_t> const& numbers, std::string const& what) 
     for (std::int64_t row = 0; row < numbers.height(); ++row) {
         auto const from = numbers.row(row);
         std::transform(from.begin(), from.end(), line.begin(), [](std::int32_t n) { return std::max(n, none); });
-        if (band.RasterIO(GF_Write, 0, static_cast<int>(row), static_cast<int>(numbers.width()), 1, line.data(),
-                          static_cast<int>(numbers.width()), 1, GDT_Int32, 0, 0, nullptr) != CE_None) {
-            throw IoError(what + ": no copy in memory");
-        }
+        refuse_if<IoError>(band.RasterIO(GF_Write, 0, static_cast<int>(row), static_cast<int>(numbers.width()), 1,
+                                         line.data(), static_cast<int>(numbers.width()), 1, GDT_Int32, 0, 0,
+                                         nullptr) != CE_None,
+                           "{}: no copy in memory", what);
     }
     return dataset;
 }
@@ -295,9 +293,7 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
                                         OGRLayer::ToHandle(layer), 0, nullptr, &Watch::step, &watch);
     watch.settle();
     driver.check(what);
-    if (error != CE_None) {
-        throw IoError(what + " failed");
-    }
+    refuse_if<IoError>(error != CE_None, "{} failed", what);
     Indexed<std::int64_t, std::vector<Polygon>> polygons(count);
     for (auto const& feature : *layer) {
         auto const number = feature->GetFieldAsInteger64(0);

@@ -13,7 +13,7 @@
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
@@ -155,16 +155,10 @@ Grid frame_of(GDALDataset& dataset, std::string const& what) {
         return grid;
     }
     auto const [west, dx, skew_x, north, skew_y, dy] = place;
-    if (skew_x != 0.0 || skew_y != 0.0) {
-        throw BadInput(what + " is rotated: warp it to a north-up grid (gdalwarp)");
-    }
-    if (!(dx > 0.0) || !(dy < 0.0)) {
-        throw BadInput(what + " is not north-up: warp it (gdalwarp)");
-    }
-    if (!are_squares(dx, -dy, dataset.GetRasterXSize(), dataset.GetRasterYSize())) {
-        throw BadInput(
-            fmt::format("{} has cells of {} x {}, not squares: warp it (gdalwarp -tr {} {})", what, dx, -dy, dx, dx));
-    }
+    refuse_if<BadInput>(skew_x != 0.0 || skew_y != 0.0, "{} is rotated: warp it to a north-up grid (gdalwarp)", what);
+    refuse_if<BadInput>(!(dx > 0.0) || !(dy < 0.0), "{} is not north-up: warp it (gdalwarp)", what);
+    refuse_if<BadInput>(!are_squares(dx, -dy, dataset.GetRasterXSize(), dataset.GetRasterYSize()),
+                        "{} has cells of {} x {}, not squares: warp it (gdalwarp -tr {} {})", what, dx, -dy, dx, dx);
     grid.west = west;
     grid.north = north;
     grid.cell_m = dx;
@@ -174,9 +168,7 @@ Grid frame_of(GDALDataset& dataset, std::string const& what) {
 void require_memory(Grid const& grid, std::string const& what) {
     double const needed = static_cast<double>(grid.cells()) * sizeof(float);
     double const there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
-    if (needed > there) {
-        throw BadInput(fmt::format("{} of {} x {} cells is larger than memory", what, grid.width, grid.height));
-    }
+    refuse_if<BadInput>(needed > there, "{} of {} x {} cells is larger than memory", what, grid.width, grid.height);
 }
 
 enum class Unit : std::uint8_t { metre, stored };
@@ -201,15 +193,13 @@ Raster<float> read(std::string const& path, Unit wanted, ReadDemParams const& pa
     std::string const what = "io.read_dem: " + path;
     Driver const driver;
     Dataset const dataset = open_file(path, GDAL_OF_RASTER, what);
-    if (dataset->GetRasterCount() != 1) {
-        throw BadInput(fmt::format("{} has {} bands: a DEM has one", what, dataset->GetRasterCount()));
-    }
+    refuse_if<BadInput>(dataset->GetRasterCount() != 1, "{} has {} bands: a DEM has one", what,
+                        dataset->GetRasterCount());
     Grid const grid = frame_of(*dataset, what);
     require_memory(grid, what);
     GDALRasterBand& band = *dataset->GetRasterBand(1);
-    if (GDALDataTypeIsComplex(band.GetRasterDataType()) != 0) {
-        throw BadInput(what + " holds complex numbers, not heights");
-    }
+    refuse_if<BadInput>(GDALDataTypeIsComplex(band.GetRasterDataType()) != 0, "{} holds complex numbers, not heights",
+                        what);
     double const unit = wanted == Unit::metre ? height_unit_of(*dataset) : 1.0;
     double const scale = band.GetScale() * unit;
     double const offset = band.GetOffset() * unit;
@@ -252,9 +242,7 @@ Raster<float> read(std::string const& path, Unit wanted, ReadDemParams const& pa
         undeclared.add_row(heights);
     }
     driver.check(what);
-    if (empty) {
-        throw BadInput(what + " holds no heights, only no-data");
-    }
+    refuse_if<BadInput>(empty, "{} holds no heights, only no-data", what);
     undeclared.require_none(what, path);
     tell_of(taken, params, path, run);
     return dem;
@@ -288,16 +276,13 @@ Mask read_mask(std::string const& path, Grid const& grid, Run const& run) {
     Raster<float> const values = read_dem(path, {.values = CellValues::numbers}, run);
     std::string const what = "io.read_mask: " + path;
     Grid const& own = values.grid();
-    if (!same_cells(own, grid)) {
-        throw BadInput(fmt::format("{} has {} x {} cells of {} from ({}, {}), the grid {} x {} of {} from ({}, {}): a "
-                                   "mask has the grid's cells (gdalwarp -te ... -ts ...)",
-                                   what, own.width, own.height, own.cell_m, own.west, own.north, grid.width,
-                                   grid.height, grid.cell_m, grid.west, grid.north));
-    }
-    if (!same_crs(own.crs, grid.crs, what, "the grid")) {
-        throw BadInput(
-            fmt::format("{} is in {:.60}, the grid in {:.60}: warp it (gdalwarp -t_srs)", what, own.crs, grid.crs));
-    }
+    refuse_if<BadInput>(!same_cells(own, grid),
+                        "{} has {} x {} cells of {} from ({}, {}), the grid {} x {} of {} from ({}, {}): a mask has "
+                        "the grid's cells (gdalwarp -te ... -ts ...)",
+                        what, own.width, own.height, own.cell_m, own.west, own.north, grid.width, grid.height,
+                        grid.cell_m, grid.west, grid.north);
+    refuse_if<BadInput>(!same_crs(own.crs, grid.crs, what, "the grid"),
+                        "{} is in {:.60}, the grid in {:.60}: warp it (gdalwarp -t_srs)", what, own.crs, grid.crs);
     Mask mask(grid);
     for (std::int64_t i = 0; i < mask.cells(); ++i) {
         mask[i] = !std::isnan(values[i]) && values[i] != 0.0F ? 1 : 0;
@@ -346,11 +331,10 @@ Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, st
     double const bytes = (east - west) * (south - north) * sizeof(float);
     double const there = static_cast<double>(sysconf(_SC_PHYS_PAGES)) * static_cast<double>(sysconf(_SC_PAGE_SIZE));
     constexpr double most = std::numeric_limits<int>::max();
-    if (!(bytes <= 0.5 * there && east - west <= most && south - north <= most)) {
-        throw BadInput(fmt::format("{} becomes {:.0f} x {:.0f} cells of {}, more than memory holds: cut a piece out "
-                                   "of it first (gdal_translate -srcwin)",
-                                   what, east - west, south - north, grid.cell_m));
-    }
+    refuse_if<BadInput>(!(bytes <= 0.5 * there && east - west <= most && south - north <= most),
+                        "{} becomes {:.0f} x {:.0f} cells of {}, more than memory holds: cut a piece out of it first "
+                        "(gdal_translate -srcwin)",
+                        what, east - west, south - north, grid.cell_m);
     Grid frame = grid;
     frame.width = static_cast<std::int64_t>(std::max(east - west, 1.0));
     frame.height = static_cast<std::int64_t>(std::max(south - north, 1.0));
@@ -399,10 +383,9 @@ Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::stri
     Raster<float> result(frame);
     int const width = warped->GetRasterXSize();
     int const height = warped->GetRasterYSize();
-    if (warped->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, result.values().data(), width, height,
-                                           GDT_Float32, 0, 0, nullptr) != CE_None) {
-        throw IoError(what + ": the warped heights cannot be read");
-    }
+    refuse_if<IoError>(warped->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, result.values().data(), width,
+                                                          height, GDT_Float32, 0, 0, nullptr) != CE_None,
+                       "{}: the warped heights cannot be read", what);
     driver.check(what);
     return result;
 }

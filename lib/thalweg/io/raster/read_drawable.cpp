@@ -11,8 +11,8 @@
 #include <gdal_utils.h>
 #include <ogr_spatialref.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
@@ -57,9 +57,8 @@ OGRSpatialReference projection_for(GDALDataset& dataset, Frame const& frame, std
     auto const place = [&](double col, double row) {
         double x = frame[0] + col * frame[1] + row * frame[2];
         double y = frame[3] + col * frame[4] + row * frame[5];
-        if (turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y)) {
-            throw BadInput(what + " lies where its CRS has no longitude and latitude; check its position");
-        }
+        refuse_if<BadInput>(turn->Transform(1, &x, &y) == 0 || !std::isfinite(x) || !std::isfinite(y),
+                            "{} lies where its CRS has no longitude and latitude; check its position", what);
         return Vec2{x, y};
     };
     double const width = dataset.GetRasterXSize();
@@ -266,9 +265,7 @@ Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k,
         }
     }
     driver.check(what);
-    if (empty) {
-        throw BadInput(what + " holds no heights, only no-data");
-    }
+    refuse_if<BadInput>(empty, "{} holds no heights, only no-data", what);
     return dem;
 }
 
@@ -320,22 +317,18 @@ StoredNodata stored_nodata_in(GDALDataset& source, ReadDrawableParams const& par
 Dataset with_nodata(GDALDataset& source, double stored, std::string const& what, Driver const& driver) {
     int is_declared = 0;
     double const declared = source.GetRasterBand(1)->GetNoDataValue(&is_declared);
-    if (is_declared != 0 && declared != stored) {
-        throw BadInput(
-            fmt::format("{}: the file declares {:g} as no-data, --nodata names {:g}: draw takes one of them. "
-                        "Join them first (gdal_calc.py, gdalwarp -srcnodata)",
-                        what, declared, stored));
-    }
+    refuse_if<BadInput>(is_declared != 0 && declared != stored,
+                        "{}: the file declares {:g} as no-data, --nodata names {:g}: draw takes one of them. Join them "
+                        "first (gdal_calc.py, gdalwarp -srcnodata)",
+                        what, declared, stored);
     return first_band_of(source, what, driver, {"-a_nodata", fmt::format("{:.17g}", stored)});
 }
 
 void require_heights(GDALDataset& source, std::string const& what) {
-    if (source.GetRasterCount() < 1) {
-        throw BadInput(what + " has no bands of its own: name one of its subdatasets (gdalinfo lists them)");
-    }
-    if (GDALDataTypeIsComplex(source.GetRasterBand(1)->GetRasterDataType()) != 0) {
-        throw BadInput(what + " holds complex numbers, not heights");
-    }
+    refuse_if<BadInput>(source.GetRasterCount() < 1,
+                        "{} has no bands of its own: name one of its subdatasets (gdalinfo lists them)", what);
+    refuse_if<BadInput>(GDALDataTypeIsComplex(source.GetRasterBand(1)->GetRasterDataType()) != 0,
+                        "{} holds complex numbers, not heights", what);
 }
 
 /// The raster as north-up squares of metres, where it is not that already; null where it is. Notes what was done.

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 namespace thalweg::measure {
@@ -498,21 +498,16 @@ std::vector<Check> Certificate::checks() const {
 
 Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims, Run const& run) {
-    if (drainage.direction.grid() != dem.grid()) {
-        throw BadInput("measure.certify: the drainage is not that of this DEM; drain it first");
-    }
-    if (!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size()) {
-        throw BadInput(
-            fmt::format("measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size()));
-    }
+    refuse_if<BadInput>(drainage.direction.grid() != dem.grid(),
+                        "measure.certify: the drainage is not that of this DEM; drain it first");
+    refuse_if<BadInput>(!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size(),
+                        "measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size());
     for (Mask const* const mask : {&claims.still, &claims.drawn, &claims.honoured}) {
-        if (mask->cells() > 0 && mask->grid() != dem.grid()) {
-            throw BadInput("measure.certify: what stands, is drawn or honoured is not on the DEM's grid");
-        }
+        refuse_if<BadInput>(mask->cells() > 0 && mask->grid() != dem.grid(),
+                            "measure.certify: what stands, is drawn or honoured is not on the DEM's grid");
     }
-    if (std::cmp_greater(reaches.size(), std::numeric_limits<std::int32_t>::max())) {
-        throw BadInput("measure.certify: more than 2^31 reaches");
-    }
+    refuse_if<BadInput>(std::cmp_greater(reaches.size(), std::numeric_limits<std::int32_t>::max()),
+                        "measure.certify: more than 2^31 reaches");
     return Certifier(dem, drainage, reaches, claims, run).certify();
 }
 

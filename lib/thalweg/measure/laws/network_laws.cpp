@@ -10,18 +10,16 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/laws/internal/network_laws.hpp>
 
 namespace thalweg::measure {
 namespace {
 
 void require_all(std::size_t arcs, NetworkOrders const& orders, std::vector<double> const& areas) {
-    if (orders.strahler.size() != arcs || areas.size() != arcs) {
-        throw BadInput(fmt::format("measure.horton: {} orders and {} areas for {} arcs; order and measure the network "
-                                   "again",
-                                   orders.strahler.size(), areas.size(), arcs));
-    }
+    refuse_if<BadInput>(orders.strahler.size() != arcs || areas.size() != arcs,
+                        "measure.horton: {} orders and {} areas for {} arcs; order and measure the network again",
+                        orders.strahler.size(), areas.size(), arcs);
     auto const low = std::find_if(orders.strahler.begin(), orders.strahler.end(), [](int s) { return s < 1; });
     if (low != orders.strahler.end()) {
         throw BadInput(fmt::format("measure.horton: arc {} has Strahler order {}; orders begin with 1",
@@ -147,9 +145,8 @@ std::optional<Vec2> chord_up(StreamNetwork const& network, std::size_t arc, doub
 } // namespace
 
 JunctionAngles junction_angles(StreamNetwork const& network, double reach_m) {
-    if (!(reach_m > 0.0) || std::isinf(reach_m)) {
-        throw BadParameter(fmt::format("measure.junction_angles: the reach is {} m; it must be above 0", reach_m));
-    }
+    refuse_if<BadParameter>(!(reach_m > 0.0) || std::isinf(reach_m),
+                            "measure.junction_angles: the reach is {} m; it must be above 0", reach_m);
     JunctionAngles angles;
     angles.reach_m = reach_m;
     std::vector<double> degrees;
@@ -225,11 +222,9 @@ LinkLengths link_lengths(StreamNetwork const& network) {
 std::optional<PowerLaw> hack(StreamNetwork const& network, std::vector<double> const& ds_area_m2,
                              std::vector<double> const& head_m, PowerLawParams const& params) {
     std::size_t const nodes = network.node_count();
-    if (ds_area_m2.size() != network.arc_count() || (!head_m.empty() && head_m.size() != nodes)) {
-        throw BadInput(fmt::format("measure.hack: {} areas for {} arcs and {} heads for {} nodes; measure the network "
-                                   "again",
-                                   ds_area_m2.size(), network.arc_count(), head_m.size(), nodes));
-    }
+    refuse_if<BadInput>(ds_area_m2.size() != network.arc_count() || (!head_m.empty() && head_m.size() != nodes),
+                        "measure.hack: {} areas for {} arcs and {} heads for {} nodes; measure the network again",
+                        ds_area_m2.size(), network.arc_count(), head_m.size(), nodes);
     std::vector<double> longest(nodes, 0.0); // way of water above a node
     std::vector<AtArea> ends(network.arc_count());
     for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) {
@@ -249,11 +244,10 @@ std::optional<PowerLaw> hack(StreamNetwork const& network, std::vector<double> c
 std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params) {
     std::size_t const arcs = network.plan.arc_count();
-    if (areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs || network.arc_z.size() != arcs) {
-        throw BadInput(fmt::format("measure.concavity: {} and {} areas and heights of {} for {} arcs; measure the "
-                                   "network again",
-                                   areas.us_area_m2.size(), areas.ds_area_m2.size(), network.arc_z.size(), arcs));
-    }
+    refuse_if<BadInput>(areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs ||
+                            network.arc_z.size() != arcs,
+                        "measure.concavity: {} and {} areas and heights of {} for {} arcs; measure the network again",
+                        areas.us_area_m2.size(), areas.ds_area_m2.size(), network.arc_z.size(), arcs);
     std::vector<AtArea> slopes;
     slopes.reserve(arcs);
     for (std::size_t a = 0; a < arcs; ++a) {

@@ -8,12 +8,10 @@
 #include <tuple>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::measure {
 namespace {
@@ -217,9 +215,8 @@ std::int64_t nearest_of_ring(Raster<float> const& dem, Cell at, std::int64_t rin
 } // namespace
 
 double isolation(Raster<float> const& dem, std::int64_t cell) {
-    if (cell < 0 || cell >= dem.cells()) {
-        throw BadInput(fmt::format("measure.isolation: cell {} is not one of the DEM's {}", cell, dem.cells()));
-    }
+    refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.isolation: cell {} is not one of the DEM's {}", cell,
+                        dem.cells());
     Cell const at = dem.grid().at(cell);
     std::int64_t const last = std::max({at.col, at.row, dem.width() - 1 - at.col, dem.height() - 1 - at.row});
     std::int64_t nearest = none_yet;

@@ -8,14 +8,12 @@
 #include <span>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::measure {
 namespace {
@@ -130,10 +128,9 @@ void check(GeomorphonParams const& params, Grid const& grid) {
     require_in(self, "search_cells", params.search_cells, Range::between(2, 10000));
     require_in(self, "skip_cells", params.skip_cells, Range::between(0, static_cast<double>(params.search_cells - 1)));
     require_in(self, "flat_deg", params.flat_deg, Range::inside(0.0, 45.0));
-    if (grid.cells() > 0 && !(grid.cell_m > 0.0)) {
-        throw BadInput(fmt::format(
-            "measure.geomorphons: the DEM's cells have a side of {} m; it must be greater than 0", grid.cell_m));
-    }
+    refuse_if<BadInput>(grid.cells() > 0 && !(grid.cell_m > 0.0),
+                        "measure.geomorphons: the DEM's cells have a side of {} m; it must be greater than 0",
+                        grid.cell_m);
 }
 
 struct RowOfExtremes : LocalExtremes {

@@ -16,7 +16,7 @@
 
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::measure {
 
@@ -131,11 +131,9 @@ std::int64_t cells_with_height(Raster<float> const& dem) {
         }
         cells += std::isnan(dem[i]) ? 0 : 1;
     }
-    if (cells == 0) {
-        throw BadInput(fmt::format("measure.hypsometry: none of the {} cells of the DEM has a height; is the no-data "
-                                   "value right?",
-                                   dem.cells()));
-    }
+    refuse_if<BadInput>(cells == 0,
+                        "measure.hypsometry: none of the {} cells of the DEM has a height; is the no-data value right?",
+                        dem.cells());
     return cells;
 }
 

@@ -5,11 +5,9 @@
 #include <algorithm>
 #include <cmath>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::measure {
 namespace {
@@ -34,10 +32,9 @@ double density(flow::FlowField const& drainage, std::int64_t cells, std::int64_t
 
 Relief relief(Raster<float> const& dem, flow::FlowField const& drainage, Statistics const& statistics,
               ReliefParams const& params, Run const& run) {
-    if (statistics.cells + statistics.nodata != dem.cells()) {
-        throw BadInput(fmt::format("measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",
-                                   statistics.cells + statistics.nodata, dem.cells()));
-    }
+    refuse_if<BadInput>(statistics.cells + statistics.nodata != dem.cells(),
+                        "measure.relief: statistics of {} cells for a DEM of {}; measure this DEM",
+                        statistics.cells + statistics.nodata, dem.cells());
     require_in("measure.relief", "support_cells", params.support_cells, Range::at_least(1));
     Relief found;
     found.slope_area = slope_area(dem, drainage, params.slope_area, run);

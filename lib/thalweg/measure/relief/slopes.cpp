@@ -6,13 +6,11 @@
 #include <cmath>
 #include <cstdlib>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {
@@ -125,10 +123,9 @@ Block total_of(std::vector<Block> const& blocks) {
 } // namespace
 
 Slopes slopes(Raster<float> const& dem, Run const& run) {
-    if (dem.cells() > 0 && !(dem.grid().cell_m > 0.0)) {
-        throw BadInput(fmt::format("measure.slopes: the DEM's cells have a side of {} m; it must be greater than 0",
-                                   dem.grid().cell_m));
-    }
+    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
+                        "measure.slopes: the DEM's cells have a side of {} m; it must be greater than 0",
+                        dem.grid().cell_m);
     Slopes found;
     found.percentile_deg.fill(std::numeric_limits<double>::quiet_NaN());
     std::int64_t const rows = std::max<std::int64_t>(dem.height() - 2, 0);
@@ -228,10 +225,9 @@ std::int64_t take_patch(Raster<Ground>& ground, std::int64_t start, std::array<s
 
 LevelPatch level_patch(Raster<float> const& dem, LevelPatchParams const& params, Run const& run) {
     require_in("measure.level_patch", "below_deg", params.below_deg, Range::inside(0.0, 90.0));
-    if (dem.cells() > 0 && !(dem.grid().cell_m > 0.0)) {
-        throw BadInput(fmt::format(
-            "measure.level_patch: the DEM's cells have a side of {} m; it must be greater than 0", dem.grid().cell_m));
-    }
+    refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
+                        "measure.level_patch: the DEM's cells have a side of {} m; it must be greater than 0",
+                        dem.grid().cell_m);
     Raster<Ground> ground = grounds(dem, params.below_deg, run);
     auto const offsets = d8_offsets(dem.grid());
     LevelPatch found;
@@ -272,9 +268,8 @@ std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64
     require_in("measure.perched", "rise_m", rise_m, Range::at_least(0.0));
     std::vector<std::int64_t> found;
     for (std::int64_t const cell : cells) {
-        if (cell < 0 || cell >= dem.cells()) {
-            throw BadInput(fmt::format("measure.perched: cell {} is not one of the DEM's {}", cell, dem.cells()));
-        }
+        refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "measure.perched: cell {} is not one of the DEM's {}",
+                            cell, dem.cells());
         if (static_cast<double>(dem[cell]) - lowest_of_second_ring(dem, dem.grid().at(cell)) > rise_m) {
             found.push_back(cell);
         }

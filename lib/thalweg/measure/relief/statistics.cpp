@@ -12,7 +12,7 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::measure {
 
@@ -127,11 +127,9 @@ double first_height(Raster<float> const& dem) {
                         cell.col, cell.row));
     }
     auto const first = std::find_if(values.begin(), values.end(), [](float z) { return !std::isnan(z); });
-    if (first == values.end()) {
-        throw BadInput(fmt::format("measure.statistics: none of the {} cells of the DEM has a height; is the no-data "
-                                   "value right?",
-                                   dem.cells()));
-    }
+    refuse_if<BadInput>(first == values.end(),
+                        "measure.statistics: none of the {} cells of the DEM has a height; is the no-data value right?",
+                        dem.cells());
     return *first;
 }
 
@@ -180,10 +178,9 @@ void add_moments(Statistics& result, std::vector<RowSums> const& rows) {
 Statistics statistics(Raster<float> const& dem, Run const& run) {
     // Sums count from a height of the DEM: no digits go into an offset, and a plain has a deviation of exactly 0.
     double const datum = first_height(dem);
-    if (!(dem.grid().cell_m > 0.0)) {
-        throw BadInput(fmt::format("measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",
-                                   dem.grid().cell_m));
-    }
+    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
+                        "measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",
+                        dem.grid().cell_m);
     Indexed<RowIndex, RowSums> rows(dem.height());
     auto const for_rows = [&](auto const& add) {
         parallel_ranges(run, dem.height(), rows_a_sum, [&](std::int64_t begin, std::int64_t end) {

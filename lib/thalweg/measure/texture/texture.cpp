@@ -6,13 +6,11 @@
 #include <cmath>
 #include <vector>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg::measure {
@@ -246,11 +244,9 @@ GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams
     if (dem.width() < 2 || dem.height() < 2) {
         return found;
     }
-    if (!(dem.grid().cell_m > 0.0)) {
-        throw BadInput(
-            fmt::format("measure.gradient_texture: the DEM's cells have a side of {} m; it must be greater than 0",
-                        dem.grid().cell_m));
-    }
+    refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
+                        "measure.gradient_texture: the DEM's cells have a side of {} m; it must be greater than 0",
+                        dem.grid().cell_m);
     UnitGradients const unit = unit_gradients(dem, run);
     for (std::size_t lag = 0; lag < texture_lags_m.size(); ++lag) {
         found.correlation[lag] = correlation(unit, texture_lags_m[lag], run);

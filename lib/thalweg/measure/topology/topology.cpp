@@ -6,9 +6,7 @@
 #include <string_view>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/topology/internal/topology_steps.hpp>
 
 namespace thalweg::measure {
@@ -71,10 +69,8 @@ std::vector<std::string> topology_kinds() {
 }
 
 TopologyReport check_topology(NetworkFile const& file, TopologyParams const& params, Run const& run) {
-    if (!(params.near_m >= 0.0) || !is_number(params.near_m)) {
-        throw BadParameter(
-            fmt::format("measure.check_topology: near_m = {}, it must be a distance [m] >= 0", params.near_m));
-    }
+    refuse_if<BadParameter>(!(params.near_m >= 0.0) || !is_number(params.near_m),
+                            "measure.check_topology: near_m = {}, it must be a distance [m] >= 0", params.near_m);
     TopologyReport report;
     Findings& findings = report.findings;
     if (file.arcs.empty()) {
@@ -117,12 +113,10 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
 NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders) {
     std::size_t const nodes = network.plan.node_count();
     std::size_t const arcs = network.plan.arc_count();
-    if (network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||
-        orders.shreve.size() != arcs || orders.arc_basin.size() != arcs) {
-        throw BadInput(fmt::format("measure.as_file: heights or orders are not those of this network of {} arcs and {} "
-                                   "nodes",
-                                   arcs, nodes));
-    }
+    refuse_if<BadInput>(
+        network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||
+            orders.shreve.size() != arcs || orders.arc_basin.size() != arcs,
+        "measure.as_file: heights or orders are not those of this network of {} arcs and {} nodes", arcs, nodes);
     NetworkFile file;
     for (NodeId n = 0; n < nodes; ++n) {
         Vec2 const at = network.plan.node(n).at;
@@ -131,10 +125,8 @@ NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders)
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const& line = network.plan.arc(a).line;
         auto const& z = network.arc_z[a];
-        if (z.size() != line.size()) {
-            throw BadInput(
-                fmt::format("measure.as_file: arc {} has {} vertices but {} heights", a + 1, line.size(), z.size()));
-        }
+        refuse_if<BadInput>(z.size() != line.size(), "measure.as_file: arc {} has {} vertices but {} heights", a + 1,
+                            line.size(), z.size());
         NetworkFile::FileArc arc;
         arc.id = static_cast<std::int64_t>(a) + 1;
         arc.from_node = static_cast<std::int64_t>(network.plan.from(a)) + 1;

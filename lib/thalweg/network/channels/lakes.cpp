@@ -18,8 +18,8 @@
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -94,15 +94,13 @@ constexpr std::int64_t lakes_apart = 3; // [cells]
 
 void check(ChannelsOfArcs const& drawn, std::vector<double> const& area_m2, ChooseLakesParams const& params) {
     require_in("network.choose_lakes", "share", params.share, Range::between(0.0, 1.0));
-    if (!(params.min_area_cells >= 0.0) || params.max_cells < 4) {
-        throw BadParameter(fmt::format("network.choose_lakes: min_area_cells is {} and max_cells {}; they must be at "
-                                       "least 0 and 4",
-                                       params.min_area_cells, params.max_cells));
-    }
-    if (area_m2.size() != drawn.of_arc.size()) {
-        throw BadInput(fmt::format("network.choose_lakes: {} areas for {} arcs; give those of this network",
-                                   area_m2.size(), drawn.of_arc.size()));
-    }
+    refuse_if<BadParameter>(
+        !(params.min_area_cells >= 0.0) || params.max_cells < 4,
+        "network.choose_lakes: min_area_cells is {} and max_cells {}; they must be at least 0 and 4",
+        params.min_area_cells, params.max_cells);
+    refuse_if<BadInput>(area_m2.size() != drawn.of_arc.size(),
+                        "network.choose_lakes: {} areas for {} arcs; give those of this network", area_m2.size(),
+                        drawn.of_arc.size());
 }
 
 class Shores {
@@ -552,9 +550,8 @@ Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::in
 } // namespace
 
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run) {
-    if (labels.grid() != drawn.channels.grid) {
-        throw BadInput("network.flood_lakes: the lakes are not on the grid of the channels; draw them on it");
-    }
+    refuse_if<BadInput>(labels.grid() != drawn.channels.grid,
+                        "network.flood_lakes: the lakes are not on the grid of the channels; draw them on it");
     Raster<std::int32_t> kept = kept_apart(labels);
     for (;;) {
         Lakes lakes(drawn, run);

@@ -12,7 +12,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
@@ -28,9 +28,8 @@ using ChannelFlags = Indexed<ChannelId, std::uint8_t>;
 ChannelFlags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
     ChannelFlags is_gone(channels.cell.size(), 0);
     for (std::int64_t const i : gone) {
-        if (i < 0 || i >= is_gone.count()) {
-            throw BadInput(fmt::format("network.shorten: cell {} of {} channel cells", i, is_gone.size()));
-        }
+        refuse_if<BadInput>(i < 0 || i >= is_gone.count(), "network.shorten: cell {} of {} channel cells", i,
+                            is_gone.size());
         is_gone[i] = 1;
     }
     for (std::size_t i = 0; i < is_gone.size(); ++i) {
@@ -288,10 +287,9 @@ private:
 
 Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std::vector<std::int64_t> const& gone) {
     require_trees(network, "network.shorten");
-    if (drawn.of_arc.size() != network.arc_count()) {
-        throw BadInput(fmt::format("network.shorten: channels of {} arcs for {}; draw this network",
-                                   drawn.of_arc.size(), network.arc_count()));
-    }
+    refuse_if<BadInput>(drawn.of_arc.size() != network.arc_count(),
+                        "network.shorten: channels of {} arcs for {}; draw this network", drawn.of_arc.size(),
+                        network.arc_count());
     ChannelFlags const is_gone = flags_of(gone, drawn.channels);
     Tips tips(network, drawn, is_gone);
     tips.take_off();

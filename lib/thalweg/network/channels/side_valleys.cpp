@@ -11,10 +11,8 @@
 #include <utility>
 #include <vector>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
@@ -389,11 +387,10 @@ std::vector<std::size_t> with_upstream(std::vector<Grown> const& grown, std::vec
 
 void require_one_grid(Channels const& channels, LandWater const& water) {
     Grid const& grid = water.dem.grid();
-    if (water.flow.grid() != grid || water.flow.area_cells.grid() != grid || channels.grid != grid) {
-        throw BadInput(fmt::format("network.side_valleys: channels, land and water lie on several grids, the land's of "
-                                   "{} x {} cells; drain this land",
-                                   grid.width, grid.height));
-    }
+    refuse_if<BadInput>(water.flow.grid() != grid || water.flow.area_cells.grid() != grid || channels.grid != grid,
+                        "network.side_valleys: channels, land and water lie on several grids, the land's of {} x {} "
+                        "cells; drain this land",
+                        grid.width, grid.height);
 }
 
 } // namespace

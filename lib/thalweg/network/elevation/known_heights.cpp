@@ -15,7 +15,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -24,11 +24,10 @@ namespace {
 double height_at(Raster<float> const& dem, Vec2 p) {
     Cell const cell = dem.grid().cell_of(p);
     float const z = dem.grid().contains(cell) ? dem[cell] : std::nanf("");
-    if (!std::isfinite(z)) {
-        throw BadInput(fmt::format("network.drape: the DEM has no height at ({:.3f}, {:.3f}), where a river runs; give "
-                                   "one that covers the network",
-                                   p.x, p.y));
-    }
+    refuse_if<BadInput>(!std::isfinite(z),
+                        "network.drape: the DEM has no height at ({:.3f}, {:.3f}), where a river runs; give one that "
+                        "covers the network",
+                        p.x, p.y);
     return static_cast<double>(z);
 }
 
@@ -40,10 +39,8 @@ Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double
     for (std::size_t a = 0; whole && a < arc_z.size(); ++a) {
         whole = arc_z[a].size() == network.arc(a).line.size() && !arc_z[a].empty();
     }
-    if (!whole) {
-        throw BadInput(
-            fmt::format("network.lower_rises: heights are not one for each vertex of {} arcs", network.arc_count()));
-    }
+    refuse_if<BadInput>(!whole, "network.lower_rises: heights are not one for each vertex of {} arcs",
+                        network.arc_count());
     Lowered lowered{{network, {}, arc_z}, std::vector<double>(arc_z.size(), 0.0)};
     auto& node_z = lowered.network.node_z;
     node_z.assign(network.node_count(), std::numeric_limits<double>::infinity());
@@ -256,10 +253,8 @@ private:
 
 ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land) {
     require_trees(network, "network.elevate_from_dem");
-    if (land.grid() != channels.grid) {
-        throw BadInput("network.elevate_from_dem: the land is not on the grid of the channels; give the land that was "
-                       "made around them");
-    }
+    refuse_if<BadInput>(land.grid() != channels.grid, "network.elevate_from_dem: the land is not on the grid of the "
+                                                      "channels; give the land that was made around them");
     return lower_rises(network, Heights(network, channels, land).filled()).network;
 }
 
@@ -339,10 +334,8 @@ ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const
                 slope.know(given, way_m);
             }
         }
-        if (std::isnan(z.back())) {
-            throw BadInput("network.keep_heights: a river has no height at its source; give the lines Z, or choose "
-                           "another [network] heights");
-        }
+        refuse_if<BadInput>(std::isnan(z.back()), "network.keep_heights: a river has no height at its source; give the "
+                                                  "lines Z, or choose another [network] heights");
         double& end = out.node_z[network.to(a)];
         if (std::isnan(end) || z.back() <= end) {
             end = z.back();

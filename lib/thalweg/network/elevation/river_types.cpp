@@ -9,8 +9,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -88,21 +88,17 @@ Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
 
 RiverTypes assign_types(StreamNetwork const& network, NetworkOrders const& orders, AssignTypesParams const& params,
                         Run const& run) {
-    if (!(params.coast_m >= 0.0)) {
-        throw BadParameter(fmt::format("network.assign_types: coast_m is {} m; it must be 0 or more", params.coast_m));
-    }
-    if (params.by_order.empty()) {
-        throw BadParameter("network.assign_types: by_order names no type; name one at least");
-    }
+    refuse_if<BadParameter>(!(params.coast_m >= 0.0), "network.assign_types: coast_m is {} m; it must be 0 or more",
+                            params.coast_m);
+    refuse_if<BadParameter>(params.by_order.empty(), "network.assign_types: by_order names no type; name one at least");
     require_trees(network, "network.assign_types");
     std::size_t const arcs = network.arc_count();
     bool const fits = orders.strahler.size() == arcs && orders.node_dist_out_m.size() == network.node_count() &&
                       std::ranges::all_of(orders.strahler, [](int w) { return w >= 1; });
-    if (!fits) {
-        throw BadInput(fmt::format("network.assign_types: the orders are not those of a network of {} arcs and {} "
-                                   "nodes; give the orders that network.order returns",
-                                   arcs, network.node_count()));
-    }
+    refuse_if<BadInput>(!fits,
+                        "network.assign_types: the orders are not those of a network of {} arcs and {} nodes; give the "
+                        "orders that network.order returns",
+                        arcs, network.node_count());
     run.check();
 
     int const highest = arcs == 0 ? 1 : *std::ranges::max_element(orders.strahler);

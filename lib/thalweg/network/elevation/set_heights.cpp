@@ -12,7 +12,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -169,10 +169,9 @@ void require(GradedParams const& params) {
 void require_areas(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                    std::vector<double> const& ds_area_m2) {
     std::size_t const arcs = network.arc_count();
-    if (us_area_m2.size() != arcs || ds_area_m2.size() != arcs) {
-        throw BadInput(fmt::format("network.set_heights_graded: {} and {} areas for {} arcs; give one for each end",
-                                   us_area_m2.size(), ds_area_m2.size(), arcs));
-    }
+    refuse_if<BadInput>(us_area_m2.size() != arcs || ds_area_m2.size() != arcs,
+                        "network.set_heights_graded: {} and {} areas for {} arcs; give one for each end",
+                        us_area_m2.size(), ds_area_m2.size(), arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
         for (double const area : {us_area_m2[a], ds_area_m2[a]}) {
             if (!(area >= 0.0) || !std::isfinite(area)) {
@@ -306,11 +305,10 @@ double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                     HeightsByTypeParams const& params, Run const& run) {
     require_raisable(network, "network.set_heights_by_type");
-    if (types.type.size() != network.arc_count()) {
-        throw BadInput(fmt::format(
-            "network.set_heights_by_type: {} types for {} arcs; give the types that network.assign_types returns",
-            types.type.size(), network.arc_count()));
-    }
+    refuse_if<BadInput>(
+        types.type.size() != network.arc_count(),
+        "network.set_heights_by_type: {} types for {} arcs; give the types that network.assign_types returns",
+        types.type.size(), network.arc_count());
     run.check();
 
     std::vector<double> z(network.node_count(), 0.0);

@@ -10,7 +10,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -189,9 +189,7 @@ void require_arcs_at_nodes(NetworkFile const& file, Nodes const& nodes, StreamNe
 } // namespace
 
 FileNetwork from_file(NetworkFile const& file) {
-    if (file.arcs.empty()) {
-        throw BadInput("network.from_file: the file holds no arcs: is it the right layer?");
-    }
+    refuse_if<BadInput>(file.arcs.empty(), "network.from_file: the file holds no arcs: is it the right layer?");
     bool const heights = file.says.heights;
     Nodes nodes(file);
     std::vector<std::size_t> const order = by_id(file.arcs, "arc", file.id_shift);

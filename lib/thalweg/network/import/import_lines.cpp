@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 #include <cmath>
@@ -8,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::network {
@@ -273,9 +273,8 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
 } // namespace
 
 Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
-    if (!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m)) {
-        throw BadParameter(fmt::format("network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m));
-    }
+    refuse_if<BadParameter>(!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m),
+                            "network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m);
     refuse_unusable(file);
     auto lines = file.lines;
     Imported imported;
@@ -301,10 +300,9 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     if (open && snap_m > same_m) {
         import_steps::snap(lines, snap_m, SnappedEnds::open, left, run);
     }
-    if (lines.empty()) {
-        throw BadInput(fmt::format("network.import_lines: every river in {} is shorter than the snapping distance {} m",
-                                   file.name, snap_m));
-    }
+    refuse_if<BadInput>(lines.empty(),
+                        "network.import_lines: every river in {} is shorter than the snapping distance {} m", file.name,
+                        snap_m);
     run.at(0.2, "adopt");
     import_steps::split(lines, run);
     run.at(0.7, "adopt");

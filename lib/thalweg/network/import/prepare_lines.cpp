@@ -10,9 +10,7 @@
 #include <optional>
 #include <utility>
 
-#include <fmt/format.h>
-
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
 
@@ -304,9 +302,7 @@ private:
 } // namespace
 
 FilledHeights fill_heights(RiverLines lines, double slope) {
-    if (!(slope > 0.0)) {
-        throw BadParameter(fmt::format("network.fill_heights: slope {}; give one above 0", slope));
-    }
+    refuse_if<BadParameter>(!(slope > 0.0), "network.fill_heights: slope {}; give one above 0", slope);
     FilledHeights out{std::move(lines), 0, 0};
     Filling filling(out.lines.lines, slope);
     if (filling.open().empty() || !filling.tells_anything()) {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -17,9 +17,8 @@ namespace thalweg::network {
 void require_trees(StreamNetwork const& network, std::string_view who) {
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         // A sum of square roots is a finite number only if every coordinate is one.
-        if (!std::isfinite(network.length_m(a))) {
-            throw BadInput(fmt::format("{}: arc {} has a coordinate that is not a number; mend the line", who, a + 1));
-        }
+        refuse_if<BadInput>(!std::isfinite(network.length_m(a)),
+                            "{}: arc {} has a coordinate that is not a number; mend the line", who, a + 1);
     }
     for (NodeId n = 0; n < network.node_count(); ++n) {
         if (network.out_arcs(n).size() > 1) {
@@ -108,10 +107,8 @@ NetworkOrders order(StreamNetwork const& network) {
 std::vector<std::int64_t> streams(StreamNetwork const& network, NetworkOrders const& orders) {
     require_trees(network, "network.streams");
     std::size_t const arcs = network.arc_count();
-    if (orders.strahler.size() != arcs) {
-        throw BadInput(
-            fmt::format("network.streams: {} orders for {} arcs; order this network", orders.strahler.size(), arcs));
-    }
+    refuse_if<BadInput>(orders.strahler.size() != arcs, "network.streams: {} orders for {} arcs; order this network",
+                        orders.strahler.size(), arcs);
     std::vector<std::size_t> mouth(arcs); // the last arc of the stream
     for (NodeId const n : network.upstream_order()) {
         if (ArcId const a = network.out(n); a != no_arc) {
@@ -142,10 +139,9 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     Indexed<std::int64_t, std::size_t> highest(links, 0); // of those above
     Indexed<std::int64_t, int> equals(links, 0);          // of those above, of the highest order
     for (std::size_t i = links; i-- > 0;) {
-        if (down[i] >= static_cast<std::int64_t>(i)) {
-            throw BadInput(fmt::format("network.count_streams: link {} flows into link {}; number them from the outlet",
-                                       i, down[i]));
-        }
+        refuse_if<BadInput>(down[i] >= static_cast<std::int64_t>(i),
+                            "network.count_streams: link {} flows into link {}; number them from the outlet", i,
+                            down[i]);
         counts.sources += highest[i] == 0 ? 1 : 0;
         order[i] = std::max<std::size_t>(1, highest[i] + (equals[i] > 1 ? 1 : 0));
         orders = std::max(orders, order[i]);

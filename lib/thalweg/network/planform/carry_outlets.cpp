@@ -15,7 +15,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 
@@ -553,12 +553,9 @@ private:
 Carried carry(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, std::int64_t reach_cells,
               CarryParams const& params) {
     require_trees(network, "network.carry_outlets");
-    if (!(params.join_cells >= 0.0 && params.beside_cells >= 0.0)) {
-        throw BadParameter(
-            fmt::format("network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 "
-                        "or more",
-                        params.join_cells, params.beside_cells));
-    }
+    refuse_if<BadParameter>(!(params.join_cells >= 0.0 && params.beside_cells >= 0.0),
+                            "network.carry_outlets: joining costs {} cells, a cell beside a river {}; give 0 or more",
+                            params.join_cells, params.beside_cells);
     Carrying carrying(network, grid, ends, params);
     Carried carried;
     for (NodeId const outlet : outlets_inside(network, grid, ends, reach_cells)) {

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/planform/internal/meander.hpp>
@@ -172,15 +172,12 @@ void check(StreamNetwork const& network, Grid const& grid, std::vector<double> c
     require_in("network.meander", "gain", params.gain, Range::between(0.0, 2.0));
     require_in("network.meander", "gap_cells", params.gap_cells, Range::between(0.5, 4.0));
     require_trees(network, "network.meander");
-    if (area_m2.size() != network.arc_count()) {
-        throw BadInput(fmt::format("network.meander: {} areas for {} arcs; give those of this network", area_m2.size(),
-                                   network.arc_count()));
-    }
+    refuse_if<BadInput>(area_m2.size() != network.arc_count(),
+                        "network.meander: {} areas for {} arcs; give those of this network", area_m2.size(),
+                        network.arc_count());
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        if (!(area_m2[a] >= 0.0) || !std::isfinite(area_m2[a])) {
-            throw BadInput(
-                fmt::format("network.meander: the area of arc {} is {}; it must be 0 or more", a + 1, area_m2[a]));
-        }
+        refuse_if<BadInput>(!(area_m2[a] >= 0.0) || !std::isfinite(area_m2[a]),
+                            "network.meander: the area of arc {} is {}; it must be 0 or more", a + 1, area_m2[a]);
         if (!(network.length_m(a) > 0.0)) {
             Vec2 const at = network.node(network.from(a)).at;
             throw BadInput(

@@ -6,12 +6,10 @@
 #include <cmath>
 #include <limits>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
@@ -69,9 +67,8 @@ double random_turn(std::uint64_t seed) {
 
 Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams const& params) {
     require_in("network.rotate", "turn_deg", params.turn_deg, Range::between(-180.0, 180.0));
-    if (network.arc_count() == 0) {
-        throw BadInput("network.rotate: the network has no arcs; trace or read some rivers first");
-    }
+    refuse_if<BadInput>(network.arc_count() == 0,
+                        "network.rotate: the network has no arcs; trace or read some rivers first");
     require_trees(network, "network.rotate");
     Rotated out{{}, frame};
     NetworkDraft turned = network.draft();
@@ -87,12 +84,10 @@ Rotated rotate(StreamNetwork const& network, Grid const& frame, RotateParams con
     double const wide = (box.high.x - box.low.x) / frame.cell_m;
     double const high = (box.high.y - box.low.y) / frame.cell_m;
     out.grid = grid_around(frame, wide, high);
-    if (wide > static_cast<double>(out.grid.width) || high > static_cast<double>(out.grid.height)) {
-        throw BadInput(
-            fmt::format("network.rotate: the network is {:.1f} x {:.1f} cells when turned by {} degrees, the "
-                        "grid {} x {}; enlarge it, or leave out width and height",
-                        wide, high, params.turn_deg, out.grid.width, out.grid.height));
-    }
+    refuse_if<BadInput>(wide > static_cast<double>(out.grid.width) || high > static_cast<double>(out.grid.height),
+                        "network.rotate: the network is {:.1f} x {:.1f} cells when turned by {} degrees, the grid {} x "
+                        "{}; enlarge it, or leave out width and height",
+                        wide, high, params.turn_deg, out.grid.width, out.grid.height);
     Vec2 const middle{0.5 * (out.grid.west + out.grid.east()), 0.5 * (out.grid.north + out.grid.south())};
     each_position(turned, [&](Vec2& p) {
         p = {rounded(p.x - box.middle().x + middle.x), rounded(p.y - box.middle().y + middle.y)};

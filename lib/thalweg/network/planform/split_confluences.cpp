@@ -11,8 +11,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
@@ -419,10 +419,9 @@ private:
 };
 
 void require(SplitParams const& params, ElevatedNetwork const& network) {
-    if (params.max_upstream < 2) {
-        throw BadParameter(fmt::format("network.split_confluences: max_upstream is {}; a confluence joins at least 2",
-                                       params.max_upstream));
-    }
+    refuse_if<BadParameter>(params.max_upstream < 2,
+                            "network.split_confluences: max_upstream is {}; a confluence joins at least 2",
+                            params.max_upstream);
     require_in("network.split_confluences", "distance", params.distance_m, Range::at_least(0.0), "m");
     require_trees(network.plan, "network.split_confluences");
     bool whole = network.node_z.size() == network.plan.node_count() && network.arc_z.size() == network.plan.arc_count();
@@ -435,9 +434,7 @@ void require(SplitParams const& params, ElevatedNetwork const& network) {
                                        a + 1, twice->x, twice->y));
         }
     }
-    if (!whole) {
-        throw BadInput("network.split_confluences: the heights are not those of this network");
-    }
+    refuse_if<BadInput>(!whole, "network.split_confluences: the heights are not those of this network");
 }
 
 } // namespace

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/vectorise/internal/keep_arcs.hpp>
 
@@ -26,11 +26,10 @@ std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, double 
     for (double const length_m : network.length_m()) {
         total_m += length_m;
     }
-    if (!(total_m / cell_m < 0x1p36)) {
-        throw BadParameter(fmt::format("network.prune: the rivers are {} m long, too long for cells of {} m; give the "
-                                       "cell in metres",
-                                       total_m, cell_m));
-    }
+    refuse_if<BadParameter>(
+        !(total_m / cell_m < 0x1p36),
+        "network.prune: the rivers are {} m long, too long for cells of {} m; give the cell in metres", total_m,
+        cell_m);
     std::vector<std::int64_t> units;
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
         std::vector<Vec2> const& line = network.arc(arc).line;
@@ -175,9 +174,8 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
     require_in("network.prune", "length", params.length_m, Range::at_least(0.0), "m");
     require_in("network.prune", "cell", params.cell_m, Range::above(0.0), "m");
     require_trees(network, "network.prune");
-    if (network.arc_count() == 0) {
-        throw BadInput("network.prune: the network has no arcs; trace or read some rivers first");
-    }
+    refuse_if<BadInput>(network.arc_count() == 0,
+                        "network.prune: the network has no arcs; trace or read some rivers first");
 
     std::vector<std::int64_t> const units = lengths_in_units(network, params.cell_m);
     std::vector<std::int64_t> const persistence = survival(network, Remains(network, units), run);

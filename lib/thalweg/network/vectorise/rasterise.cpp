@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -58,10 +58,9 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 } // namespace
 
 Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
-    if (network.arc_z.size() != network.plan.arc_count()) {
-        throw BadInput(fmt::format("network.rasterise: {} arcs with heights for {}; set the heights again",
-                                   network.plan.arc_count(), network.arc_z.size()));
-    }
+    refuse_if<BadInput>(network.arc_z.size() != network.plan.arc_count(),
+                        "network.rasterise: {} arcs with heights for {}; set the heights again",
+                        network.plan.arc_count(), network.arc_z.size());
     Rasterised out;
     out.valley.z = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
     Raster<float>& z = out.valley.z;
@@ -69,11 +68,9 @@ Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
     for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
         std::vector<Cell> const at = cells_of_vertices(network.plan.arc(a).line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
-        if (height.size() != at.size()) {
-            throw BadInput(
-                fmt::format("network.rasterise: arc {} has {} vertices and {} heights; set the heights again", a + 1,
-                            at.size(), height.size()));
-        }
+        refuse_if<BadInput>(height.size() != at.size(),
+                            "network.rasterise: arc {} has {} vertices and {} heights; set the heights again", a + 1,
+                            at.size(), height.size());
         std::int64_t before = grid.index(at.front());
         for (std::size_t i = 1; i < at.size(); ++i) {
             double const from = height[i - 1];

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -48,10 +48,9 @@ bool is_known(std::vector<double> const& areas) {
 
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
     Raster<float> dem = io::read_dem(params.dem, {.nodata = params.nodata}, run);
-    if (!io::same_crs(dem.grid().crs, crs, "pipeline.convert: " + params.dem, params.path)) {
-        throw BadInput(fmt::format("pipeline.convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})",
-                                   params.dem, dem.grid().crs, params.path, crs, crs));
-    }
+    refuse_if<BadInput>(!io::same_crs(dem.grid().crs, crs, "pipeline.convert: " + params.dem, params.path),
+                        "pipeline.convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})", params.dem,
+                        dem.grid().crs, params.path, crs, crs);
     return dem;
 }
 
@@ -105,9 +104,7 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
     if (dem != nullptr) {
         return dem->grid();
     }
-    if (!(params.cell_m > 0.0)) {
-        throw BadParameter("pipeline.convert: a raster needs cells: give --dem or --cell");
-    }
+    refuse_if<BadParameter>(!(params.cell_m > 0.0), "pipeline.convert: a raster needs cells: give --dem or --cell");
     RiverLines lines{{}, crs, params.path, false};
     for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
         RiverLine line;
@@ -168,19 +165,16 @@ public:
     ConvertOutput(ConvertParams const& params, std::string const& output, io::Existing existing)
         : params_(params), output_(output), existing_(existing), database_(io::is_postgis(output)) {
         if (database_) {
-            if (output == params.path && existing == io::Existing::replace) {
-                throw BadInput(
-                    "pipeline.convert: the output is the input database: name another table and leave out --overwrite");
-            }
+            refuse_if<BadInput>(
+                output == params.path && existing == io::Existing::replace,
+                "pipeline.convert: the output is the input database: name another table and leave out --overwrite");
             return;
         }
         write_ = {io::network_format(params.format, output), params.schema, {}};
         fs::path const path(output);
         folder_ = path.has_parent_path() ? path.parent_path() : fs::path(".");
         std::error_code ignored;
-        if (!path.has_filename()) {
-            throw BadParameter(fmt::format("pipeline.convert: '{}' is not a valid file name", output));
-        }
+        refuse_if<BadParameter>(!path.has_filename(), "pipeline.convert: '{}' is not a valid file name", output);
         if (!fs::is_directory(folder_, ignored)) {
             throw BadInput(fmt::format("pipeline.convert: there is no folder {} for {}", folder_.string(), output));
         }

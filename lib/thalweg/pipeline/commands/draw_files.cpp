@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
@@ -49,21 +49,17 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
     std::unordered_map<std::int64_t, NodeId> nodes;
     for (NetworkFile::FileNode const& node : file.nodes) {
         NodeId const id = plan.add_node({node.at.x, node.at.y});
-        if (!nodes.emplace(node.id, id).second) {
-            throw BadInput(fmt::format("pipeline.read_scene: {}: node {} is there twice; check the network "
-                                       "(thalweg check)",
-                                       name, node.id));
-        }
+        refuse_if<BadInput>(!nodes.emplace(node.id, id).second,
+                            "pipeline.read_scene: {}: node {} is there twice; check the network (thalweg check)", name,
+                            node.id);
         out.node_z.push_back(node.at.z);
     }
     for (NetworkFile::FileArc const& arc : file.arcs) {
         auto const from = nodes.find(arc.from_node);
         auto const to = nodes.find(arc.to_node);
-        if (from == nodes.end() || to == nodes.end() || arc.line.size() < 2) {
-            throw BadInput(fmt::format("pipeline.read_scene: {}: arc {} lacks a node or a line; check the network "
-                                       "(thalweg check)",
-                                       name, arc.id));
-        }
+        refuse_if<BadInput>(from == nodes.end() || to == nodes.end() || arc.line.size() < 2,
+                            "pipeline.read_scene: {}: arc {} lacks a node or a line; check the network (thalweg check)",
+                            name, arc.id);
         Arc drawn;
         std::vector<double> z;
         for (Vec3 const v : arc.line) {
@@ -314,16 +310,12 @@ Order order_of(std::string const& output, DrawParams const& params) {
         add_once(order.formats, format_of(word),
                  [](NamedFormat const& a, NamedFormat const& b) { return a.format == b.format; });
     }
-    if (output.empty()) {
-        throw BadParameter("pipeline.draw_files: the name of the output is empty");
-    }
+    refuse_if<BadParameter>(output.empty(), "pipeline.draw_files: the name of the output is empty");
     fs::path const path(output);
     std::string const ending = path.extension().string();
     if (!fs::is_directory(path) && ending == page_ending) {
-        if (!order.kinds.empty() || !order.formats.empty()) {
-            throw BadParameter(
-                fmt::format("pipeline.draw_files: {} is the name of a page: name a folder for pictures", output));
-        }
+        refuse_if<BadParameter>(!order.kinds.empty() || !order.formats.empty(),
+                                "pipeline.draw_files: {} is the name of a page: name a folder for pictures", output);
         order.page = true;
         order.single = path.filename().string();
         order.folder = path.has_parent_path() ? path.parent_path().string() : ".";
@@ -342,11 +334,9 @@ Order order_of(std::string const& output, DrawParams const& params) {
     NamedFormat const own = format_of(ending.substr(1));
     bool const other = std::any_of(order.formats.begin(), order.formats.end(),
                                    [&](NamedFormat const& f) { return f.format != own.format; });
-    if (order.kinds.size() > 1 || other || order.page) {
-        throw BadParameter(fmt::format("pipeline.draw_files: {} is the name of one picture in one format: name a "
-                                       "folder for several",
-                                       output));
-    }
+    refuse_if<BadParameter>(
+        order.kinds.size() > 1 || other || order.page,
+        "pipeline.draw_files: {} is the name of one picture in one format: name a folder for several", output);
     if (order.kinds.empty()) {
         order.kinds = {PictureKind::map};
     }

@@ -9,7 +9,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/tin.hpp>
@@ -31,19 +31,17 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     if (content.kind == io::FileContent::Kind::raster) {
         return io::read_mask(content.path, grid, run);
     }
-    if (content.kind != io::FileContent::Kind::lines) {
-        throw BadInput(fmt::format("pipeline.make_blend: {} holds points: cells to keep come from lines or a raster on "
-                                   "the target's grid",
-                                   content.path));
-    }
+    refuse_if<BadInput>(
+        content.kind != io::FileContent::Kind::lines,
+        "pipeline.make_blend: {} holds points: cells to keep come from lines or a raster on the target's grid",
+        content.path);
     RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
     io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
     Mask kept = cells_under(network::clip_lines(rivers, grid), grid, content.path);
-    if (std::ranges::find(kept.values(), 1) == kept.values().end()) {
-        throw BadInput(fmt::format("pipeline.make_blend: no line of {} crosses the target, which reaches from "
-                                   "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
-                                   content.path, grid.west, grid.south(), grid.east(), grid.north));
-    }
+    refuse_if<BadInput>(std::ranges::find(kept.values(), 1) == kept.values().end(),
+                        "pipeline.make_blend: no line of {} crosses the target, which reaches from ({:.3f}, {:.3f}) to "
+                        "({:.3f}, {:.3f})",
+                        content.path, grid.west, grid.south(), grid.east(), grid.north);
     return kept;
 }
 
@@ -79,17 +77,13 @@ MeshBox box_of(Tin const& tin) {
 }
 
 void check(MakeBlendTinParams const& params) {
-    if (!(params.scale > 0.0 && std::isfinite(params.scale))) {
-        throw BadParameter(
-            fmt::format("pipeline.make_blend_tin: a scale of {}; it must be greater than 0", params.scale));
-    }
-    if (!std::isfinite(params.gain)) {
-        throw BadParameter(fmt::format("pipeline.make_blend_tin: a gain of {}; it must be finite", params.gain));
-    }
-    if (!(std::fabs(params.rotate_deg) <= 360.0)) {
-        throw BadParameter(fmt::format("pipeline.make_blend_tin: a rotation of {} degrees; it lies in [-360, 360]",
-                                       params.rotate_deg));
-    }
+    refuse_if<BadParameter>(!(params.scale > 0.0 && std::isfinite(params.scale)),
+                            "pipeline.make_blend_tin: a scale of {}; it must be greater than 0", params.scale);
+    refuse_if<BadParameter>(!std::isfinite(params.gain), "pipeline.make_blend_tin: a gain of {}; it must be finite",
+                            params.gain);
+    refuse_if<BadParameter>(!(std::fabs(params.rotate_deg) <= 360.0),
+                            "pipeline.make_blend_tin: a rotation of {} degrees; it lies in [-360, 360]",
+                            params.rotate_deg);
     if (params.at && !(std::isfinite(params.at->x) && std::isfinite(params.at->y))) {
         throw BadParameter(
             fmt::format("pipeline.make_blend_tin: a place of ({}, {}) is not finite", params.at->x, params.at->y));
@@ -124,12 +118,11 @@ MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run) {
             *crs = io::projected_crs(params.source_crs);
         }
     }
-    if (!target.crs.empty() && !patch.crs.empty() &&
-        !io::same_crs(patch.crs, target.crs, "pipeline.make_blend_tin: " + params.source, params.target)) {
-        throw BadInput(fmt::format("pipeline.make_blend_tin: {} is in {}, {} in {}; write both meshes in one CRS "
-                                   "(thalweg tin --crs)",
-                                   params.source, patch.crs, params.target, target.crs));
-    }
+    refuse_if<BadInput>(
+        !target.crs.empty() && !patch.crs.empty() &&
+            !io::same_crs(patch.crs, target.crs, "pipeline.make_blend_tin: " + params.source, params.target),
+        "pipeline.make_blend_tin: {} is in {}, {} in {}; write both meshes in one CRS (thalweg tin --crs)",
+        params.source, patch.crs, params.target, target.crs);
     MeshBox const around_target = box_of(target.tin);
     MeshBox const around_patch = box_of(patch.tin);
     MadeBlendTin made;

@@ -10,7 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/blend/tin.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/polygons.hpp>
@@ -20,20 +20,17 @@
 namespace thalweg::pipeline {
 
 blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
-    if (params.scale == 1.0 && params.handles.empty()) {
-        throw BadParameter("pipeline.make_deform: nothing to do: give a scale or heights to pull to");
-    }
+    refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
+                            "pipeline.make_deform: nothing to do: give a scale or heights to pull to");
     Raster<float> const target = io::read_dem(params.target, {.nodata = params.nodata}, run);
     Grid const& grid = target.grid();
     Mask const region = read_part(params.mask, grid, run);
     std::vector<blend::Handle> handles;
     for (Vec3 const& h : params.handles) {
         Cell const cell = grid.cell_of({h.x, h.y});
-        if (!grid.contains(cell)) {
-            throw BadInput(fmt::format("pipeline.make_deform: ({}, {}) lies outside {}, which reaches from ({}, {}) to "
-                                       "({}, {})",
-                                       h.x, h.y, params.target, grid.west, grid.south(), grid.east(), grid.north));
-        }
+        refuse_if<BadInput>(!grid.contains(cell),
+                            "pipeline.make_deform: ({}, {}) lies outside {}, which reaches from ({}, {}) to ({}, {})",
+                            h.x, h.y, params.target, grid.west, grid.south(), grid.east(), grid.north);
         handles.push_back({cell, h.z});
     }
     run.at(0.0, "deform");
@@ -84,11 +81,9 @@ std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Ve
 /// The CRS of a mesh that names none: its mask's; "" where that has none either.
 std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
     io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
-    if (!mask.crs.empty() && !mask.in_metres) {
-        throw BadInput(fmt::format("pipeline.make_deform_tin: {} is in {:.60}, {} has no CRS: name it (--source-crs "
-                                   "EPSG:n)",
-                                   params.mask, mask.crs, params.target));
-    }
+    refuse_if<BadInput>(!mask.crs.empty() && !mask.in_metres,
+                        "pipeline.make_deform_tin: {} is in {:.60}, {} has no CRS: name it (--source-crs EPSG:n)",
+                        params.mask, mask.crs, params.target);
     if (!mask.crs.empty()) {
         run.say(fmt::format("note: {} has no CRS: it is taken to be in {:.60}, as {}.", params.target, mask.crs,
                             params.mask));
@@ -99,9 +94,8 @@ std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
 } // namespace
 
 DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
-    if (params.scale == 1.0 && params.rotate_deg == 0.0 && params.handles.empty()) {
-        throw BadParameter("pipeline.make_deform_tin: nothing to do: give a scale, a rotation or heights to pull to");
-    }
+    refuse_if<BadParameter>(params.scale == 1.0 && params.rotate_deg == 0.0 && params.handles.empty(),
+                            "pipeline.make_deform_tin: nothing to do: give a scale, a rotation or heights to pull to");
     io::TinFile file = io::read_tin(params.target, run);
     if (file.crs.empty()) {
         file.crs = params.source_crs.empty() ? crs_of_mask(params, run) : io::projected_crs(params.source_crs);
@@ -110,9 +104,8 @@ DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
     std::vector<char> const inside = vertices_inside(tin, io::read_polygons(params.mask, file.crs, run));
     DeformedTin made;
     made.vertices = std::count(inside.begin(), inside.end(), char{1});
-    if (made.vertices == 0) {
-        throw BadInput(fmt::format("pipeline.make_deform_tin: no vertex of {} lies in {}", params.target, params.mask));
-    }
+    refuse_if<BadInput>(made.vertices == 0, "pipeline.make_deform_tin: no vertex of {} lies in {}", params.target,
+                        params.mask);
     bool const turns = params.rotate_deg != 0.0;
     auto const measured = turns ? geometry::Measured::on_surface : geometry::Measured::in_plan;
     blend::LinearMap const map = blend::rotation(params.axis, params.rotate_deg, params.scale);

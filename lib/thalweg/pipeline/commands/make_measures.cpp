@@ -12,8 +12,8 @@
 #include <fmt/ranges.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -69,9 +69,8 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
             wanted.insert(outlines);
         }
     }
-    if (wanted.contains(outlines) && source.network.empty()) {
-        throw BadInput("pipeline.make_measures: catchments need rivers: name a network after the DEM");
-    }
+    refuse_if<BadInput>(wanted.contains(outlines) && source.network.empty(),
+                        "pipeline.make_measures: catchments need rivers: name a network after the DEM");
     return wanted;
 }
 
@@ -204,11 +203,10 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
         io::ReadNetworkParams how = params.read;
         how.crs = dem.grid().crs;
         network = io::read_network(source.network, how, run);
-        if (!network.crs.empty() && dem.grid().crs.empty()) {
-            throw BadInput(fmt::format("pipeline.make_measures: {} has no CRS, {} is in {:.60}: give the DEM its CRS "
-                                       "first (gdal_translate -a_srs)",
-                                       source.dem, source.network, network.crs));
-        }
+        refuse_if<BadInput>(!network.crs.empty() && dem.grid().crs.empty(),
+                            "pipeline.make_measures: {} has no CRS, {} is in {:.60}: give the DEM its CRS first "
+                            "(gdal_translate -a_srs)",
+                            source.dem, source.network, network.crs);
     }
 
     flow::FlowField const drainage = flow::route(dem, run);

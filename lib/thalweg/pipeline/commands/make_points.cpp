@@ -7,10 +7,8 @@
 #include <system_error>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/raster.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -54,10 +52,9 @@ SkeletonOfLand skeleton_of(Raster<float> land, fs::path const& folder, Run const
 MadePoints make_points(MakePointsParams const& params, std::string const& output, Run const& run) {
     std::error_code ignored;
     bool const is_folder = fs::is_directory(params.path, ignored);
-    if (params.of == PointsOf::skeleton && !is_folder) {
-        throw BadParameter(
-            fmt::format("pipeline.make_points: --skeleton needs a folder written by make; {} is not one", params.path));
-    }
+    refuse_if<BadParameter>(params.of == PointsOf::skeleton && !is_folder,
+                            "pipeline.make_points: --skeleton needs a folder written by make; {} is not one",
+                            params.path);
     fs::path const folder(params.path);
     Raster<float> land =
         io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, {.nodata = params.nodata}, run);

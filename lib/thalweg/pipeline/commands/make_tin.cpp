@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -29,17 +29,13 @@ struct Breaklines {
 
 Breaklines read_lines(std::string const& path, std::string const& crs, std::string const& source_crs, Run const& run) {
     io::FileContent const content = io::content_of(path);
-    if (content.kind != Kind::lines) {
-        throw BadInput(fmt::format("pipeline.make_tin: {} holds no lines", path));
-    }
+    refuse_if<BadInput>(content.kind != Kind::lines, "pipeline.make_tin: {} holds no lines", path);
     RiverLines rivers =
         io::read_rivers({.path = content.path, .layer = content.layer, .crs = crs, .source_crs = source_crs}, run);
-    if (!rivers.has_z) {
-        throw BadInput(
-            fmt::format("pipeline.make_tin: the lines of {} have no heights (or all the same): a TIN takes lines "
-                        "with Z, such as layer arcs of a network.gpkg",
-                        content.path));
-    }
+    refuse_if<BadInput>(!rivers.has_z,
+                        "pipeline.make_tin: the lines of {} have no heights (or all the same): a TIN takes lines with "
+                        "Z, such as layer arcs of a network.gpkg",
+                        content.path);
     Breaklines read{{}, rivers.crs};
     for (RiverLine& line : rivers.lines) {
         read.lines.push_back(std::move(line.vertices));
@@ -89,10 +85,9 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
                                        content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
     }
     if (content.kind == Kind::raster) {
-        if (!params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty()) {
-            throw BadParameter("pipeline.make_tin: --breaklines, --crs and --source-crs apply to points and lines, not "
-                               "to a DEM");
-        }
+        refuse_if<BadParameter>(
+            !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty(),
+            "pipeline.make_tin: --breaklines, --crs and --source-crs apply to points and lines, not to a DEM");
         return of_dem(content.path, params, run);
     }
     for (auto const& [option, given] :

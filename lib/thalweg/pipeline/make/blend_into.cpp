@@ -7,7 +7,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -16,12 +16,12 @@ namespace thalweg::pipeline {
 namespace {
 
 Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std::string const& path) {
-    if (w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
-        w.height > source.height() || w.col > source.width() - w.width || w.row > source.height() - w.height) {
-        throw BadInput(fmt::format("pipeline.make_blend: a window of {} x {} cells at column {}, row {} of {}, which "
-                                   "has {} x {}; it must lie within",
-                                   w.width, w.height, w.col, w.row, path, source.width(), source.height()));
-    }
+    refuse_if<BadInput>(w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
+                            w.height > source.height() || w.col > source.width() - w.width ||
+                            w.row > source.height() - w.height,
+                        "pipeline.make_blend: a window of {} x {} cells at column {}, row {} of {}, which has {} x {}; "
+                        "it must lie within",
+                        w.width, w.height, w.col, w.row, path, source.width(), source.height());
     Grid frame = source.grid();
     frame.west += static_cast<double>(w.col) * frame.cell_m;
     frame.north -= static_cast<double>(w.row) * frame.cell_m;
@@ -58,11 +58,10 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
                                    "the target first (gdalwarp -t_srs {:.60})",
                                    whose, target_words, target.crs, io::ground_cell(target).crs));
     }
-    if (io::ground_cell(target).unit != io::GridUnit::metres) {
-        throw BadInput(fmt::format("{} does not overlap {}, whose cells are not in metres, so its size there is "
-                                   "unknown: warp the target (gdalwarp -t_srs)",
-                                   whose, target_words));
-    }
+    refuse_if<BadInput>(io::ground_cell(target).unit != io::GridUnit::metres,
+                        "{} does not overlap {}, whose cells are not in metres, so its size there is unknown: warp the "
+                        "target (gdalwarp -t_srs)",
+                        whose, target_words);
     as.is_elsewhere = true;
     Grid frame = source;
     frame.cell_m = target.cell_m;
@@ -114,11 +113,10 @@ Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
 
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run) {
     Grid const& grid = target.grid();
-    if (params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees) {
-        throw BadInput(fmt::format("pipeline.make_blend: {} is in degrees, so its cells are not square and a patch "
-                                   "cannot be rotated: warp it (gdalwarp -t_srs)",
-                                   params.target));
-    }
+    refuse_if<BadInput>(params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees,
+                        "pipeline.make_blend: {} is in degrees, so its cells are not square and a patch cannot be "
+                        "rotated: warp it (gdalwarp -t_srs)",
+                        params.target);
     PastedSource const source = read_source(params, grid, run);
     blend::PlacePatchParams placing;
     placing.rotate_deg = params.rotate_deg;

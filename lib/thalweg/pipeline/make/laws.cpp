@@ -5,7 +5,7 @@
 #include <algorithm>
 #include <cmath>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -39,9 +39,7 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
     auto const ways = drainage.direction.values();
     auto const land =
         std::count_if(ways.begin(), ways.end(), [](flow::Direction d) { return d != flow::Direction::no_data; });
-    if (land == 0) {
-        throw BadInput("pipeline.laws_of_dem: no cell of the DEM has data");
-    }
+    refuse_if<BadInput>(land == 0, "pipeline.laws_of_dem: no cell of the DEM has data");
     DemLaws found;
     found.as_dense = params.network_m > 0.0;
     found.support_cells =

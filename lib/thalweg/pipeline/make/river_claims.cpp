@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 
 namespace thalweg::pipeline {
@@ -266,11 +266,10 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
         result.outside += none ? 1 : 0;
         result.cut += leaves[i] && !none ? 1 : 0;
     }
-    if (result.outside == static_cast<std::int64_t>(result.reaches.size())) {
-        throw BadInput(fmt::format("pipeline.reaches_of_file: none of {} arcs lies on the DEM, which reaches from "
-                                   "({:.3f}, {:.3f}) to ({:.3f}, {:.3f})",
-                                   file.arcs.size(), grid.west, grid.south(), grid.east(), grid.north));
-    }
+    refuse_if<BadInput>(result.outside == static_cast<std::int64_t>(result.reaches.size()),
+                        "pipeline.reaches_of_file: none of {} arcs lies on the DEM, which reaches from ({:.3f}, "
+                        "{:.3f}) to ({:.3f}, {:.3f})",
+                        file.arcs.size(), grid.west, grid.south(), grid.east(), grid.north);
     result.basins = basins_of(file, result.reaches, first_arc);
     return result;
 }

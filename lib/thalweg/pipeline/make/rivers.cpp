@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/make/internal/rivers.hpp>
 
 #include <algorithm>
@@ -8,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
@@ -74,10 +74,9 @@ RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Ru
     if (!bends_rivers(plan)) {
         return planned;
     }
-    if (planned.file_heights) {
-        throw BadParameter("network.meander cannot bend rivers whose heights come from their file; set "
-                           "network.heights = \"graded\" or leave meander out");
-    }
+    refuse_if<BadParameter>(planned.file_heights.has_value(),
+                            "network.meander cannot bend rivers whose heights come from their "
+                            "file; set network.heights = \"graded\" or leave meander out");
     flow::ContributingAreas const areas = flow::areas_nearest(planned.network, planned.grid, run);
     network::MeanderParams const params{.gain = *plan.recipe.network->meander, .seed = plan.recipe.seed};
     network::Meandered bent = diary.stage("meander", [&] {

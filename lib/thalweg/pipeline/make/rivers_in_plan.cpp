@@ -8,7 +8,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
@@ -166,9 +166,7 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run
     std::int64_t const all = placed + dropped;
     std::string const found = fmt::format("{} of {} links found no room on {} x {} cells: {}", dropped, all, grid.width,
                                           grid.height, more_room);
-    if (2 * placed < all || placed == 0) {
-        throw BadInput("[network.tokunaga]: " + found);
-    }
+    refuse_if<BadInput>(2 * placed < all || placed == 0, "[network.tokunaga]: {}", found);
     if (10 * placed < 9 * all) {
         run.say("warning: [network.tokunaga]: " + found);
     }

@@ -10,8 +10,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/memory.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
 namespace thalweg::pipeline {
@@ -78,14 +78,12 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
     if (wanted.width == 0) {
         double const width = std::ceil((box.east + margin - grid.west) / cell);
         double const height = std::ceil((grid.north - (box.south - margin)) / cell);
-        if (!(width >= 1.0 && height >= 1.0)) {
-            throw BadInput(fmt::format("grid.origin = [{}, {}] lies beyond {} (west {:.0f}, north {:.0f})", grid.west,
-                                       grid.north, what, box.west, box.north));
-        }
-        if (width > 1e6 || height > 1e6) {
-            throw BadInput(fmt::format("grid: {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell", what,
-                                       width, height, cell));
-        }
+        refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0),
+                            "grid.origin = [{}, {}] lies beyond {} (west {:.0f}, north {:.0f})", grid.west, grid.north,
+                            what, box.west, box.north);
+        refuse_if<BadInput>(width > 1e6 || height > 1e6,
+                            "grid: {} span {:.0f} x {:.0f} cells of {} m: give a larger grid.cell", what, width, height,
+                            cell);
         grid.width = static_cast<std::int64_t>(width);
         grid.height = static_cast<std::int64_t>(height);
     }
@@ -95,12 +93,10 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
 
 /// Throws BadInput where a place lies outside the grid. what: "river 7 in walker.gpkg".
 void require_inside(Grid const& grid, double x, double y, std::string const& what) {
-    if (!(x >= grid.west && x < grid.east() && y > grid.south() && y <= grid.north)) {
-        throw BadInput(
-            fmt::format("grid: {} runs outside the grid at ({:.1f}, {:.1f}): the grid spans {:.1f} to {:.1f} east and "
+    refuse_if<BadInput>(!(x >= grid.west && x < grid.east() && y > grid.south() && y <= grid.north),
+                        "grid: {} runs outside the grid at ({:.1f}, {:.1f}): the grid spans {:.1f} to {:.1f} east and "
                         "{:.1f} to {:.1f} north. Enlarge it, leave width and height out, or set grid.clip = true.",
-                        what, x, y, grid.west, grid.east(), grid.south(), grid.north));
-    }
+                        what, x, y, grid.west, grid.east(), grid.south(), grid.north);
 }
 
 /// Throws BadInput where that much memory is not free.
@@ -269,12 +265,10 @@ void require_no_stray_vertex(RiverLines const& lines) {
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name) {
     for (std::size_t i = 0; i < points.points.size(); ++i) {
         Vec3 const& p = points.points[i];
-        if (p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north) {
-            throw BadInput(
-                fmt::format("skeleton.points = \"{}\": point {} at ({:.3f}, {:.3f}) lies off the grid, which "
-                            "reaches from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or remove it",
-                            name, i + 1, p.x, p.y, grid.west, grid.south(), grid.east(), grid.north));
-        }
+        refuse_if<BadInput>(p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north,
+                            "skeleton.points = \"{}\": point {} at ({:.3f}, {:.3f}) lies off the grid, which reaches "
+                            "from ({:.3f}, {:.3f}) to ({:.3f}, {:.3f}); widen the grid or remove it",
+                            name, i + 1, p.x, p.y, grid.west, grid.south(), grid.east(), grid.north);
     }
 }
 
@@ -298,11 +292,10 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted) {
         if (wanted.width == 0) {
             double const columns = std::ceil((east + margin - grid.west) / cell);
             double const rows = std::ceil((grid.north - south + margin) / cell);
-            if (!(columns < 1e6) || !(rows < 1e6)) {
-                throw BadInput(fmt::format("grid: the points span {:.0f} x {:.0f} m, {:.3g} x {:.3g} cells of {} m: "
-                                           "give a larger grid.cell or a grid",
-                                           east - west, north - south, columns, rows, cell));
-            }
+            refuse_if<BadInput>(!(columns < 1e6) || !(rows < 1e6),
+                                "grid: the points span {:.0f} x {:.0f} m, {:.3g} x {:.3g} cells of {} m: give a larger "
+                                "grid.cell or a grid",
+                                east - west, north - south, columns, rows, cell);
             grid.width = std::max<std::int64_t>(1, static_cast<std::int64_t>(columns));
             grid.height = std::max<std::int64_t>(1, static_cast<std::int64_t>(rows));
         }

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
 #include <algorithm>
@@ -11,7 +12,6 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
@@ -119,16 +119,13 @@ std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cel
 std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<Finding>& notes, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
-    if (wanted.seeds > 0) {
-        throw BadInput(
-            fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
-                        wanted.outlets));
-    }
-    if (wanted.outlet_spacing_cells > 0 && recipe.set_at.contains("network.forest.outlet_spacing")) {
-        throw BadInput(fmt::format("network.forest.outlets = \"{}\" holds points, each an outlet; leave "
-                                   "network.forest.outlet_spacing out",
-                                   wanted.outlets));
-    }
+    refuse_if<BadInput>(wanted.seeds > 0,
+                        "network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.seeds out",
+                        wanted.outlets);
+    refuse_if<BadInput>(
+        wanted.outlet_spacing_cells > 0 && recipe.set_at.contains("network.forest.outlet_spacing"),
+        "network.forest.outlets = \"{}\" holds points, each an outlet; leave network.forest.outlet_spacing out",
+        wanted.outlets);
     io::ReadPointsParams params;
     params.path = file_in(recipe, wanted.outlets);
     params.crs = grid.crs;
@@ -175,11 +172,10 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
         reach = wanted.spacing_cells; // coasts are drawn in more or less detail
     }
     std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);
-    if (coast.empty()) {
-        throw BadInput(fmt::format("network.forest.outlets: no coast of the land lies within {} cells of {}; give "
-                                   "outlets on the coast, or the region whose coast they lie on",
-                                   reach, wanted.outlets));
-    }
+    refuse_if<BadInput>(coast.empty(),
+                        "network.forest.outlets: no coast of the land lies within {} cells of {}; give outlets on the "
+                        "coast, or the region whose coast they lie on",
+                        reach, wanted.outlets);
     return coast;
 }
 
@@ -219,11 +215,10 @@ ForestLand forest_land(Recipe const& recipe, Diary& diary, Run const& run) {
 void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
     double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
     double const kept = std::max(spacing_cells, 1.0);
-    if (links > 1 && apart < 0.5 * kept) {
-        throw BadInput(fmt::format("[network.tokunaga]: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} "
-                                   "cells from one another: {}",
-                                   links, grid.width, grid.height, apart, kept, more_room));
-    }
+    refuse_if<BadInput>(
+        links > 1 && apart < 0.5 * kept,
+        "[network.tokunaga]: {} links on {} x {} cells lie {:.2g} cells apart, and keep {} cells from one another: {}",
+        links, grid.width, grid.height, apart, kept, more_room);
 }
 
 } // namespace
@@ -317,9 +312,7 @@ Plan plan_forest(Recipe recipe, Diary& diary, Run const& run) {
 /// Lines in their grid.
 RiverLines clipped(RiverLines lines, Grid const& grid) {
     lines = network::clip_lines(lines, grid);
-    if (lines.lines.empty()) {
-        throw BadInput(fmt::format("grid: no river of {} runs inside the grid", lines.name));
-    }
+    refuse_if<BadInput>(lines.lines.empty(), "grid: no river of {} runs inside the grid", lines.name);
     return lines;
 }
 
@@ -341,10 +334,9 @@ Plan plan_lines(Recipe recipe, Diary& diary, Run const& run) {
         plan.heights_of_file = true;
         plan.recipe.network->heights = Heights::file;
     }
-    if (plan.recipe.network->heights == Heights::file && !plan.lines.has_z) {
-        throw BadInput(fmt::format("network.heights = \"file\", but {} has lines without Z; choose other heights",
-                                   plan.lines.name));
-    }
+    refuse_if<BadInput>(plan.recipe.network->heights == Heights::file && !plan.lines.has_z,
+                        "network.heights = \"file\", but {} has lines without Z; choose other heights",
+                        plan.lines.name);
     return plan;
 }
 

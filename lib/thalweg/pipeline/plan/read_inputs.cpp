@@ -12,7 +12,7 @@
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
@@ -67,10 +67,9 @@ Mask read_mask_of_land(std::string const& path, Grid const& grid) {
         return {};
     }
     Raster<float> const given = io::read_dem(path, {.values = io::CellValues::numbers});
-    if (given.width() != grid.width || given.height() != grid.height) {
-        throw BadInput(fmt::format("surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", path, given.width(),
-                                   given.height(), grid.width, grid.height));
-    }
+    refuse_if<BadInput>(given.width() != grid.width || given.height() != grid.height,
+                        "surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", path, given.width(), given.height(),
+                        grid.width, grid.height);
     Mask inside(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         inside[i] = !std::isnan(given[i]) && given[i] != 0.0F ? 1 : 0;

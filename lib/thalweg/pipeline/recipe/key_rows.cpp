@@ -10,8 +10,8 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -140,9 +140,8 @@ bool as_yes_no(Value const& v) {
 
 std::string const& as_short_text(Value const& v) {
     std::string const& s = as_text(v);
-    if (s.size() > 4096 || s.find('\0') != std::string::npos) {
-        throw BadParameter("the text is too long or holds a null byte");
-    }
+    refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos,
+                            "the text is too long or holds a null byte");
     return s;
 }
 

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
@@ -109,11 +109,9 @@ void put_statistics(DemRecipe& made, measure::Statistics const& s) {
 } // namespace
 
 DemRecipe recipe_of_dem(Raster<float> const& dem, measure::Statistics const& statistics, std::string const& source) {
-    if (!(statistics.min.z < statistics.max.z)) {
-        throw BadInput(
-            fmt::format("pipeline.recipe_of_dem: every height of {} is {} m: a flat DEM has no statistics to match",
-                        source, statistics.max.z));
-    }
+    refuse_if<BadInput>(!(statistics.min.z < statistics.max.z),
+                        "pipeline.recipe_of_dem: every height of {} is {} m: a flat DEM has no statistics to match",
+                        source, statistics.max.z);
     DemRecipe made;
     made.notes.push_back(
         in_one_line(fmt::format("Terrain with the statistics of {}, measured on {} cells.", source, statistics.cells)));

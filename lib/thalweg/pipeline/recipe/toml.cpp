@@ -9,8 +9,8 @@
 #include <fmt/ranges.h>
 #include <toml++/toml.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
@@ -184,16 +184,13 @@ bool is_too_large(toml::parse_error const& fault) {
 void require_modest(std::string const& toml, std::string const& name) {
     constexpr std::size_t most_bytes = 1 << 20;
     constexpr std::size_t longest_line = 8192;
-    if (toml.size() > most_bytes) {
-        throw BadParameter(fmt::format("pipeline.read_recipe: {}: a recipe has at most {} bytes, this has {}", name,
-                                       most_bytes, toml.size()));
-    }
+    refuse_if<BadParameter>(toml.size() > most_bytes,
+                            "pipeline.read_recipe: {}: a recipe has at most {} bytes, this has {}", name, most_bytes,
+                            toml.size());
     for (std::size_t begin = 0, line = 1; begin < toml.size(); ++line) {
         std::size_t const end = std::min(toml.find('\n', begin), toml.size());
-        if (end - begin > longest_line) {
-            throw BadParameter(
-                fmt::format("pipeline.read_recipe: {}: line {} is longer than {} bytes", name, line, longest_line));
-        }
+        refuse_if<BadParameter>(end - begin > longest_line, "pipeline.read_recipe: {}: line {} is longer than {} bytes",
+                                name, line, longest_line);
         begin = end + 1;
     }
     constexpr std::size_t most_levels = 32;
@@ -383,24 +380,18 @@ std::string from_here(Recipe const& recipe, std::string const& name) {
 /// What a text without quotes means to a key.
 Value value_for(Key const& key, Recipe const& recipe, std::string const& text) {
     constexpr std::size_t longest = 200;
-    if (!is_utf8(text)) {
-        throw BadParameter("the value is not UTF-8");
-    }
+    refuse_if<BadParameter>(!is_utf8(text), "the value is not UTF-8");
     if (key.help.type == "text") {
         return key.help.is_file ? from_here(recipe, text) : text;
     }
-    if (text.size() > longest) {
-        throw BadParameter("the value is too long");
-    }
+    refuse_if<BadParameter>(text.size() > longest, "the value is too long");
     return value_in_toml(text);
 }
 
 void assign(Recipe& recipe, Key const& key, std::optional<std::size_t> item, std::string const& text) {
     Value const value = value_for(key, recipe, text);
     std::size_t const count = key.part->count(recipe);
-    if (item && *item > count) {
-        throw BadParameter(fmt::format("the recipe has {} patches", count));
-    }
+    refuse_if<BadParameter>(item && *item > count, "the recipe has {} patches", count);
     key.put(recipe, value, item);
     recipe.set_at[key.place(item.value_or(key.part->count(recipe) - 1))] = "--set";
 }

@@ -13,7 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/gdal/packed.hpp>
@@ -47,11 +47,10 @@ std::vector<double> means(Raster<float> const& dem, PageHeights const& page, Run
         for (std::int64_t r = value_row * page.cells; r < end; ++r) {
             auto const row = dem.row(r);
             for (std::size_t c = 0; c < row.size(); ++c) {
-                if (std::isinf(row[c])) {
-                    throw BadInput(fmt::format("pipeline.page_heights: the height at column {}, row {} is infinite; "
-                                               "mark cells without data as NaN",
-                                               c, r));
-                }
+                refuse_if<BadInput>(std::isinf(row[c]),
+                                    "pipeline.page_heights: the height at column {}, row {} is infinite; mark cells "
+                                    "without data as NaN",
+                                    c, r);
                 if (!std::isnan(row[c])) {
                     sum[c / side] += static_cast<double>(row[c]);
                     ++count[c / side];
@@ -187,10 +186,8 @@ bool on_the_way(Point a, Point b, Point c) {
 }
 
 std::vector<Point> points_of(std::span<Vec2 const> line, Grid const& grid, double step_m, std::size_t number) {
-    if (line.size() < 2) {
-        throw BadInput(
-            fmt::format("pipeline.page_lines: line {} has {} vertices; give two or more", number, line.size()));
-    }
+    refuse_if<BadInput>(line.size() < 2, "pipeline.page_lines: line {} has {} vertices; give two or more", number,
+                        line.size());
     std::vector<Point> points;
     for (std::size_t i = 0; i < line.size(); ++i) {
         double const x = std::floor((line[i].x - grid.west) / step_m + 0.5);
@@ -396,9 +393,7 @@ Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& 
 
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run) {
-    if (!scene.dem) {
-        throw BadInput("pipeline.scene_page: there is no DEM to show");
-    }
+    refuse_if<BadInput>(!scene.dem, "pipeline.scene_page: there is no DEM to show");
     Made made;
     made.recipe.output.title = scene.title;
     made.terrain = terrain_of(scene, run);

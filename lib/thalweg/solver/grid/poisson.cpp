@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/grid/internal/poisson.hpp>
 
 #include <cmath>
@@ -9,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>
 
@@ -115,12 +115,11 @@ Contents contents(GridProblem const& problem, Run const& run) {
 void demand_one_frame(GridProblem const& problem, char const* stage) {
     Grid const& grid = problem.kind.grid();
     auto const fits = [&](Grid const& other) { return other.width == grid.width && other.height == grid.height; };
-    if (!fits(problem.value.grid()) || (problem.source.cells() > 0 && !fits(problem.source.grid()))) {
-        throw BadInput(fmt::format("{}: kinds of {} x {} cells, values of {} x {}, a source of {} x {}; the three must "
-                                   "have one frame",
-                                   stage, grid.width, grid.height, problem.value.width(), problem.value.height(),
-                                   problem.source.width(), problem.source.height()));
-    }
+    refuse_if<BadInput>(
+        !fits(problem.value.grid()) || (problem.source.cells() > 0 && !fits(problem.source.grid())),
+        "{}: kinds of {} x {} cells, values of {} x {}, a source of {} x {}; the three must have one frame", stage,
+        grid.width, grid.height, problem.value.width(), problem.value.height(), problem.source.width(),
+        problem.source.height());
 }
 
 void demand_solvable(GridProblem const& problem, Contents const& all, char const* stage, Run const& run) {
@@ -296,15 +295,13 @@ constexpr std::int64_t block_rows = 32;
 constexpr int sweeps_a_pass = 4; // what a block loses by the rows around it, it gains by staying in the cache
 
 void demand(GridProblem const& problem, ExplicitParams const& params) {
-    if (!(params.alpha > 0.0 && params.alpha <= 0.25)) {
-        throw BadParameter(fmt::format("solver.relax_explicit: alpha is {}; it must be greater than 0 and at most 1/4, "
-                                       "for beyond it sweeps make the differences between cells grow",
-                                       params.alpha));
-    }
+    refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25),
+                            "solver.relax_explicit: alpha is {}; it must be greater than 0 and at most 1/4, for beyond "
+                            "it sweeps make the differences between cells grow",
+                            params.alpha);
     require_in("solver.relax_explicit", "sweeps", params.sweeps, Range::at_least(0));
-    if (problem.source.cells() > 0) {
-        throw BadInput("solver.relax_explicit: the problem has a source; solve_poisson takes one");
-    }
+    refuse_if<BadInput>(problem.source.cells() > 0,
+                        "solver.relax_explicit: the problem has a source; solve_poisson takes one");
 }
 
 /// A block of rows and those around it, before and after a sweep.
@@ -375,11 +372,9 @@ void sweep(ColouredProblem& problem, ExplicitParams const& params, GridRows cons
 GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, Run const& run) {
     demand(problem, params);
     Contents const contents = look_through(problem, "solver.relax_explicit", run);
-    if (contents.unknown > 0) {
-        throw BadInput(fmt::format("solver.relax_explicit: {} free cells have no finite value; each needs one to start "
-                                   "from",
-                                   contents.unknown));
-    }
+    refuse_if<BadInput>(contents.unknown > 0,
+                        "solver.relax_explicit: {} free cells have no finite value; each needs one to start from",
+                        contents.unknown);
     GridSolution solution;
     if (contents.free > 0) {
         GridRows const& rows = grid_rows(widest_lanes());

@@ -13,7 +13,7 @@
 #include <Eigen/SparseCholesky>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::solver {
 namespace {
@@ -29,14 +29,13 @@ MatrixXd matrix_of(Matrix const& a) {
 }
 
 void demand(Matrix const& a, std::vector<double> const& b) {
-    if (a.rows != b.size() || a.columns == 0 || a.values.size() != a.rows * a.columns) {
-        throw BadInput(fmt::format("solver.least_squares: {} x {} matrix with {} values for {} right sides", a.rows,
-                                   a.columns, a.values.size(), b.size()));
-    }
+    refuse_if<BadInput>(a.rows != b.size() || a.columns == 0 || a.values.size() != a.rows * a.columns,
+                        "solver.least_squares: {} x {} matrix with {} values for {} right sides", a.rows, a.columns,
+                        a.values.size(), b.size());
     auto const finite = [](double v) { return std::isfinite(v); };
-    if (!std::all_of(a.values.begin(), a.values.end(), finite) || !std::all_of(b.begin(), b.end(), finite)) {
-        throw BadInput("solver.least_squares: matrix or right side holds a value that is not a number");
-    }
+    refuse_if<BadInput>(!std::all_of(a.values.begin(), a.values.end(), finite) ||
+                            !std::all_of(b.begin(), b.end(), finite),
+                        "solver.least_squares: matrix or right side holds a value that is not a number");
 }
 
 Solution finished(MatrixXd const& a, VectorXd const& b, VectorXd const& x, Index rank) {
@@ -81,9 +80,8 @@ VectorXd least_on_sphere(MatrixXd const& s, VectorXd const& g, double tau) {
 std::vector<Index> unbound_columns(std::size_t columns, std::vector<std::size_t> const& unknowns) {
     std::vector<bool> bound(columns, false);
     for (std::size_t const column : unknowns) {
-        if (column >= columns || bound[column]) {
-            throw BadParameter(fmt::format("solver.least_squares_on_sphere: column {} of {}", column, columns));
-        }
+        refuse_if<BadParameter>(column >= columns || bound[column], "solver.least_squares_on_sphere: column {} of {}",
+                                column, columns);
         bound[column] = true;
     }
     std::vector<Index> others;
@@ -117,11 +115,10 @@ Solution least_squares(Matrix const& a, std::vector<double> const& b) {
 Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, Sphere const& sphere) {
     demand(a, b);
     auto const p = static_cast<Index>(sphere.unknowns.size());
-    if (!(sphere.tau > 0.0) || p == 0 || sphere.form.rows != sphere.unknowns.size() ||
-        sphere.form.columns != sphere.unknowns.size()) {
-        throw BadParameter(fmt::format("solver.least_squares_on_sphere: {} unknowns with a {} x {} form and tau {}", p,
-                                       sphere.form.rows, sphere.form.columns, sphere.tau));
-    }
+    refuse_if<BadParameter>(!(sphere.tau > 0.0) || p == 0 || sphere.form.rows != sphere.unknowns.size() ||
+                                sphere.form.columns != sphere.unknowns.size(),
+                            "solver.least_squares_on_sphere: {} unknowns with a {} x {} form and tau {}", p,
+                            sphere.form.rows, sphere.form.columns, sphere.tau);
     MatrixXd const all = matrix_of(a);
     VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
     std::vector<Index> const others = unbound_columns(a.columns, sphere.unknowns);
@@ -144,9 +141,8 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
         rest_right -= free * qr.solve(right);
     }
     Eigen::LLT<MatrixXd> const form(matrix_of(sphere.form));
-    if (form.info() != Eigen::Success) {
-        throw BadParameter("solver.least_squares_on_sphere: the form is not positive definite");
-    }
+    refuse_if<BadParameter>(form.info() != Eigen::Success,
+                            "solver.least_squares_on_sphere: the form is not positive definite");
     // With u = L' y the condition is |u| = tau.
     auto const l = form.matrixL();
     // Lazy products: the blocks of others follow the processor's caches, and with them the order of sums.
@@ -183,12 +179,10 @@ Cholesky factor(std::vector<double> matrix, std::size_t size, double ridge, Run 
     for (std::size_t k = 0; k < size; ++k) {
         run.check();
         double const pivot = matrix[k * size + k];
-        if (!(pivot > 0.0)) {
-            throw NotConverged(
-                fmt::format("solver.factor: the matrix of {0} x {0} numbers is not positive definite: pivot {1} "
-                            "is {2}; are two of its rows alike?",
-                            size, k, pivot));
-        }
+        refuse_if<NotConverged>(!(pivot > 0.0),
+                                "solver.factor: the matrix of {0} x {0} numbers is not positive definite: pivot {1} is "
+                                "{2}; are two of its rows alike?",
+                                size, k, pivot);
         double const root = std::sqrt(pivot);
         matrix[k * size + k] = root;
         for (std::size_t i = k + 1; i < size; ++i) {
@@ -234,17 +228,15 @@ struct SparseFactor::Factor {
 
 SparseFactor::SparseFactor(std::size_t size, std::vector<SparseEntry> const& entries)
     : factor_(std::make_unique<Factor>()) {
-    if (std::cmp_greater(size, std::numeric_limits<int>::max())) {
-        throw BadInput(fmt::format("solver.sparse: a matrix of {} rows; at most 2^31 - 1", size));
-    }
+    refuse_if<BadInput>(std::cmp_greater(size, std::numeric_limits<int>::max()),
+                        "solver.sparse: a matrix of {} rows; at most 2^31 - 1", size);
     std::vector<Eigen::Triplet<double>> triplets;
     triplets.reserve(entries.size());
     for (SparseEntry const& e : entries) {
-        if (e.column > e.row || e.row >= size || !std::isfinite(e.value)) {
-            throw BadInput(fmt::format("solver.sparse: row {}, column {} of a matrix of {} rows holds {}: numbers are "
-                                       "finite and not above the diagonal",
-                                       e.row, e.column, size, e.value));
-        }
+        refuse_if<BadInput>(e.column > e.row || e.row >= size || !std::isfinite(e.value),
+                            "solver.sparse: row {}, column {} of a matrix of {} rows holds {}: numbers are finite and "
+                            "not above the diagonal",
+                            e.row, e.column, size, e.value);
         triplets.emplace_back(static_cast<int>(e.row), static_cast<int>(e.column), e.value);
     }
     factor_->size = static_cast<Eigen::Index>(size);
@@ -254,9 +246,8 @@ SparseFactor::SparseFactor(std::size_t size, std::vector<SparseEntry> const& ent
     Eigen::SparseMatrix<double> matrix(factor_->size, factor_->size);
     matrix.setFromTriplets(triplets.begin(), triplets.end());
     factor_->ldlt.compute(matrix);
-    if (factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0.0)) {
-        throw NotConverged(fmt::format("solver.sparse: the matrix of {} rows is not positive definite", size));
-    }
+    refuse_if<NotConverged>(factor_->ldlt.info() != Eigen::Success || !(factor_->ldlt.vectorD().minCoeff() > 0.0),
+                            "solver.sparse: the matrix of {} rows is not positive definite", size);
 }
 
 SparseFactor::SparseFactor(SparseFactor&& other) noexcept = default;
@@ -264,10 +255,9 @@ SparseFactor& SparseFactor::operator=(SparseFactor&& other) noexcept = default;
 SparseFactor::~SparseFactor() = default;
 
 std::vector<double> SparseFactor::solve(std::vector<double> const& b) const {
-    if (static_cast<Eigen::Index>(b.size()) != factor_->size) {
-        throw BadInput(fmt::format("solver.sparse: a right-hand side of {} numbers for a matrix of {} rows", b.size(),
-                                   factor_->size));
-    }
+    refuse_if<BadInput>(static_cast<Eigen::Index>(b.size()) != factor_->size,
+                        "solver.sparse: a right-hand side of {} numbers for a matrix of {} rows", b.size(),
+                        factor_->size);
     if (b.empty()) {
         return {};
     }

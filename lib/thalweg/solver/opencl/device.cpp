@@ -12,7 +12,7 @@
 #include <CL/cl.h>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
 
 namespace thalweg::solver {
@@ -115,20 +115,17 @@ std::string lines_of(std::vector<Found> const& all) {
 }
 
 Found choose(std::vector<Found> const& all) {
-    if (all.empty()) {
-        throw BadParameter("solver.opencl_device: --device opencl: no OpenCL platform with a device was found; install "
-                           "an OpenCL driver "
-                           "(Debian: pocl-opencl-icd) or leave --device out");
-    }
+    refuse_if<BadParameter>(all.empty(),
+                            "solver.opencl_device: --device opencl: no OpenCL platform with a device was found; "
+                            "install an OpenCL driver (Debian: pocl-opencl-icd) or leave --device out");
     if (char const* const wanted = std::getenv(variable); wanted != nullptr) {
         for (Found const& found : all) {
             if (found.number != wanted) {
                 continue;
             }
-            if (!found.fault.empty()) {
-                throw BadParameter(fmt::format("solver.opencl_device: --device opencl: {}={}, {}, cannot be used: {}",
-                                               variable, wanted, found.name, found.fault));
-            }
+            refuse_if<BadParameter>(!found.fault.empty(),
+                                    "solver.opencl_device: --device opencl: {}={}, {}, cannot be used: {}", variable,
+                                    wanted, found.name, found.fault);
             return found;
         }
         throw BadParameter(fmt::format(

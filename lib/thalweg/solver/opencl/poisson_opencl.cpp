@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/opencl/internal/device.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>
 
@@ -530,21 +530,19 @@ GridSolution iterate(DeviceEquations& equations, double height, PoissonParams co
                     solution.residual = norm;
                     return solution;
                 }
-                if (norm > 0.5 * counted) {
-                    throw NotConverged(fmt::format("{}: the residual stays at {:.3g} of what it was, where double has "
-                                                   "no more digits; a tolerance of {:.3g} is out of reach",
-                                                   poisson_stage, norm, params.tolerance));
-                }
+                refuse_if<NotConverged>(norm > 0.5 * counted,
+                                        "{}: the residual stays at {:.3g} of what it was, where double has no more "
+                                        "digits; a tolerance of {:.3g} is out of reach",
+                                        poisson_stage, norm, params.tolerance);
                 counted = norm;
                 equations.begin_anew();
                 equations.precondition();
             }
         }
-        if (solution.iterations >= params.most_iterations) {
-            throw NotConverged(fmt::format("{}: after {} iterations the residual is {:.3g} of what it was instead of "
-                                           "{:.3g}; ask for less or allow more of them",
-                                           poisson_stage, solution.iterations, norm, params.tolerance));
-        }
+        refuse_if<NotConverged>(solution.iterations >= params.most_iterations,
+                                "{}: after {} iterations the residual is {:.3g} of what it was instead of {:.3g}; ask "
+                                "for less or allow more of them",
+                                poisson_stage, solution.iterations, norm, params.tolerance);
         norm = equations.advance();
     }
 }

@@ -12,8 +12,8 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sums.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
 
 namespace thalweg::solver {
@@ -395,10 +395,9 @@ std::int64_t around(std::int64_t cells, double reach_cells) {
 
 void check(std::int64_t width, std::int64_t height, double hurst) {
     require_in("solver.fractional_surface", "H", hurst, Range::inside(0.0, 1.0));
-    if (width < 1 || height < 1) {
-        throw BadParameter(fmt::format("solver.fractional_surface: a lattice of {} x {} cells; give one cell at least",
-                                       width, height));
-    }
+    refuse_if<BadParameter>(width < 1 || height < 1,
+                            "solver.fractional_surface: a lattice of {} x {} cells; give one cell at least", width,
+                            height);
 }
 
 [[noreturn]] void refuse_size(std::int64_t width, std::int64_t height) {

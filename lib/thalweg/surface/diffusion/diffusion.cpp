@@ -13,8 +13,8 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 namespace thalweg::surface {
@@ -33,12 +33,11 @@ CellKind kind_of(float z, bool inside) {
 
 solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, char const* stage, Run const& run) {
     Grid const& grid = z.grid();
-    if (inside.cells() > 0 && inside.grid() != grid) {
-        throw BadInput(fmt::format("{}: the mask ({} x {} cells of {} m) has another frame than the heights ({} x {} "
-                                   "cells of {} m); make both on one grid",
-                                   stage, inside.width(), inside.height(), inside.grid().cell_m, grid.width,
-                                   grid.height, grid.cell_m));
-    }
+    refuse_if<BadInput>(inside.cells() > 0 && inside.grid() != grid,
+                        "{}: the mask ({} x {} cells of {} m) has another frame than the heights ({} x {} cells of {} "
+                        "m); make both on one grid",
+                        stage, inside.width(), inside.height(), inside.grid().cell_m, grid.width, grid.height,
+                        grid.cell_m);
     run.check();
     solver::GridProblem problem{Raster<std::uint8_t>(grid), Raster<double>(grid), {}};
     bool any = false;
@@ -55,11 +54,10 @@ solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, 
             any = true;
         }
     }
-    if (!any) {
-        throw BadInput(fmt::format("{}: no cell of the {} x {} (inside the mask, where there is one) has a height; a "
-                                   "surface needs one to pass through",
-                                   stage, grid.width, grid.height));
-    }
+    refuse_if<BadInput>(!any,
+                        "{}: no cell of the {} x {} (inside the mask, where there is one) has a height; a surface "
+                        "needs one to pass through",
+                        stage, grid.width, grid.height);
     for (solver::CellSpan const& span : solver::unreached(problem.kind, run)) {
         for (std::int64_t col = span.begin; col < span.end; ++col) {
             problem.kind[{col, span.row}] = solver::outside_cell;
@@ -189,12 +187,11 @@ constexpr double noise_reach_cells = 4.0;
 void demand(DiffuseParams const& params) {
     constexpr char const* self = "surface.diffuse";
     require_in(self, "tolerance", params.tolerance, Range::inside(0.0, 1.0));
-    if (!(params.alpha > 0.0 && params.alpha <= 0.25)) {
-        throw BadParameter(fmt::format(
-            "surface.diffuse: alpha is {}; give one above 0 and at most 1/4: beyond it a cell takes more from "
-            "its four neighbours than the difference, and differences grow from sweep to sweep",
-            params.alpha));
-    }
+    refuse_if<BadParameter>(
+        !(params.alpha > 0.0 && params.alpha <= 0.25),
+        "surface.diffuse: alpha is {}; give one above 0 and at most 1/4: beyond it a cell takes more from its four "
+        "neighbours than the difference, and differences grow from sweep to sweep",
+        params.alpha);
     require_in(self, "iterations", params.iterations, Range::at_least(0));
     require_in(self, "passes", params.passes, Range::at_least(0));
     require_in(self, "sigma", params.sigma_cells, Range::between(0.0, 100.0), "cells");

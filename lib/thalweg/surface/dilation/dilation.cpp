@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
 namespace thalweg::surface {
@@ -19,12 +19,9 @@ namespace {
 
 // Throws: BadInput: a grid without cells, or with cells whose side is not above 0.
 void check_frame(Grid const& grid) {
-    if (grid.cells() <= 0) {
-        throw BadInput("surface.dilate: the valley's grid has no cells; make it at least 1 x 1");
-    }
-    if (!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m))) {
-        throw BadInput(fmt::format("surface.dilate: the valley's cell size is {} m; give one above 0", grid.cell_m));
-    }
+    refuse_if<BadInput>(grid.cells() <= 0, "surface.dilate: the valley's grid has no cells; make it at least 1 x 1");
+    refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)),
+                        "surface.dilate: the valley's cell size is {} m; give one above 0", grid.cell_m);
 }
 
 // Throws: BadInput: a valley in which no cell has a height, or one has an infinite height.
@@ -40,21 +37,18 @@ void check_heights(Raster<float> const& valley) {
         }
         wet = wet || !std::isnan(valley[i]);
     }
-    if (!wet) {
-        throw BadInput(
-            fmt::format("surface.dilate: no cell of the valley has a height on the grid of {} x {} cells (inside "
-                        "the mask, where there is one); let a river run there",
-                        grid.width, grid.height));
-    }
+    refuse_if<BadInput>(!wet,
+                        "surface.dilate: no cell of the valley has a height on the grid of {} x {} cells (inside the "
+                        "mask, where there is one); let a river run there",
+                        grid.width, grid.height);
 }
 
 // Throws: BadInput: the mask has another frame than the valley.
 void check_mask(Grid const& valley, Grid const& mask) {
-    if (valley != mask) {
-        throw BadInput(fmt::format("surface.dilate: the mask ({} x {} cells of {} m) has another frame than the valley "
-                                   "({} x {} cells of {} m); make both on one grid",
-                                   mask.width, mask.height, mask.cell_m, valley.width, valley.height, valley.cell_m));
-    }
+    refuse_if<BadInput>(valley != mask,
+                        "surface.dilate: the mask ({} x {} cells of {} m) has another frame than the valley ({} x {} "
+                        "cells of {} m); make both on one grid",
+                        mask.width, mask.height, mask.cell_m, valley.width, valley.height, valley.cell_m);
 }
 
 // Share [0,1] of the cells of a DEM off the valley that have no lower 4-neighbour; 0 where there are none.
@@ -92,11 +86,10 @@ double flat_share(Valley const& valley, Raster<float> const& dem, Run const& run
 constexpr float nan_height = std::numeric_limits<float>::quiet_NaN();
 
 void check_dilate_params(DilateParams const& params) {
-    if (!(params.relief_m >= 0.0 && std::isfinite(params.relief_m))) {
-        throw BadParameter(fmt::format("surface.dilate: relief is {} m; give a finite height above 0, or 0 for the "
-                                       "units of Cao, Long and Lü (2009)",
-                                       params.relief_m));
-    }
+    refuse_if<BadParameter>(
+        !(params.relief_m >= 0.0 && std::isfinite(params.relief_m)),
+        "surface.dilate: relief is {} m; give a finite height above 0, or 0 for the units of Cao, Long and Lü (2009)",
+        params.relief_m);
     increments(0, params.increment); // what cannot be read is refused before the work
 }
 
@@ -117,10 +110,9 @@ double metres_per_unit(double top, DilateParams const& params, Grid const& grid)
 /// Throws where a surface over valley heights up to `greatest` would leave the range of a float.
 void check_reach(std::vector<double> const& above_valley, double greatest) {
     for (std::size_t d = 0; d < above_valley.size(); ++d) {
-        if (!(std::fabs(above_valley[d]) + greatest < static_cast<double>(std::numeric_limits<float>::max()))) {
-            throw BadParameter(fmt::format(
-                "surface.dilate: heights pass what a float holds after {} dilations; choose smaller increments", d));
-        }
+        refuse_if<BadParameter>(
+            !(std::fabs(above_valley[d]) + greatest < static_cast<double>(std::numeric_limits<float>::max())),
+            "surface.dilate: heights pass what a float holds after {} dilations; choose smaller increments", d);
     }
 }
 
@@ -369,9 +361,8 @@ namespace {
 
 /// The same valley at height 0: what is dilated from it is H(d) alone.
 Valley levelled(Valley const& valley, Raster<float> const& base) {
-    if (base.grid() != valley.z.grid()) {
-        throw BadInput("surface.dilate_over: the base has another frame than the valley; lay it on the valley's grid");
-    }
+    refuse_if<BadInput>(base.grid() != valley.z.grid(),
+                        "surface.dilate_over: the base has another frame than the valley; lay it on the valley's grid");
     Valley level = valley;
     for (float& z : level.z.values()) {
         z = std::isnan(z) ? z : 0.0F;

@@ -12,8 +12,8 @@
 #include <fmt/format.h>
 #include <muParser.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::surface {
 namespace {
@@ -74,21 +74,18 @@ std::vector<double> values_of(At const& at, std::string_view name, std::string_v
     std::vector<double> values(static_cast<std::size_t>(levels));
     for (std::size_t i = 0; i < values.size(); ++i) {
         double const value = at(static_cast<double>(i + 1));
-        if (!std::isfinite(value)) {
-            throw BadParameter(
-                fmt::format("surface.increments: {} is not finite at x = {}; choose {} that is, for x = 1 to {}", name,
-                            i + 1, another, levels));
-        }
+        refuse_if<BadParameter>(!std::isfinite(value),
+                                "surface.increments: {} is not finite at x = {}; choose {} that is, for x = 1 to {}",
+                                name, i + 1, another, levels);
         values[i] = tamed(value);
     }
     return values;
 }
 
 std::vector<double> tabulate(std::string const& text, std::int64_t levels) {
-    if (text.size() > longest_expression) {
-        throw BadParameter(fmt::format("surface.increments: the expression has {} characters; write it in at most {}",
-                                       text.size(), longest_expression));
-    }
+    refuse_if<BadParameter>(text.size() > longest_expression,
+                            "surface.increments: the expression has {} characters; write it in at most {}", text.size(),
+                            longest_expression);
     auto const odd = std::find_if(text.begin(), text.end(), [](char c) { return c < ' ' || c > '~'; });
     if (odd != text.end()) {
         throw BadParameter(
@@ -157,9 +154,7 @@ std::function<double(double)> anywhere(IncrementParams const& params) {
 } // namespace
 
 std::vector<double> increments(std::int64_t levels, IncrementParams const& params) {
-    if (levels < 0) {
-        throw BadParameter(fmt::format("surface.increments: {} levels; ask for none or more", levels));
-    }
+    refuse_if<BadParameter>(levels < 0, "surface.increments: {} levels; ask for none or more", levels);
     std::vector<double> values = signed_increments(levels, params);
     if (!params.allow_negative) {
         for (double& value : values) {

@@ -8,8 +8,8 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
@@ -43,38 +43,30 @@ void check_params(EquilibriumParams const& params) {
 
 void check_grid(Grid const& grid) {
     constexpr std::int64_t most = std::int64_t{1} << 30; // cells are counted in 32 bits, the frame included
-    if (grid.width <= 0 || grid.height <= 0) {
-        throw BadInput("surface.equilibrium: the rivers' grid has no cells; make it at least 1 x 1");
-    }
-    if (grid.width > most || grid.height > most || grid.cells() > most) {
-        throw BadInput(fmt::format("surface.equilibrium: the grid of {} x {} cells is too large; {} cells at most",
-                                   grid.width, grid.height, most));
-    }
-    if (!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m))) {
-        throw BadInput(
-            fmt::format("surface.equilibrium: the rivers' cell size is {} m; give one above 0", grid.cell_m));
-    }
+    refuse_if<BadInput>(grid.width <= 0 || grid.height <= 0,
+                        "surface.equilibrium: the rivers' grid has no cells; make it at least 1 x 1");
+    refuse_if<BadInput>(grid.width > most || grid.height > most || grid.cells() > most,
+                        "surface.equilibrium: the grid of {} x {} cells is too large; {} cells at most", grid.width,
+                        grid.height, most);
+    refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)),
+                        "surface.equilibrium: the rivers' cell size is {} m; give one above 0", grid.cell_m);
 }
 
 void check_order(Channels const& rivers) {
     Grid const& grid = rivers.grid;
-    if (rivers.cell.empty()) {
-        throw BadInput("surface.equilibrium: there are no rivers; give at least one cell in which water leaves");
-    }
-    if (rivers.receiver.size() != rivers.cell.size() || (!rivers.z.empty() && rivers.z.size() != rivers.cell.size()) ||
-        (!rivers.level.empty() && rivers.level.size() != rivers.cell.size())) {
-        throw BadInput(fmt::format("surface.equilibrium: {} river cells have {} receivers, {} heights and {} marks of "
-                                   "lakes; give one each",
-                                   rivers.cell.size(), rivers.receiver.size(), rivers.z.size(), rivers.level.size()));
-    }
+    refuse_if<BadInput>(rivers.cell.empty(),
+                        "surface.equilibrium: there are no rivers; give at least one cell in which water leaves");
+    refuse_if<BadInput>(
+        rivers.receiver.size() != rivers.cell.size() || (!rivers.z.empty() && rivers.z.size() != rivers.cell.size()) ||
+            (!rivers.level.empty() && rivers.level.size() != rivers.cell.size()),
+        "surface.equilibrium: {} river cells have {} receivers, {} heights and {} marks of lakes; give one each",
+        rivers.cell.size(), rivers.receiver.size(), rivers.z.size(), rivers.level.size());
     Mask taken(grid);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         std::int64_t const cell = rivers.cell[n];
-        if (cell < 0 || cell >= grid.cells()) {
-            throw BadInput(fmt::format("surface.equilibrium: river cell {} lies at index {}, outside the grid of {} "
-                                       "cells",
-                                       n, cell, grid.cells()));
-        }
+        refuse_if<BadInput>(cell < 0 || cell >= grid.cells(),
+                            "surface.equilibrium: river cell {} lies at index {}, outside the grid of {} cells", n,
+                            cell, grid.cells());
         if (taken[cell] != 0) {
             throw BadInput(fmt::format("surface.equilibrium: two rivers in one cell, at {} (the later is river cell "
                                        "{}); join them there",
@@ -103,9 +95,9 @@ void check_land(Channels const& rivers, Mask const& land) {
     if (land.cells() == 0) {
         return;
     }
-    if (land.grid() != rivers.grid) {
-        throw BadInput("surface.equilibrium: the land's mask has another frame than the rivers; make both on one grid");
-    }
+    refuse_if<BadInput>(
+        land.grid() != rivers.grid,
+        "surface.equilibrium: the land's mask has another frame than the rivers; make both on one grid");
     auto const values = land.values();
     if (std::none_of(values.begin(), values.end(), [](std::uint8_t v) { return v != 0; })) {
         throw BadInput("surface.equilibrium: the mask leaves no land; mark at least the rivers' cells as land");
@@ -123,10 +115,8 @@ void check_field(Grid const& grid, Raster<float> const& field, Mask const& land,
     if (field.cells() == 0) {
         return;
     }
-    if (field.grid() != grid) {
-        throw BadInput(
-            fmt::format("surface.equilibrium: {} has another frame than the rivers; make both on one grid", name));
-    }
+    refuse_if<BadInput>(field.grid() != grid,
+                        "surface.equilibrium: {} has another frame than the rivers; make both on one grid", name);
     for (std::int64_t i = 0; i < field.cells(); ++i) {
         bool const dry = land.cells() == 0 || land[i] != 0;
         if (dry && !(field[i] > 0.0F && std::isfinite(field[i]))) {
@@ -235,11 +225,10 @@ void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin
         Cell const c = grid.at(i);
         bool const dry = land.cells() == 0 || land[i] != 0;
         auto const at = static_cast<std::size_t>((c.row + margin + 1) * level.width + c.col + margin + 1);
-        if (dry && level.cover[at] == Cover::outside) {
-            throw BadInput(fmt::format("surface.equilibrium: no river drains the closed land at column {}, row {}; let "
-                                       "one run there, or leave the edge open",
-                                       c.col, c.row));
-        }
+        refuse_if<BadInput>(dry && level.cover[at] == Cover::outside,
+                            "surface.equilibrium: no river drains the closed land at column {}, row {}; let one run "
+                            "there, or leave the edge open",
+                            c.col, c.row);
     }
 }
 

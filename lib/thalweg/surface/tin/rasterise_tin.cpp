@@ -12,7 +12,7 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/triangles.hpp>
 
@@ -229,10 +229,8 @@ Bands bands_of(double south, double north, Grid const& grid) {
 void require_sound(Tin const& tin, Run const& run) {
     for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
         Vec3 const& v = tin.vertices[i];
-        if (!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z)) {
-            throw BadInput(
-                fmt::format("surface.rasterise_tin: vertex {} is not finite: ({}, {}, {})", i + 1, v.x, v.y, v.z));
-        }
+        refuse_if<BadInput>(!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z),
+                            "surface.rasterise_tin: vertex {} is not finite: ({}, {}, {})", i + 1, v.x, v.y, v.z);
     }
     parallel_ranges(run, static_cast<std::int64_t>(tin.triangles.size()), 1 << 15, [&](std::int64_t b, std::int64_t e) {
         for (std::int64_t i = b; i < e; ++i) {
@@ -322,10 +320,9 @@ public:
         double const area = forward - back;
         // Where so little is left of the products, rounding has its share in it.
         bool const is_sliver = !(area > 1e-9 * (std::fabs(forward) + std::fabs(back)));
-        if (is_sliver && geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0) {
-            throw BadInput(fmt::format("surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
-                                       triangle + 1, a.x, a.y));
-        }
+        refuse_if<BadInput>(is_sliver && geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0,
+                            "surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
+                            triangle + 1, a.x, a.y);
         sliver_ = is_sliver ? &t : nullptr;
         double const by_area = is_sliver ? 0.0 : 1.0 / area;
         plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) * by_area,

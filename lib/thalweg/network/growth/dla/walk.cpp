@@ -6,10 +6,8 @@
 #include <cstring>
 #include <numeric>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/numbers/elementary.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -294,15 +292,12 @@ void Walk::step(Walker& walker) const {
 
 std::vector<Cell> first_arrivals(std::span<Cell const> cluster, std::int64_t walkers, std::uint64_t seed,
                                  Run const& run) {
-    if (cluster.empty()) {
-        throw BadInput("network.first_arrivals: the cluster has no cell, give at least one");
-    }
+    refuse_if<BadInput>(cluster.empty(), "network.first_arrivals: the cluster has no cell, give at least one");
     constexpr std::int64_t widest = 1 << 20;
     for (Cell const c : cluster) {
-        if (std::abs(c.col) > widest || std::abs(c.row) > widest) {
-            throw BadInput(fmt::format("network.first_arrivals: cell ({}, {}) lies more than {} cells from the centre",
-                                       c.col, c.row, widest));
-        }
+        refuse_if<BadInput>(std::abs(c.col) > widest || std::abs(c.row) > widest,
+                            "network.first_arrivals: cell ({}, {}) lies more than {} cells from the centre", c.col,
+                            c.row, widest);
     }
     Walk walk;
     for (Cell const c : cluster) {

@@ -8,13 +8,11 @@
 #include <limits>
 #include <unordered_map>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {
@@ -148,10 +146,9 @@ void tidy(Mask& land) {
 
 Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) {
     require_in("network.shape_island", "ruggedness", params.ruggedness, Range::between(0.0, 1.0));
-    if (std::min(grid.width, grid.height) < 16) {
-        throw BadInput(fmt::format("network.shape_island: the grid has {} x {} cells, an island needs 16 x 16",
-                                   grid.width, grid.height));
-    }
+    refuse_if<BadInput>(std::min(grid.width, grid.height) < 16,
+                        "network.shape_island: the grid has {} x {} cells, an island needs 16 x 16", grid.width,
+                        grid.height);
     auto const width = static_cast<double>(grid.width);
     auto const height = static_cast<double>(grid.height);
     double const shorter = std::min(width, height);
@@ -291,15 +288,12 @@ std::vector<Cell> coast_cells(Mask const& land) {
 
 std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coast, SpreadOutletsParams const& params,
                                  Run const& run) {
-    if (params.count < 0) {
-        throw BadParameter(fmt::format("network.spread_outlets: count is {}, it must be at least 1, or 0 for as many "
-                                       "as the coast is long",
-                                       params.count));
-    }
+    refuse_if<BadParameter>(
+        params.count < 0,
+        "network.spread_outlets: count is {}, it must be at least 1, or 0 for as many as the coast is long",
+        params.count);
     require_in("network.spread_outlets", "every_cells", params.every_cells, Range::above(0.0));
-    if (coast.empty()) {
-        throw BadInput("network.spread_outlets: there is no coast on which a river could end");
-    }
+    refuse_if<BadInput>(coast.empty(), "network.spread_outlets: there is no coast on which a river could end");
     auto const length = static_cast<double>(coast.size());
     auto const wanted = params.count > 0 ? static_cast<std::size_t>(params.count)
                                          : static_cast<std::size_t>(std::ceil(length / params.every_cells));

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/growth/forest/internal/grow_forest.hpp>
 
 namespace thalweg::network {
@@ -247,24 +247,18 @@ constexpr std::uint64_t forest_stage = 0x666f726573743031; // "forest01"
 void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params) {
     constexpr std::int64_t longest = 1 << 20;
     require_in("network.grow_forest", "step_cells", params.step_cells, Range::between(1, 100));
-    if (params.particles < 0) {
-        throw BadParameter(fmt::format("network.grow_forest: particles is {}, it must be at least 1, or 0 for all that "
-                                       "find room",
-                                       params.particles));
-    }
+    refuse_if<BadParameter>(params.particles < 0,
+                            "network.grow_forest: particles is {}, it must be at least 1, or 0 for all that find room",
+                            params.particles);
     require_in("network.grow_forest", "sticking", params.sticking, Range{0.0, 1.0, false, true});
     require_in("network.grow_forest", "visits", params.visits, Range::between(1, 255));
-    if (std::max(region.width(), region.height()) > longest) {
-        throw BadInput(fmt::format("network.grow_forest: the region has {} x {} cells, at most {} a side are possible",
-                                   region.width(), region.height(), longest));
-    }
-    if (seeds.empty()) {
-        throw BadInput("network.grow_forest: there is no seed, give at least one");
-    }
+    refuse_if<BadInput>(std::max(region.width(), region.height()) > longest,
+                        "network.grow_forest: the region has {} x {} cells, at most {} a side are possible",
+                        region.width(), region.height(), longest);
+    refuse_if<BadInput>(seeds.empty(), "network.grow_forest: there is no seed, give at least one");
     for (Cell const s : seeds) {
-        if (!region.grid().contains(s) || region[s] == 0) {
-            throw BadInput(fmt::format("network.grow_forest: the seed ({}, {}) lies outside the region", s.col, s.row));
-        }
+        refuse_if<BadInput>(!region.grid().contains(s) || region[s] == 0,
+                            "network.grow_forest: the seed ({}, {}) lies outside the region", s.col, s.row);
     }
 }
 
@@ -299,12 +293,10 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
                                  static_cast<double>(2 * params.step_cells);
     double const goal = params.particles > 0 ? static_cast<double>(params.particles) : in_a_full_one;
     constexpr double most_arrivals = 1e12; // about a day
-    if (goal > most_arrivals * params.sticking) {
-        throw BadParameter(
-            fmt::format("network.grow_forest: about {:.0f} particles with sticking {} need more than {:.0e} "
-                        "arrivals of walkers and would not end in a day: set sticking nearer to 1",
-                        goal, params.sticking, most_arrivals));
-    }
+    refuse_if<BadParameter>(goal > most_arrivals * params.sticking,
+                            "network.grow_forest: about {:.0f} particles with sticking {} need more than {:.0e} "
+                            "arrivals of walkers and would not end in a day: set sticking nearer to 1",
+                            goal, params.sticking, most_arrivals);
     std::int64_t turns = 0;
     auto const look_up = [&] {
         if (++turns % 4096 == 0) {

@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/growth/forest/coast.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/growth/forest/internal/grow_forest.hpp>
@@ -126,18 +126,14 @@ void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> c
            ForestParams const& params) {
     constexpr std::int64_t least_step = 4; // below, rivers of two trees could touch between their seeds and outlets
     require_in("network.plant_forest", "step_cells", params.step_cells, Range::between(least_step, 100));
-    if (coast.empty()) {
-        throw BadInput("network.plant_forest: there is no land, all cells are sea");
-    }
+    refuse_if<BadInput>(coast.empty(), "network.plant_forest: there is no land, all cells are sea");
     Mask on_coast(land.grid(), 0);
     for (Cell const c : coast) {
         on_coast[c] = 1;
     }
     for (Cell const c : outlets) {
-        if (!land.grid().contains(c) || on_coast[c] == 0) {
-            throw BadInput(
-                fmt::format("network.plant_forest: the outlet ({}, {}) lies off the land's coast", c.col, c.row));
-        }
+        refuse_if<BadInput>(!land.grid().contains(c) || on_coast[c] == 0,
+                            "network.plant_forest: the outlet ({}, {}) lies off the land's coast", c.col, c.row);
     }
 }
 

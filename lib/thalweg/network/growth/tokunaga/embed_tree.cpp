@@ -11,8 +11,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 
@@ -317,36 +317,28 @@ bool finite(Vec2 p) {
 
 /// Throws when the ring cannot be a region.
 void check_ring(std::vector<Vec2> const& ring) {
-    if (ring.size() < 3) {
-        throw BadParameter(
-            fmt::format("network.embed_tree: the region has {} vertices, it needs three at least", ring.size()));
-    }
+    refuse_if<BadParameter>(ring.size() < 3, "network.embed_tree: the region has {} vertices, it needs three at least",
+                            ring.size());
     for (Vec2 const p : ring) {
-        if (!finite(p)) {
-            throw BadParameter(fmt::format("network.embed_tree: the region's vertex ({}, {}) is not finite", p.x, p.y));
-        }
+        refuse_if<BadParameter>(!finite(p), "network.embed_tree: the region's vertex ({}, {}) is not finite", p.x, p.y);
     }
     std::vector<Vec2> closed = ring;
     closed.push_back(ring.front());
     for (geometry::Crossing const& c : geometry::crossings({closed})) {
         bool const closing = c.at == ring.front();
-        if (!closing) {
-            throw BadParameter(fmt::format("network.embed_tree: the region's ring meets itself at ({}, {}); draw it "
-                                           "without loops",
-                                           c.at.x, c.at.y));
-        }
+        refuse_if<BadParameter>(!closing,
+                                "network.embed_tree: the region's ring meets itself at ({}, {}); draw it without loops",
+                                c.at.x, c.at.y);
     }
-    if (!(area_of(ring) > 0.0)) {
-        throw BadParameter("network.embed_tree: the region has no area; give three places that are not in line");
-    }
+    refuse_if<BadParameter>(!(area_of(ring) > 0.0),
+                            "network.embed_tree: the region has no area; give three places that are not in line");
 }
 
 void check(EmbedParams const& params, std::size_t links) {
     require_in("network.embed_tree", "clearance", params.clearance, Range::between(0.05, 0.35));
     require_in("network.embed_tree", "min_spacing_m", params.min_spacing_m, Range::at_least(0.0));
-    if (!finite(params.direction) || !finite(params.mouth)) {
-        throw BadParameter("network.embed_tree: mouth and direction must be finite numbers");
-    }
+    refuse_if<BadParameter>(!finite(params.direction) || !finite(params.mouth),
+                            "network.embed_tree: mouth and direction must be finite numbers");
     check_ring(params.region);
     double const spacing = std::sqrt(area_of(params.region) / static_cast<double>(links));
     if (spacing < 1e-3) {
@@ -358,11 +350,9 @@ void check(EmbedParams const& params, std::size_t links) {
     for (Segment const& side : sides_of(params.region)) {
         nearest = std::min(nearest, std::sqrt(squared_distance(params.mouth, side)));
     }
-    if (!contains(params.region, params.mouth) && nearest > 1e-6 * spacing) {
-        throw BadParameter(fmt::format("network.embed_tree: the outlet ({}, {}) lies {} m outside the region; move it "
-                                       "to its edge",
-                                       params.mouth.x, params.mouth.y, nearest));
-    }
+    refuse_if<BadParameter>(!contains(params.region, params.mouth) && nearest > 1e-6 * spacing,
+                            "network.embed_tree: the outlet ({}, {}) lies {} m outside the region; move it to its edge",
+                            params.mouth.x, params.mouth.y, nearest);
 }
 
 /// Where the trunk's first line ends: two thirds of the way to the other side.

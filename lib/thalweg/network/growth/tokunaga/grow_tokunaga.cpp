@@ -5,11 +5,9 @@
 #include <cmath>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::network {
 
@@ -81,11 +79,10 @@ public:
                 add(top, 1, -first);
             }
             tops_[i] = top;
-            if (links_.count() > params_.max_links) {
-                throw BadParameter(fmt::format("network.grow_tokunaga: order {} with generator {} has more than {} "
-                                               "links; lower the order or the generator",
-                                               params_.order, params_.generator, params_.max_links));
-            }
+            refuse_if<BadParameter>(links_.count() > params_.max_links,
+                                    "network.grow_tokunaga: order {} with generator {} has more than {} links; lower "
+                                    "the order or the generator",
+                                    params_.order, params_.generator, params_.max_links);
         }
         return std::move(links_);
     }

@@ -11,7 +11,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
-#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::network {
 
@@ -104,10 +104,8 @@ public:
     }
 
     LSystem finish() {
-        if (system_.axiom.empty()) {
-            throw BadInput(
-                fmt::format("network.read_rules: {}: there is no axiom; write a line such as: axiom F", name_));
-        }
+        refuse_if<BadInput>(system_.axiom.empty(),
+                            "network.read_rules: {}: there is no axiom; write a line such as: axiom F", name_);
         return std::move(system_);
     }
 
@@ -163,14 +161,10 @@ void demand_brackets(std::string_view word) {
     std::int64_t open = 0;
     for (std::size_t i = 0; i < word.size(); ++i) {
         open += word[i] == '[' ? 1 : word[i] == ']' ? -1 : 0;
-        if (open < 0) {
-            throw BadParameter(
-                fmt::format("network.rewrite: the axiom closes a bracket at position {} that is not open", i + 1));
-        }
+        refuse_if<BadParameter>(open < 0, "network.rewrite: the axiom closes a bracket at position {} that is not open",
+                                i + 1);
     }
-    if (open > 0) {
-        throw BadParameter("network.rewrite: the axiom has a [ without its ]");
-    }
+    refuse_if<BadParameter>(open > 0, "network.rewrite: the axiom has a [ without its ]");
 }
 
 std::string rewritten(std::string const& word, LSystem const& system, std::uint64_t seed, int iteration,
@@ -192,11 +186,10 @@ std::string rewritten(std::string const& word, LSystem const& system, std::uint6
                           random_word(seed, rewrite_stage, static_cast<std::uint64_t>(iteration), i) % words.size());
             next += words[which];
         }
-        if (next.size() > most_signs) {
-            throw BadParameter(fmt::format("network.rewrite: after {} iterations the word has more than {} signs; ask "
-                                           "for fewer iterations",
-                                           iteration + 1, most_signs));
-        }
+        refuse_if<BadParameter>(
+            next.size() > most_signs,
+            "network.rewrite: after {} iterations the word has more than {} signs; ask for fewer iterations",
+            iteration + 1, most_signs);
     }
     return next;
 }
@@ -220,10 +213,8 @@ LSystem read_rules(std::string_view text, std::string const& name) {
 }
 
 std::string rewrite(LSystem const& system, std::uint64_t seed, Run const& run) {
-    if (system.iterations < 0 || system.iterations > most_iterations) {
-        throw BadParameter(
-            fmt::format("network.rewrite: {} iterations; give 0 to {}", system.iterations, most_iterations));
-    }
+    refuse_if<BadParameter>(system.iterations < 0 || system.iterations > most_iterations,
+                            "network.rewrite: {} iterations; give 0 to {}", system.iterations, most_iterations);
     demand_brackets(system.axiom);
     std::string word = system.axiom;
     for (int k = 0; k < system.iterations; ++k) {
