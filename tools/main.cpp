@@ -1,7 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <atomic>
 #include <chrono>
 #include <csignal>
+#include <cstddef>
 #include <cstdio>
 #include <cstdlib>
 #include <exception>
@@ -11,6 +14,8 @@
 #include <signal.h>
 #include <sstream>
 #include <string>
+#include <system_error>
+#include <thread>
 #include <unistd.h>
 #include <vector>
 
@@ -25,11 +30,9 @@
 #include <thalweg/solver/opencl/devices.hpp>
 
 #include "commands/commands.hpp"
-#include "help/complaint.hpp"
-#include "help/describe.hpp"
+#include "help/help.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/terminal.hpp"
-#include "terminal/threads.hpp"
 
 namespace {
 
@@ -196,6 +199,34 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
         return Exit::wrong;
     }
     return std::nullopt;
+}
+
+/// Whether the system lets a run with so many threads (0: one a core) start all that it needs: those of oneTBB, and as
+/// many again of GDAL. GDAL waits for ever for one that could not be started.
+bool can_start_threads(int wanted) {
+    if (wanted == 1) {
+        return true;
+    }
+    long const count = wanted > 0 ? wanted : std::max<long>(sysconf(_SC_NPROCESSORS_ONLN), 1);
+    std::atomic<bool> done = false;
+    std::vector<std::thread> threads;
+    bool all = true;
+    try {
+        threads.reserve(2 * static_cast<std::size_t>(count));
+        while (threads.size() < threads.capacity()) {
+            threads.emplace_back([&done] { done.wait(false); });
+        }
+    } catch (std::system_error const&) { // a limit on processes
+        all = false;
+    } catch (std::bad_alloc const&) { // or on memory
+        all = false;
+    }
+    done = true;
+    done.notify_all();
+    for (std::thread& thread : threads) {
+        thread.join();
+    }
+    return all;
 }
 
 /// Sets up what a run needs besides its words.

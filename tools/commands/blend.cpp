@@ -17,7 +17,7 @@
 #include <thalweg/pipeline/commands/make_blend.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

@@ -13,8 +13,7 @@
 #include <thalweg/pipeline/commands/check_files.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/network_options.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 #include "commands/verdict.hpp"
 #include "terminal/terminal.hpp"
 

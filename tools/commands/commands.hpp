@@ -26,7 +26,7 @@ struct Session {
     Run run; ///< ready when the command is called
 };
 
-/// A command adds its options to the app and leaves what to do when it is chosen. describe.hpp says how help, manual
+/// A command adds its options to the app and leaves what to do when it is chosen. help.hpp says how help, manual
 /// and completion read them.
 using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);

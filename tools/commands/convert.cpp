@@ -16,8 +16,7 @@
 #include <thalweg/pipeline/commands/convert.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/network_options.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

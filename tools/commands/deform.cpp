@@ -16,7 +16,7 @@
 #include <thalweg/pipeline/commands/make_deform.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

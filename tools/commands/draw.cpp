@@ -11,7 +11,7 @@
 #include <thalweg/pipeline/commands/draw_files.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

@@ -17,7 +17,7 @@
 #include <thalweg/network/order/order.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/seed.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

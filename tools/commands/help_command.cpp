@@ -8,7 +8,7 @@
 #include <fmt/format.h>
 
 #include "commands/commands.hpp"
-#include "help/describe.hpp"
+#include "help/help.hpp"
 
 namespace thalweg::tools {
 

@@ -11,8 +11,7 @@
 #include <thalweg/pipeline/commands/make_measures.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/network_options.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

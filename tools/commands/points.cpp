@@ -15,7 +15,7 @@
 #include <thalweg/pipeline/commands/make_points.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

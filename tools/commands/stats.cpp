@@ -23,7 +23,7 @@
 #include <thalweg/pipeline/report/report.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

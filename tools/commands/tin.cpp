@@ -14,7 +14,7 @@
 #include <thalweg/pipeline/commands/make_tin.hpp>
 
 #include "commands/commands.hpp"
-#include "commands/nodata_option.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 

@@ -10,8 +10,7 @@
 #include <utility>
 #include <vector>
 
-#include "terminal/bar.hpp"
-#include "terminal/stage_times.hpp"
+#include "terminal/progress.hpp"
 
 namespace thalweg::tools {
 

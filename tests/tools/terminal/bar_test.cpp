@@ -6,7 +6,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
-#include "terminal/bar.hpp"
+#include "terminal/progress.hpp"
 #include "terminal/terminal.hpp"
 
 namespace bar_test {

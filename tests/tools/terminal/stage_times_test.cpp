@@ -8,7 +8,7 @@
 #include <rapidcheck.h>
 #include <rapidcheck/gtest.h>
 
-#include "terminal/stage_times.hpp"
+#include "terminal/progress.hpp"
 
 namespace stage_times_test {
 

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <map>
+#include <optional>
 #include <string>
 #include <vector>
 
@@ -35,5 +36,11 @@ void add_network_options(CLI::App& app, NetworkOptions& options, char const* sch
 
 /// The names of all schemas.
 std::vector<std::string> schema_names();
+
+/// The option of commands that read a DEM.
+void add_nodata_option(CLI::App& app, std::optional<double>& nodata);
+
+/// Why a word is not a random seed, which a recipe can hold too; "" where it is one.
+std::string is_seed(std::string const& word);
 
 } // namespace thalweg::tools

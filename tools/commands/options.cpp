@@ -1,6 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/network_options.hpp"
+#include "commands/options.hpp"
+
+#include <charconv>
+#include <cstdint>
+#include <system_error>
 
 #include <CLI/CLI.hpp>
 
@@ -58,6 +62,20 @@ std::vector<std::string> schema_names() {
         names.emplace_back(table.name);
     }
     return names;
+}
+
+void add_nodata_option(CLI::App& app, std::optional<double>& nodata) {
+    app.add_option("--nodata", nodata,
+                   "Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every "
+                   "value as a height. Default: refuse values that look like undeclared no-data.")
+        ->type_name("V");
+}
+
+std::string is_seed(std::string const& word) {
+    std::int64_t seed = -1;
+    auto const [end, fault] = std::from_chars(word.data(), word.data() + word.size(), seed);
+    bool const is_one = fault == std::errc() && end == word.data() + word.size() && seed >= 0;
+    return is_one ? "" : "'" + word + "' is not a seed: give a whole number from 0 to 9223372036854775807";
 }
 
 } // namespace thalweg::tools
