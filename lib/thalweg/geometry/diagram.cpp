@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/internal/diagram.hpp>
 
 #include <algorithm>
@@ -21,6 +20,7 @@
 #include <CGAL/property_map.h>
 #include <CGAL/spatial_sort.h>
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::geometry {

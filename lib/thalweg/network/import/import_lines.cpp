@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 #include <cmath>
@@ -9,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/nearby.hpp>
 
 namespace thalweg::network {

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
 #include <algorithm>
@@ -12,6 +11,7 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>

@@ -1,7 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/grid/internal/poisson.hpp>
 
 #include <cmath>
@@ -11,6 +10,7 @@
 
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>
 
 namespace thalweg::solver {
