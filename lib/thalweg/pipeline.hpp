@@ -5,7 +5,6 @@
 /// All public headers of the module.
 #include <thalweg/pipeline/commands/check_files.hpp>
 #include <thalweg/pipeline/commands/convert.hpp>
-#include <thalweg/pipeline/commands/dem_in_metres.hpp>
 #include <thalweg/pipeline/commands/draw_files.hpp>
 #include <thalweg/pipeline/commands/make_blend.hpp>
 #include <thalweg/pipeline/commands/make_deform.hpp>

@@ -16,7 +16,7 @@
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/commands/dem_in_metres.hpp>
+#include <thalweg/pipeline/commands/make_measures.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>

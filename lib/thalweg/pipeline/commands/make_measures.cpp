@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <filesystem>
 #include <limits>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,7 +18,9 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -240,6 +244,38 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     }
     made.files = out.commit();
     return made;
+}
+
+MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params, Run const& run) {
+    std::string const name = std::filesystem::path(path).filename().string();
+    if (!io::has_square_cells(path)) {
+        constexpr std::int64_t most_side = 30000;
+        io::Drawable read = io::read_drawable(path, {.most_side = most_side, .nodata = params.nodata}, run);
+        for (std::string& note : read.notes) {
+            note.insert(0, name + ": ");
+        }
+        return {std::move(read.dem), std::move(read.notes)};
+    }
+    MetricDem out{io::read_dem(path, params, run), {}};
+    Grid const own = out.dem.grid();
+    io::GroundCell const ground = io::ground_cell(own);
+    bool const is_distorted = ground.unit == io::GridUnit::distorted;
+    if (ground.unit != io::GridUnit::degrees && !is_distorted) {
+        return out;
+    }
+    Grid lattice;
+    lattice.cell_m = ground.side_m;
+    lattice.crs =
+        is_distorted ? ground.crs : io::utm_zone(0.5 * (own.west + own.east()), 0.5 * (own.south() + own.north));
+    lattice.west = 0.0;
+    lattice.north = 0.0;
+    out.dem = io::warp_to_grid(out.dem, lattice, "pipeline.dem_in_metres: " + path, run);
+    out.notes.push_back(fmt::format("{}: coordinates in {} are reprojected into {}, onto cells of {:.2f} m", name,
+                                    is_distorted ? fmt::format("{:.60}, whose metres are {:.2f} m on the ground,",
+                                                               own.crs, ground.side_m / own.cell_m)
+                                                 : "degrees",
+                                    fmt::format("{:.60}", lattice.crs), ground.side_m));
+    return out;
 }
 
 } // namespace thalweg::pipeline

@@ -7,10 +7,12 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -57,5 +59,18 @@ struct MadeMeasures {
 /// a network beside the DEM or whose rivers run in a circle, a file that is there already
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output,
                            io::Existing existing = io::Existing::refuse, Run const& run = {});
+
+/// A DEM whose cells are squares on the ground.
+struct MetricDem {
+    Raster<float> dem;
+    std::vector<std::string> notes; ///< what was done, in words
+};
+
+/// Reads a DEM; one in degrees, or in metres whose lengths are off by more than 1 % (Web Mercator), is warped into
+/// the UTM zone of its middle, onto cells as large as its own there; one with cells that are not square onto squares.
+/// \param params as of io::read_dem
+/// \return the DEM, and the cell size it had
+/// \throws BadInput like read_dem, and where a geographic DEM lies in no UTM zone
+MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline
