@@ -87,8 +87,7 @@ Tin facing_up(Tin mesh, std::string const& name) {
             refuse_if<BadInput>(v >= mesh.vertices.size(),
                                 "blend.facing_up: {}: triangle {} names a vertex that is not there", name, i + 1);
             Vec3 const& p = mesh.vertices[v];
-            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
-                                "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
+            refuse_if<BadInput>(!is_finite(p), "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
         }
         int const side =
             geometry::side_of_line(plan(mesh.vertices[t[0]]), plan(mesh.vertices[t[1]]), plan(mesh.vertices[t[2]]));

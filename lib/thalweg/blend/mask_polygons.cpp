@@ -20,7 +20,7 @@ void check(Polygon const& polygon, std::string const& name) {
                             "blend.mask_polygons: feature {} of {} has a ring of {} vertices; remove it",
                             polygon.feature, name, ring.size());
         for (std::size_t i = 0; i < ring.size(); ++i) {
-            if (!std::isfinite(ring[i].x) || !std::isfinite(ring[i].y)) {
+            if (!is_finite(ring[i])) {
                 throw BadInput(fmt::format("blend.mask_polygons: vertex {} of feature {} of {} is not finite: ({}, {})",
                                            i + 1, polygon.feature, name, ring[i].x, ring[i].y));
             }

@@ -86,10 +86,6 @@ namespace {
 
 constexpr std::uint32_t no_unknown = std::numeric_limits<std::uint32_t>::max();
 
-bool is_finite(Vec3 const& v) {
-    return std::isfinite(v.x) && std::isfinite(v.y) && std::isfinite(v.z);
-}
-
 void check(Tin const& parameter, std::vector<CoordinateGradients> const& guidance) {
     refuse_if<BadInput>(guidance.size() != parameter.triangles.size(),
                         "blend.paste_tin: guidance for {} triangles, the mesh has {}", guidance.size(),

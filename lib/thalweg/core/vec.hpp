@@ -62,6 +62,14 @@ inline double norm(Vec3 const& a) {
     return std::sqrt(dot(a, a));
 }
 
+/// Whether every coordinate is a number.
+inline bool is_finite(Vec2 a) {
+    return std::isfinite(a.x) && std::isfinite(a.y);
+}
+inline bool is_finite(Vec3 const& a) {
+    return std::isfinite(a.x) && std::isfinite(a.y) && std::isfinite(a.z);
+}
+
 /// Drops the height.
 /// \param p [m]
 /// \return position in plan [m]

@@ -335,6 +335,20 @@ void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px) {
     cairo_line_to(sheet, kept.back().x, kept.back().y);
 }
 
+void draw_ground(Cairo* sheet, std::vector<Vec2> const& line, double base_y, Colour fill, Colour colour,
+                 double line_width) {
+    trace_line(sheet, line, 0.0);
+    cairo_line_to(sheet, line.back().x, base_y);
+    cairo_line_to(sheet, line.front().x, base_y);
+    cairo_close_path(sheet);
+    set_colour(sheet, fill);
+    cairo_fill(sheet);
+    trace_line(sheet, line, 0.0);
+    set_colour(sheet, colour);
+    cairo_set_line_width(sheet, line_width);
+    cairo_stroke(sheet);
+}
+
 double text_width(Cairo* sheet, std::string_view text, TextStyle const& style) {
     return advance(sheet, split_by_font(sheet, text, style), style);
 }

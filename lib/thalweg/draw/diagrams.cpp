@@ -35,16 +35,7 @@ void draw_curve(Cairo* sheet, Box box, std::vector<Vec2> const& points, std::str
     }
     std::vector<Vec2> line(points.size());
     std::transform(points.begin(), points.end(), line.begin(), [&](Vec2 p) { return plot.at(p.x, p.y); });
-    trace_line(sheet, line, 0.0);
-    cairo_line_to(sheet, line.back().x, plot.at(0.0, 0.0).y);
-    cairo_line_to(sheet, line.front().x, plot.at(0.0, 0.0).y);
-    cairo_close_path(sheet);
-    set_colour(sheet, fill);
-    cairo_fill(sheet);
-    trace_line(sheet, line, 0.0);
-    set_colour(sheet, curve_colour);
-    cairo_set_line_width(sheet, 0.15 * unit);
-    cairo_stroke(sheet);
+    draw_ground(sheet, line, plot.at(0.0, 0.0).y, fill, curve_colour, 0.15 * unit);
     // Steps are whole numbers: dots while they can be told apart, and always where a line has no length.
     if (box.width > 0.8 * unit * static_cast<double>(line.size()) || line.size() == 1) {
         for (Vec2 const p : line) {
@@ -232,22 +223,6 @@ void demand_curve(std::vector<Vec2> const& curve, double integral) {
                         "draw.hypsometry: the integral is {}, must lie in [0, 1]", integral);
 }
 
-/// Fills the ground below the curve and draws the curve.
-void draw_ground(Cairo* sheet, Plot const& plot, std::vector<Vec2> const& curve, double unit) {
-    std::vector<Vec2> line(curve.size());
-    std::transform(curve.begin(), curve.end(), line.begin(), [&](Vec2 p) { return plot.at(100.0 * p.x, p.y); });
-    trace_line(sheet, line, 0.0);
-    cairo_line_to(sheet, line.back().x, plot.box.bottom());
-    cairo_line_to(sheet, line.front().x, plot.box.bottom());
-    cairo_close_path(sheet);
-    set_colour(sheet, ground);
-    cairo_fill(sheet);
-    trace_line(sheet, line, 0.0);
-    set_colour(sheet, line_colour);
-    cairo_set_line_width(sheet, 0.17 * unit);
-    cairo_stroke(sheet);
-}
-
 /// A dashed line at the mean height: the integral is where that lies between the lowest and the highest.
 void draw_mean(Cairo* sheet, Plot const& plot, double low, double high, double integral, double unit) {
     double const mean = low + integral * (high - low);
@@ -298,7 +273,9 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
                       {unit, faint_ink}, Anchor::middle);
             return;
         }
-        draw_ground(sheet, plot, curve, unit);
+        std::vector<Vec2> line(curve.size());
+        std::transform(curve.begin(), curve.end(), line.begin(), [&](Vec2 p) { return plot.at(100.0 * p.x, p.y); });
+        draw_ground(sheet, line, plot.box.bottom(), ground, line_colour, 0.17 * unit);
         if (has_integral) {
             draw_mean(sheet, plot, low, high, integral, unit);
         }

@@ -17,10 +17,6 @@ constexpr double rounding = 1e-7;
 // What shows where a line dips under another is a dot, not a line.
 constexpr double shortest = 1e-3;
 
-bool is_there(Vec2 p) {
-    return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 Vec2 between(Vec2 a, Vec2 b, double share) {
     return {a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share};
 }
@@ -261,7 +257,7 @@ private:
 
     bool has(Place p) const {
         return p.col >= 0 && p.row >= 0 && p.col < net_.columns && p.row < net_.rows &&
-               is_there(net_.knot(p.col, p.row));
+               is_finite(net_.knot(p.col, p.row));
     }
 
     void side(Place p, Place q) {

@@ -39,8 +39,7 @@ LinesBox box_of_lines(std::vector<std::vector<Vec2>> const& lines) {
     LinesBox all;
     for (auto const& line : lines) {
         for (Vec2 const p : line) {
-            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y),
-                                "draw.lines: a line has a coordinate that is not finite");
+            refuse_if<BadInput>(!is_finite(p), "draw.lines: a line has a coordinate that is not finite");
             all.low = {std::min(all.low.x, p.x), std::min(all.low.y, p.y)};
             all.high = {std::max(all.high.x, p.x), std::max(all.high.y, p.y)};
         }
@@ -432,9 +431,8 @@ void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, 
 
 void demand_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
-        refuse_if<BadInput>(!std::isfinite(line[i].x) || !std::isfinite(line[i].y),
-                            "draw.map: {} {}, vertex {} has no finite coordinates; mend the line", what, number_of_line,
-                            i);
+        refuse_if<BadInput>(!is_finite(line[i]), "draw.map: {} {}, vertex {} has no finite coordinates; mend the line",
+                            what, number_of_line, i);
     }
 }
 

@@ -268,16 +268,7 @@ void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, Scales c
     }
     std::vector<std::vector<Vec2>> const stretches = stretches_of(section.points, plot);
     for (std::vector<Vec2> const& line : stretches) {
-        trace_line(sheet, line, 0.0);
-        cairo_line_to(sheet, line.back().x, box.bottom());
-        cairo_line_to(sheet, line.front().x, box.bottom());
-        cairo_close_path(sheet);
-        set_colour(sheet, land);
-        cairo_fill(sheet);
-        trace_line(sheet, line, 0.0);
-        set_colour(sheet, land_line);
-        cairo_set_line_width(sheet, 0.13 * unit);
-        cairo_stroke(sheet);
+        draw_ground(sheet, line, box.bottom(), land, land_line, 0.13 * unit);
     }
     if (section.kind == Section::Kind::river) {
         // A water mark over the river: a triangle that stands on the land.

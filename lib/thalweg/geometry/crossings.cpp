@@ -148,8 +148,7 @@ private:
 
 void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<Box>& boxes) {
     for (std::size_t v = 0; v < line.size(); ++v) {
-        refuse_if<BadInput>(!std::isfinite(line[v].x) || !std::isfinite(line[v].y),
-                            "geometry.crossings: vertex {} of line {} is not finite", v, number);
+        refuse_if<BadInput>(!is_finite(line[v]), "geometry.crossings: vertex {} of line {} is not finite", v, number);
     }
     std::size_t const before = boxes.size();
     for (std::size_t i = 0; i + 1 < line.size(); ++i) {

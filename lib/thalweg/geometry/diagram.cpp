@@ -209,8 +209,7 @@ LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bou
         auto& chain = chains.emplace_back();
         for (std::size_t v = 0; v < lines[l].line.size(); ++v) {
             Vec2 const p{lines[l].line[v].x + 0.0, lines[l].line[v].y + 0.0};
-            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y),
-                                "{}: vertex {} of line {} is not finite; remove it", what, v, l);
+            refuse_if<BadInput>(!is_finite(p), "{}: vertex {} of line {} is not finite; remove it", what, v, l);
             auto const [place, is_new] = point_at.try_emplace({p.x, p.y}, out.sites.size());
             if (is_new) {
                 out.sites.push_back({l, v, p, p});

@@ -160,7 +160,7 @@ Vec2 guessed(std::array<Site, 3> const& sites) {
 } // namespace
 
 Vec2 equidistant(std::array<Site, 3> const& sites, Vec2 guess) {
-    if (!std::isfinite(guess.x) || !std::isfinite(guess.y)) {
+    if (!is_finite(guess)) {
         guess = guessed(sites);
     }
     Vec2 p = guess;
@@ -168,7 +168,7 @@ Vec2 equidistant(std::array<Site, 3> const& sites, Vec2 guess) {
         for (std::size_t j = 0; j < 3; ++j) {
             if (is_end_of(sites[i], sites[j])) {
                 p = on_perpendicular(sites[i].a, sites[j], sites[3 - i - j], guess);
-                bool const better = std::isfinite(p.x) && std::isfinite(p.y) && spread(sites, p) < spread(sites, guess);
+                bool const better = is_finite(p) && spread(sites, p) < spread(sites, guess);
                 return better ? p : guess;
             }
         }

@@ -183,8 +183,8 @@ void require_area(Tin const& tin, std::size_t number, Measured measured) {
         refuse_if<BadInput>(v >= tin.vertices.size(), "geometry.half_cotangents: triangle {} has vertex {} of {}",
                             number + 1, v + 1, tin.vertices.size());
         Vec3 const& p = tin.vertices[v];
-        refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
-                            "geometry.half_cotangents: vertex {} is not finite: ({}, {}, {})", v + 1, p.x, p.y, p.z);
+        refuse_if<BadInput>(!is_finite(p), "geometry.half_cotangents: vertex {} is not finite: ({}, {}, {})", v + 1,
+                            p.x, p.y, p.z);
     }
     Vec3 const& a = tin.vertices[t[0]];
     Vec3 const& b = tin.vertices[t[1]];

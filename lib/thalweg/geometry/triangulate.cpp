@@ -49,7 +49,7 @@ struct Places {
 
 // name: says which it is, asked only when it is wanted.
 template <class Name> void require_finite(Vec3 const& p, Name name) {
-    if (!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z)) {
+    if (!is_finite(p)) {
         throw BadInput(
             fmt::format("geometry.triangulate: {} is not finite: ({}, {}, {}); remove it", name(), p.x, p.y, p.z));
     }

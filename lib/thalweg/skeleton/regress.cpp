@@ -144,8 +144,8 @@ void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& 
                         points.points.size(), terms, terms);
     for (std::size_t i = 0; i < points.points.size(); ++i) {
         Vec3 const& q = points.points[i];
-        refuse_if<BadInput>(!std::isfinite(q.x) || !std::isfinite(q.y) || !std::isfinite(q.z),
-                            "skeleton.regress: point {} is ({}, {}, {}), no numbers", i + 1, q.x, q.y, q.z);
+        refuse_if<BadInput>(!is_finite(q), "skeleton.regress: point {} is ({}, {}, {}), no numbers", i + 1, q.x, q.y,
+                            q.z);
     }
 }
 

@@ -54,6 +54,10 @@ void draw_line(Cairo* sheet, Vec2 from, Vec2 to, double line_width, Colour colou
 /// rounded within corner_px of their vertex. Coordinates far outside any sheet are drawn no further than 1e6 px away.
 void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px);
 
+/// Fills what lies between a line and a height on the sheet, and draws the line over it.
+void draw_ground(Cairo* sheet, std::vector<Vec2> const& line, double base_y, Colour fill, Colour colour,
+                 double line_width);
+
 enum class Anchor : std::uint8_t { start, middle, end };
 enum class Weight : std::uint8_t { normal, bold };
 

@@ -112,7 +112,7 @@ GroundScale::GroundScale(OGRSpatialReference const& projected) : turn_(std::make
 GroundScale::~GroundScale() = default;
 
 std::optional<PointScale> GroundScale::at(Vec2 place) const {
-    if (!turn_->to_globe || !std::isfinite(place.x) || !std::isfinite(place.y)) {
+    if (!turn_->to_globe || !is_finite(place)) {
         return std::nullopt;
     }
     constexpr double step_m = 50.0; // long beside PROJ's last bits, short beside any curvature

@@ -32,8 +32,8 @@ struct ListedPoints {
                 step(static_cast<double>(i) / static_cast<double>(points.size()));
             }
             Vec3 const p = points[i];
-            refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
-                                "io.write_points: point {} is not finite: ({}, {}, {})", i + 1, p.x, p.y, p.z);
+            refuse_if<BadInput>(!is_finite(p), "io.write_points: point {} is not finite: ({}, {}, {})", i + 1, p.x, p.y,
+                                p.z);
             visit(p.x, p.y, p.z, PointClass::key_point);
         }
     }

@@ -39,8 +39,7 @@ void require_whole(Tin const& tin, std::string const& what) {
                         tin.triangles.size(), most);
     for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
         Vec3 const& v = tin.vertices[i];
-        refuse_if<BadInput>(!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z),
-                            "{}: vertex {} is not finite: ({}, {}, {})", what, i + 1, v.x, v.y, v.z);
+        refuse_if<BadInput>(!is_finite(v), "{}: vertex {} is not finite: ({}, {}, {})", what, i + 1, v.x, v.y, v.z);
     }
     for (std::size_t i = 0; i < tin.triangles.size(); ++i) {
         auto const& t = tin.triangles[i];

@@ -309,7 +309,7 @@ FilePlaces places_of(NetworkFile const& file) {
     FilePlaces places;
     for (FileArc const& arc : file.arcs) {
         for (Vec3 const& p : arc.line) {
-            if (std::isfinite(p.x) && std::isfinite(p.y)) {
+            if (is_finite(plan(p))) {
                 places.add(p.x, p.y);
             }
         }

@@ -200,8 +200,8 @@ void set_shape(OGRFeature& feature, Table const& table, std::size_t row, LayerTa
     }
     std::vector<Vec3> const positions = table.shape_at(row);
     for (Vec3 const& p : positions) {
-        refuse_if<BadInput>(!std::isfinite(p.x) || !std::isfinite(p.y) || !std::isfinite(p.z),
-                            "{}: {} {} has a vertex ({}, {}, {})", target.what, table.name, row + 1, p.x, p.y, p.z);
+        refuse_if<BadInput>(!is_finite(p), "{}: {} {} has a vertex ({}, {}, {})", target.what, table.name, row + 1, p.x,
+                            p.y, p.z);
     }
     if (table.shape == Table::Shape::point) {
         OGRPoint const point(positions.at(0).x, positions.at(0).y, positions.at(0).z);

@@ -75,7 +75,7 @@ void add_ring(OGRLinearRing const& drawn, Polygon& polygon, std::string const& n
     std::vector<Vec2> ring;
     for (int i = 0; i < drawn.getNumPoints(); ++i) {
         Vec2 const p{drawn.getX(i), drawn.getY(i)};
-        if (!std::isfinite(p.x) || !std::isfinite(p.y)) {
+        if (!is_finite(p)) {
             refuse_polygons(fmt::format("vertex {} of feature {} of {} is not finite: ({}, {}); correct the file",
                                         i + 1, polygon.feature, name, p.x, p.y));
         }
@@ -165,7 +165,7 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
         for (auto& ring : polygon.rings) {
             for (std::size_t i = 0; i < ring.size(); ++i) {
                 Vec2 p = ring[i];
-                if (turn->Transform(1, &p.x, &p.y) == 0 || !std::isfinite(p.x) || !std::isfinite(p.y)) {
+                if (turn->Transform(1, &p.x, &p.y) == 0 || !is_finite(p)) {
                     refuse_polygons(
                         fmt::format("vertex {} of feature {} of {}, ({}, {}), cannot be reprojected to {:.60}: {}",
                                     i + 1, polygon.feature, name, ring[i].x, ring[i].y, crs, driver.take()));

@@ -160,8 +160,7 @@ void drain_to(Number outlet, SkeletonGraph const& graph, std::vector<Number>& do
 
 StreamNetwork trace(Mask const& skeleton, TraceParams const& params, Run const& run) {
     Vec2 const asked = params.mouth;
-    refuse_if<BadParameter>(!std::isfinite(asked.x) || !std::isfinite(asked.y),
-                            "network.trace: the mouth is not a finite position; give it in metres");
+    refuse_if<BadParameter>(!is_finite(asked), "network.trace: the mouth is not a finite position; give it in metres");
     SkeletonGraph const graph(skeleton);
     Grid const& grid = skeleton.grid();
     std::size_t const cells = graph.size();

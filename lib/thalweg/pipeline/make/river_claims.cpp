@@ -178,8 +178,7 @@ std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
 }
 
 bool is_somewhere(std::vector<Vec3> const& line) {
-    return std::all_of(line.begin(), line.end(),
-                       [](Vec3 const& v) { return std::isfinite(v.x) && std::isfinite(v.y); });
+    return std::all_of(line.begin(), line.end(), [](Vec3 const& v) { return is_finite(plan(v)); });
 }
 
 std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid const& grid) {

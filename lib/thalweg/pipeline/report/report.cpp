@@ -75,7 +75,7 @@ ordered_json findings_array(std::vector<Finding> const& findings) {
     ordered_json out = ordered_json::array();
     for (Finding const& f : findings) {
         ordered_json one{{"kind", f.kind}, {"feature", f.feature}};
-        if (std::isfinite(f.where.x) && std::isfinite(f.where.y)) {
+        if (is_finite(f.where)) {
             one["x"] = f.where.x;
             one["y"] = f.where.y;
         }

@@ -236,18 +236,6 @@ bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
     return level.z[cell] > highest_lawful(level, cell, tangent);
 }
 
-/// Whether a river runs through a cell within a few steps.
-bool runs_soon(RiverCells const& rivers, std::size_t n, std::size_t cell) {
-    constexpr int steps = 4; // as far as the second ring, with a bend
-    for (int step = 0; step < steps && rivers.receiver[n] >= 0; ++step) {
-        n = static_cast<std::size_t>(rivers.receiver[n]);
-        if (rivers.cell[n] == cell) {
-            return true;
-        }
-    }
-    return false;
-}
-
 } // namespace
 
 bool leaves_grid(RiverCells const& rivers, std::size_t n) {
@@ -255,7 +243,18 @@ bool leaves_grid(RiverCells const& rivers, std::size_t n) {
     return r < 0 || rivers.number[static_cast<std::size_t>(r)] < 0;
 }
 
+bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps) {
+    for (; rivers.cell[n] != cell; --steps) {
+        if (steps == 0 || rivers.receiver[n] < 0) {
+            return false;
+        }
+        n = static_cast<std::size_t>(rivers.receiver[n]);
+    }
+    return true;
+}
+
 std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
+    constexpr int steps = 4; // as far as the second ring, with a bend
     RiverCells const& rivers = level.rivers;
     std::vector<std::int64_t> numbers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
@@ -265,7 +264,7 @@ std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
         bool walled = false;
         each_of_second_ring(level, rivers.cell[n], [&](std::size_t i) {
             bool const lower = level.z[rivers.cell[n]] > level.z[i] + tangent * level.side;
-            walled = walled || (lower && !runs_soon(rivers, n, i));
+            walled = walled || (lower && !runs_through(rivers, n, i, steps));
         });
         if (walled) {
             numbers.push_back(rivers.number[n]);

@@ -202,20 +202,6 @@ std::optional<std::size_t> lowest_beside(LandLevel const& level, std::uint32_t c
     return lowest;
 }
 
-bool lies_on_way_down(RiverCells const& rivers, std::size_t n, std::size_t cell) {
-    constexpr int steps = 12;
-    for (int step = 0; step <= steps; ++step) {
-        if (rivers.cell[n] == cell) {
-            return true;
-        }
-        if (rivers.receiver[n] < 0) {
-            return false;
-        }
-        n = static_cast<std::size_t>(rivers.receiver[n]);
-    }
-    return false;
-}
-
 /// The height that a river cell has by its grade or its file, whatever the land allows.
 float wanted_height(LandLevel const& level, EquilibriumLaw const& law, std::size_t n) {
     RiverCells const& rivers = level.rivers;
@@ -242,7 +228,8 @@ void mark_lack(LandLevel const& level, EquilibriumLaw const& law, std::size_t n,
         path.push_back(at);
         at = moved(at, offsets[static_cast<std::size_t>(level.way[at])]);
     }
-    if (lies_on_way_down(rivers, n, at)) { // which falls as its own river does
+    constexpr int steps = 12;
+    if (runs_through(rivers, n, at, steps)) { // which falls as its own river does
         return;
     }
     constexpr float least = 1e-3F; // [cells of the level]

@@ -229,8 +229,8 @@ Bands bands_of(double south, double north, Grid const& grid) {
 void require_sound(Tin const& tin, Run const& run) {
     for (std::size_t i = 0; i < tin.vertices.size(); ++i) {
         Vec3 const& v = tin.vertices[i];
-        refuse_if<BadInput>(!std::isfinite(v.x) || !std::isfinite(v.y) || !std::isfinite(v.z),
-                            "surface.rasterise_tin: vertex {} is not finite: ({}, {}, {})", i + 1, v.x, v.y, v.z);
+        refuse_if<BadInput>(!is_finite(v), "surface.rasterise_tin: vertex {} is not finite: ({}, {}, {})", i + 1, v.x,
+                            v.y, v.z);
     }
     parallel_ranges(run, static_cast<std::int64_t>(tin.triangles.size()), 1 << 15, [&](std::int64_t b, std::int64_t e) {
         for (std::int64_t i = b; i < e; ++i) {

@@ -311,16 +311,13 @@ namespace {
 
 constexpr std::uint64_t embed_stage = 0x656d626564; // "embed"
 
-bool finite(Vec2 p) {
-    return std::isfinite(p.x) && std::isfinite(p.y);
-}
-
 /// Throws when the ring cannot be a region.
 void check_ring(std::vector<Vec2> const& ring) {
     refuse_if<BadParameter>(ring.size() < 3, "network.embed_tree: the region has {} vertices, it needs three at least",
                             ring.size());
     for (Vec2 const p : ring) {
-        refuse_if<BadParameter>(!finite(p), "network.embed_tree: the region's vertex ({}, {}) is not finite", p.x, p.y);
+        refuse_if<BadParameter>(!is_finite(p), "network.embed_tree: the region's vertex ({}, {}) is not finite", p.x,
+                                p.y);
     }
     std::vector<Vec2> closed = ring;
     closed.push_back(ring.front());
@@ -337,7 +334,7 @@ void check_ring(std::vector<Vec2> const& ring) {
 void check(EmbedParams const& params, std::size_t links) {
     require_in("network.embed_tree", "clearance", params.clearance, Range::between(0.05, 0.35));
     require_in("network.embed_tree", "min_spacing_m", params.min_spacing_m, Range::at_least(0.0));
-    refuse_if<BadParameter>(!finite(params.direction) || !finite(params.mouth),
+    refuse_if<BadParameter>(!is_finite(params.direction) || !is_finite(params.mouth),
                             "network.embed_tree: mouth and direction must be finite numbers");
     check_ring(params.region);
     double const spacing = std::sqrt(area_of(params.region) / static_cast<double>(links));

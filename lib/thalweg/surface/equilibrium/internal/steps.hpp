@@ -235,6 +235,9 @@ void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeight
 /// Whether water leaves the caller's grid from river cell number n of a level.
 bool leaves_grid(RiverCells const& rivers, std::size_t n);
 
+/// Whether a river runs through a cell at its cell number n or within so many steps below.
+bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps);
+
 /// Numbers in the caller's Channels of river cells that stand perched above what they do not run through themselves, in
 /// order.
 std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent);
