@@ -25,7 +25,7 @@ Cell cell_in(Grid const& grid, Vec2 p) {
 std::vector<Cell> cells_of_vertices(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
     std::vector<Cell> cells;
     for (std::size_t i = 0; i < line.size(); ++i) {
-        // In floating point first: a position far outside has no 64-bit cell.
+        // Compare as floating point first: a position far outside has no 64-bit cell.
         bool const within =
             line[i].x >= grid.west && line[i].x <= grid.east() && line[i].y <= grid.north && line[i].y >= grid.south();
         if (!within || !grid.contains(cell_in(grid, line[i]))) {
@@ -54,11 +54,11 @@ std::vector<Cell> cells_along(std::vector<Vec2> const& line, Grid const& grid, s
 
 namespace {
 
-/// The marked cell of one column that is nearest to the row in hand, and the columns it is nearest to.
+/// The marked cell of a column nearest to the current row, and the columns for which it is the nearest.
 struct Site {
     std::int64_t col = 0;
     std::int64_t row = 0;
-    std::int64_t rise = 0;  ///< squared distance to the row in hand
+    std::int64_t rise = 0;  ///< squared distance to the current row
     std::int64_t first = 0; ///< first column of the row in which it beats the sites before it
 };
 
@@ -72,7 +72,7 @@ bool beats(Site const& a, Site const& b, std::int64_t col) {
     return to_a < to_b || (to_a == to_b && comes_first(a, b));
 }
 
-/// First column in which `right` beats `left`; asked only where that column is above 0.
+/// First column in which `right` beats `left`; called only where that column is above 0.
 std::int64_t crossing(Site const& left, Site const& right) {
     std::int64_t const num = right.col * right.col + right.rise - left.col * left.col - left.rise;
     std::int64_t const den = 2 * (right.col - left.col);

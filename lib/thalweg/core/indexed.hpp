@@ -17,9 +17,8 @@ using CellIndex = std::int64_t;   ///< place of a cell in a grid, row by row fro
 using RowIndex = std::int64_t;    ///< row of a grid, from the north
 using ColumnIndex = std::int64_t; ///< column of a grid, from the west
 
-/// A std::vector whose places are numbers of type Id, for numbers that may be negative where they name no place (-1) or
-/// while they are reckoned with. Law: contiguous, and as fast as std::vector; a number that names no place
-/// is a programming error, which debug builds find.
+/// A std::vector indexed by numbers of type Id. Ids may be -1 (none), or negative during arithmetic. Law: contiguous,
+/// and as fast as std::vector; an index out of range is a programming error, which debug builds find.
 template <std::integral Id, class T> class Indexed : public std::vector<T> {
     using Values = std::vector<T>;
 
@@ -36,7 +35,7 @@ public:
         return Values::operator[](static_cast<std::size_t>(i));
     }
 
-    /// \return how many there are, which is the number that the next to be added gets.
+    /// \return number of elements, which is the id of the next one.
     Id count() const { return static_cast<Id>(Values::size()); }
 };
 
@@ -44,7 +43,7 @@ public:
 template <class Enum, class T, std::size_t Size> struct ByEnum {
     std::array<T, Size> entries{};
 
-    /// \param value one of the enumeration's
+    /// \param value a value of the enumeration
     /// \return its entry
     /// \throws std::out_of_range for a value that the table does not have
     constexpr T& operator[](Enum value) { return entries.at(static_cast<std::size_t>(value)); }

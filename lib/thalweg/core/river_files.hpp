@@ -34,7 +34,7 @@ struct Stretch {
     double to_m = 0.0;        ///< likewise
 };
 
-/// What a file says of a line at a bifurcation.
+/// What a file states about a line at a bifurcation.
 enum class Channel : std::uint8_t { unknown, main, minor };
 
 /// A river line of a file, in the grid's coordinates.
@@ -45,30 +45,30 @@ struct RiverLine {
     std::int64_t rank = 0;      ///< flow rank from the direction field, decreasing downstream; 0: none
     int lambda = 0;             ///< generator of the network that grows from a stroke; 0: none
     std::int64_t down = 0;      ///< feature of the line downstream, by the file's links; 0: none
-    /// Areas, discharge, orders, classes by the fields of the file, the most reliable first: larger for larger rivers,
-    /// 0: unknown. The same fields for all lines of a file; compared one after another.
+    /// Areas, discharge, orders and classes from the file's fields, the most reliable first: larger for larger rivers,
+    /// 0: unknown. All lines of a file have the same fields, which are compared one after another.
     std::vector<double> size = {};
     Channel channel = Channel::unknown;
     std::string name = {};       ///< the river's name, or ""
-    std::string artificial = {}; ///< what kind of artificial channel it is ("waterway canal"), or ""
-    std::int64_t id_shift = 0;   ///< feature is the file's own number and this: networks whose ids begin at 0
-    int runs = 0;                ///< by a direction column: 1 as drawn, -1 against it, 0: it does not say
-    double area_m2 = 0.0;        ///< drainage area at its lower end by the file; 0: unknown
+    std::string artificial = {}; ///< kind of artificial channel ("waterway canal"), or ""
+    std::int64_t id_shift = 0;   ///< feature is the file's own number plus this, for networks whose ids begin at 0
+    int runs = 0;                ///< from a direction column: 1: as drawn, -1: against it, 0: unknown
+    double area_m2 = 0.0;        ///< drainage area at its lower end from the file; 0: unknown
 
-    /// The number by which the file itself calls it.
+    /// The file's own number of the line.
     std::int64_t number() const { return feature - id_shift; }
 };
 
 /// Why a line is left out of the network.
 enum class LeftOut : std::uint8_t {
-    filter,     ///< by its fields no natural watercourse
-    coast,      ///< a coastline by its fields
+    filter,     ///< not a natural watercourse according to its fields
+    coast,      ///< a coastline according to its fields
     grid,       ///< beyond the grid
-    duplicate,  ///< another runs there
-    too_short,  ///< shorter than the distance at which ends are joined
-    divergence, ///< water runs another way
-    pruned,     ///< shorter than the recipe wants
-    head        ///< above where the river begins in the terrain
+    duplicate,  ///< duplicate of another line
+    too_short,  ///< shorter than the snapping distance
+    divergence, ///< the water takes another branch
+    pruned,     ///< shorter than the recipe's limit
+    head        ///< above the river's head in the terrain
 };
 
 /// A line, or part of one, that is left out of the network.
@@ -86,7 +86,7 @@ struct RiverLines {
     std::string crs;                           ///< of the coordinates
     std::string name;                          ///< file (and layer), for messages
     bool has_z = false;                        ///< every vertex has a height
-    std::vector<RiverLine> channels = {};      ///< artificial ones, see network::keep_connectors
+    std::vector<RiverLine> channels = {};      ///< artificial channels, see network::keep_connectors
     std::vector<SecondaryLine> secondary = {}; ///< other lines that are not natural watercourses
     std::vector<Finding> findings = {}; ///< left_out [vertices]: features without a line; not_a_line [shapes], by type
     AttributeTable attributes = {};     ///< of the features, record = feature
@@ -147,7 +147,7 @@ struct NetworkFile {
         std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
         bool is_channel = false;            ///< unnatural, but carries water: a canal, ditch, drain or pipe
         int runs = 0;                       ///< as RiverLine
-        std::vector<Stretch> sources = {};  ///< the features it is made of, if the file names them
+        std::vector<Stretch> sources = {};  ///< the features it consists of, if the file names them
         std::string type = {};
         bool braided = false;
         bool is_input = true; ///< as Arc

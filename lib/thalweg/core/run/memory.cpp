@@ -13,7 +13,7 @@
 namespace thalweg {
 namespace {
 
-/// The number a file holds, or -1 where there is no file or no number ("max").
+/// Reads the number in a file; -1: no file, or no number ("max").
 std::int64_t number_in(char const* path) {
     std::ifstream in(path);
     std::int64_t value = -1;
@@ -54,7 +54,8 @@ void* take_large_pages(std::size_t bytes) {
     if (posix_memalign(&memory, page, bytes) != 0) {
         throw std::bad_alloc();
     }
-    // What fills no large page at the end stays in small ones. A wish: what comes of it only changes time and memory.
+    // A remainder smaller than a large page stays in small pages. madvise() is a hint: only time and memory depend on
+    // it.
     madvise(memory, bytes / page * page, MADV_HUGEPAGE);
     return memory;
 }

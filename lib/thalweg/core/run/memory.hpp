@@ -24,7 +24,7 @@ std::int64_t peak_memory_bytes();
 void* take_large_pages(std::size_t bytes);
 void give_large_pages(void* memory) noexcept;
 
-/// An allocator with large pages for large blocks and operator new for small ones.
+/// An allocator that uses large pages for large blocks and operator new for small ones.
 template <class T> struct LargePages {
     using value_type = T;
     static constexpr std::size_t least_bytes = std::size_t{4} << 20;

@@ -26,7 +26,7 @@ bool continues(char c) {
     return (static_cast<unsigned char>(c) & 0xC0U) == 0x80U;
 }
 
-/// The character at the beginning of a text and its length in bytes; length 0 where it is not UTF-8.
+/// The first character of a text and its length in bytes; length 0: not UTF-8.
 std::pair<std::uint32_t, std::size_t> first_character(std::string_view text) {
     auto const head = static_cast<unsigned char>(text.front());
     if (head < 0x80U) {
@@ -48,7 +48,7 @@ std::pair<std::uint32_t, std::size_t> first_character(std::string_view text) {
     return is_known ? std::pair{code, length} : std::pair<std::uint32_t, std::size_t>{0, 0};
 }
 
-/// Whether a character acts on a terminal or on the order of what it shows.
+/// Whether a character controls a terminal or the order of the text it shows.
 bool acts(std::uint32_t code) {
     return (code < 0x20 && code != '\t') || (code >= 0x7F && code <= 0x9F) || code == 0x61C ||
            (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
@@ -95,7 +95,7 @@ bool is_same_letter(char a, char b) {
     return std::tolower(static_cast<unsigned char>(a)) == b;
 }
 
-/// Where the value of "password = value" begins and ends that stands at a place; empty where none does.
+/// Finds where the value of a "password = value" at this position begins and ends; empty: there is none.
 std::pair<std::size_t, std::size_t> password_at(std::string_view text, std::size_t at) {
     constexpr std::string_view word = "password";
     if (text.size() - at < word.size() ||
@@ -118,7 +118,8 @@ std::pair<std::size_t, std::size_t> password_at(std::string_view text, std::size
     return {begin, std::min(text.find_first_of(" ,&;'\"\n)", begin), text.size())};
 }
 
-/// Where the password of "://user:password@" begins and ends, whose "://" stands at a place; empty where there is none.
+/// Finds where the password of a "://user:password@" whose "://" is at this position begins and ends; empty: there is
+/// none.
 std::pair<std::size_t, std::size_t> address_password_at(std::string_view text, std::size_t at) {
     constexpr std::string_view mark = "://";
     if (text.substr(at, mark.size()) != mark) {
@@ -196,7 +197,7 @@ char lower(char c) {
     return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c;
 }
 
-/// Letters put in, left out, replaced, or swapped with their neighbour.
+/// Counts inserted, deleted and replaced letters; swapping two neighbours counts as one edit.
 std::size_t edit_distance(std::string_view a, std::string_view b) {
     std::vector<std::size_t> row(b.size() + 1);
     std::iota(row.begin(), row.end(), std::size_t{0});
@@ -221,7 +222,7 @@ std::size_t edit_distance(std::string_view a, std::string_view b) {
 } // namespace
 
 std::string closest(std::string_view word, std::vector<std::string> const& known) {
-    word = word.substr(0, 64); // longer words are typing of another kind
+    word = word.substr(0, 64); // limits the time; longer words are not typing errors
     std::string best;
     std::size_t best_distance = std::clamp<std::size_t>(word.size() / 3, 1, 3) + 1;
     for (std::string const& candidate : known) {

@@ -44,8 +44,9 @@ void Run::tell(std::string_view stage, std::string_view words) const {
 namespace {
 
 #ifdef THALWEG_TSAN
-/// oneTBB is compiled without the thread sanitizer, which takes each of its hand-overs for a race. In builds with it,
-/// threads of the standard library do the work; the order in which they take it is one that orders nothing else.
+/// oneTBB is compiled without the thread sanitizer, which then reports each of its hand-overs as a race. In builds with
+/// the sanitizer, threads of the standard library do the work; they take it in a relaxed order that synchronises
+/// nothing else.
 void share(int threads, std::int64_t count, std::int64_t grain,
            std::function<void(std::int64_t, std::int64_t)> const& body) {
     std::int64_t const length = std::max<std::int64_t>({grain, count / 64, 1});

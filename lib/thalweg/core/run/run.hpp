@@ -12,7 +12,7 @@ namespace thalweg {
 /// The device on which linear systems are solved.
 enum class Device : std::uint8_t { cpu, opencl };
 
-/// How a stage runs: no field changes a result.
+/// Controls execution (progress, cancellation, threads, device). It never changes results.
 struct Run {
     /// Receives progress, with GDAL's signature: share done [0, 1], what is being done, progress_arg. Called by one
     /// thread at a time; return 0 to stop the work. The text is one word, a stage's name, preceded once by an
@@ -35,7 +35,7 @@ struct Run {
     /// \throws Cancelled when the work must stop
     void check() const;
     /// Logs a line about a stage: "grow       100000 particles".
-    /// \param stage name of the stage, set in a column of its own
+    /// \param stage name of the stage, in a column of its own
     /// \param words the message
     void tell(std::string_view stage, std::string_view words) const;
     void say(std::string_view line) const {
