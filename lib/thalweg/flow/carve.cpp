@@ -19,13 +19,13 @@
 namespace thalweg::flow {
 namespace {
 
-/// Cells whose water stands at one level.
+/// Cells covered by water at one level.
 struct Lake {
     std::vector<std::int64_t> cells;
     float level = 0.0F;
 };
 
-/// A height by which a queue hands out the lowest first, ties by index.
+/// A queue that returns the lowest height first; ties by index.
 template <class Key>
 using Lowest =
     std::priority_queue<std::pair<Key, std::int64_t>, std::vector<std::pair<Key, std::int64_t>>, std::greater<>>;
@@ -40,7 +40,8 @@ public:
         flood(level_, rivers_, Lakes::level, run_);
     }
 
-    /// Cuts where that is cheaper than filling. Gives: the land, which is still to be filled.
+    /// Breaches depressions where that is cheaper than filling.
+    /// \return the terrain; remaining depressions are still to be filled
     Raster<float> cut() {
         std::vector<std::int64_t> all;
         for (std::int64_t i = 0; i < land_.cells(); ++i) {
@@ -49,7 +50,7 @@ public:
             }
         }
         std::vector<Lake> lakes = lakes_among(all);
-        // Lower pits first: what lies lower than a pit then drains already.
+        // Lower pits first: anything lower than the current pit drains already.
         std::vector<std::tuple<float, std::int64_t, std::size_t>> order;
         for (std::size_t k = 0; k < lakes.size(); ++k) {
             std::int64_t const pit = pit_of(lakes[k]);
@@ -68,7 +69,7 @@ public:
     }
 
 private:
-    /// Before a change, to take it back.
+    /// Values of a cell before a change, for undo.
     struct Was {
         std::int64_t cell;
         float land;
@@ -81,7 +82,7 @@ private:
         });
     }
 
-    /// The lakes that stand on some of these cells, by their first cell.
+    /// The lakes that cover some of these cells, by their first cell.
     std::vector<Lake> lakes_among(std::vector<std::int64_t> const& cells) {
         std::vector<Lake> lakes;
         ++stamp_;
@@ -106,7 +107,7 @@ private:
         return lakes;
     }
 
-    /// Levels of these cells, after the land has changed there or beside them.
+    /// Recomputes the levels of these cells after terrain has changed there or beside them.
     void flood_again(std::vector<std::int64_t> const& cells) {
         ++stamp_;
         for (std::int64_t const i : cells) {
@@ -141,7 +142,7 @@ private:
         }
     }
 
-    /// Settles what stands on these cells now: earlier cuts may have lowered the water there.
+    /// Treats the depressions that now exist on these cells: earlier cuts may have lowered their water.
     void settle(std::vector<std::int64_t> const& cells) {
         flood_again(cells);
         for (Lake const& lake : lakes_among(cells)) {
@@ -168,8 +169,8 @@ private:
         return volume;
     }
 
-    /// Of cuts from the pit's own height and from some between it and the water's, where that of the one begins which
-    /// moves the least: where a river's bank must not be cut, a pit below it is better filled as far as the bank.
+    /// Finds the starting height of the cheapest cut, between the pit's own height and the water level: where a river's
+    /// bank must not be cut, it is better to fill a pit below it up to the bank first.
     std::optional<float> cheapest_cut(Lake const& lake, double full) {
         std::optional<float> best;
         float const bottom = land_[pit_of(lake)];
@@ -192,7 +193,8 @@ private:
         return best;
     }
 
-    /// Fills a lake or cuts it. Gives: the volume moved, in metres times cells.
+    /// Fills a lake or cuts its outlet.
+    /// \return volume moved [m times cells]
     double drain(Lake const& lake, int depth) {
         double full = 0.0;
         for (std::int64_t const i : lake.cells) {
@@ -236,7 +238,8 @@ private:
                            [&](std::int64_t step) { return std::isnan(land_[i + step]); });
     }
 
-    /// The last cell to be cut of the way from a pit to what drains that moves the least, less than a bound.
+    /// Finds the least-cost path from a pit to a cell that drains, if it costs less than the bound.
+    /// \return the last cell to be cut
     std::int64_t way_out(std::int64_t pit, double bound) {
         ++stamp_;
         Lowest<double> queue;
@@ -278,7 +281,8 @@ private:
         return nowhere;
     }
 
-    /// Cuts the way that was found. Gives: the volume.
+    /// Cuts along the path found.
+    /// \return volume moved [m times cells]
     double cut_back_from(std::int64_t end) {
         double moved = 0.0;
         for (std::int64_t i = end;; i -= offsets_[index_of(back_[i])]) {
@@ -292,8 +296,8 @@ private:
     }
 
     static constexpr std::int64_t nowhere = -1;
-    int heights_;                      ///< at which a cut may begin, the pit's own the first
-    static constexpr int deepest = 64; ///< lakes in lakes; what lies deeper is filled
+    int heights_;                      ///< number of heights at which a cut may begin, the pit's own first
+    static constexpr int deepest = 64; ///< nesting depth of lakes; deeper ones are filled
 
     Raster<float> land_;
     Raster<float> level_;
@@ -303,10 +307,10 @@ private:
     std::array<std::int64_t, 8> offsets_;
     std::vector<Was> changes_;
     std::uint32_t stamp_ = 0;
-    Raster<std::uint32_t> seen_; ///< the stamp of the last search that came here
-    Raster<double> cost_;        ///< of that search
-    Raster<float> height_;       ///< to which the way through this cell is to be cut
-    Raster<Direction> back_;     ///< the step that led here; leaves in the pit
+    Raster<std::uint32_t> seen_; ///< stamp of the last search that reached the cell
+    Raster<double> cost_;        ///< of the last search
+    Raster<float> height_;       ///< to which the path through this cell is cut
+    Raster<Direction> back_;     ///< the step that reached the cell; leaves in the pit
 };
 
 } // namespace
@@ -316,8 +320,8 @@ Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float
     refuse_if<BadInput>(least.grid() != dem.grid(),
                         "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
                         least.width(), least.height(), dem.width(), dem.height());
-    // Pits below a river's banks want to be filled before they are cut. A cut that is the better one for its lake may
-    // leave others more to do: so the better of both ways of the whole land.
+    // A pit below a river's banks may have to be partly filled before it is cut. A cut that is cheaper for its lake may
+    // make others more expensive, so both strategies are tried on the whole terrain and the cheaper is kept.
     bool const banks =
         std::any_of(least.values().begin(), least.values().end(), [](float z) { return !std::isnan(z); });
     std::optional<Raster<float>> best;

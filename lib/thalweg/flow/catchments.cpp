@@ -158,14 +158,14 @@ Catchments catchments(Reaches const& reaches, FlowField const& drainage, Run con
 
 namespace {
 
-/// By place in cells (ascending by index): how many cells of the grid are nearest to it by city-block distance, ties to
-/// the lower place. A key holds the distance above the place, so that the lesser key is the better one; a step adds one
-/// to the distance and keeps that order, which makes the sweeps along rows and columns exact.
+/// By position in cells (ascending by index): counts the grid cells nearest to it by city-block distance, ties to the
+/// lower position. A key holds the distance above the position, so that the smaller key wins; a step adds one to the
+/// distance and keeps that order, which makes the sweeps along rows and columns exact.
 std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Grid const& grid, Run const& run) {
     using Key = std::uint64_t;
     constexpr Key step = Key{1} << 32U;
     constexpr Key nothing = Key{1} << 62U;
-    constexpr std::int64_t most = std::int64_t{1} << 30U; // of either half of a key
+    constexpr std::int64_t most = std::int64_t{1} << 30U; // limit of either half of a key
     refuse_if<BadInput>(grid.width + grid.height > most || static_cast<std::int64_t>(cells.size()) > most,
                         "flow.areas_nearest: {} x {} cells with {} river cells are beyond 2^30 of either", grid.width,
                         grid.height, cells.size());
@@ -201,7 +201,7 @@ std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Gri
     return count;
 }
 
-/// By place in cells: how many cells of the grid reach it by D8 before any other river cell.
+/// By position in cells: counts the grid cells whose D8 flow path reaches it before any other river cell.
 std::vector<std::int64_t> count_draining(std::vector<RiverCell> const& cells, FlowField const& drainage,
                                          Run const& run) {
     Indexed<std::int32_t, std::int64_t> count(cells.size(), 0);
@@ -214,7 +214,7 @@ std::vector<std::int64_t> count_draining(std::vector<RiverCell> const& cells, Fl
     return count;
 }
 
-/// Adds up along the rivers what each of their cells gathers.
+/// Accumulates the cells' own areas down the rivers.
 ContributingAreas accumulate(StreamNetwork const& network, std::vector<RiverCell> const& cells,
                              std::vector<std::int64_t> const& count, Grid const& grid, char const* source) {
     std::vector<double> const arcs(network.arc_count(), 0.0);

@@ -43,7 +43,7 @@ Raster<float> fill(Raster<float> const& dem, Valley const& valley, Run const& ru
 
 namespace {
 
-/// What draws the water of a river cell on: its lower neighbours of the river.
+/// The lower river neighbours of a river cell.
 struct Pull {
     double slope = 0.0; ///< [m/cell] the steepest
     double lowest = std::numeric_limits<double>::infinity();
@@ -111,7 +111,7 @@ DemChange change_between(Raster<float> const& before, Raster<float> const& after
     for (std::int64_t r = 0; r < before.height(); ++r) {
         auto const was = before.row(r);
         auto const is = after.row(r);
-        double raised_m = 0.0; // by rows, so that small changes are not lost in a large sum
+        double raised_m = 0.0; // per row, so that a large sum does not absorb small changes
         double cut_m = 0.0;
         for (std::size_t c = 0; c < was.size(); ++c) {
             double const rise = static_cast<double>(is[c]) - static_cast<double>(was[c]);

@@ -37,7 +37,7 @@ std::vector<std::int64_t> node_cells(FlowField const& drainage, std::int64_t sup
     return nodes;
 }
 
-/// So many steps of water from cell to cell.
+/// Numbers of straight and diagonal steps.
 struct Steps {
     std::int64_t straight = 0;
     std::int64_t diagonal = 0;
@@ -47,11 +47,11 @@ struct Steps {
         straight += more.straight;
         diagonal += more.diagonal;
     }
-    /// Their length in sides of cells.
+    /// \return length [cells]
     double cells() const { return static_cast<double>(straight) + static_cast<double>(diagonal) * std::sqrt(2.0); }
 };
 
-/// What outlets drain beside the arcs that end in them goes to the first of these, as areas_d8 has it.
+/// Adds the cells that drain into outlets outside any arc to the first arc that ends there, as areas_d8 does.
 void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
     for (NodeId const outlet : plan.outlets()) {
         double const brought = std::accumulate(plan.in(outlet).begin(), plan.in(outlet).end(), 0.0,
@@ -130,7 +130,7 @@ std::int64_t support_for_length(FlowField const& drainage, double length_m, Run 
         }
     }
     double const enough = length_m / area.grid().cell_m;
-    Steps larger; // those of areas above the octave in which the support lies
+    Steps larger; // steps with areas above the octave that contains the support
     std::size_t octave = octaves.size();
     for (Steps with = larger; octave-- > 0; larger = with) {
         with.add(octaves[octave]);

@@ -11,9 +11,9 @@
 namespace thalweg::flow {
 namespace {
 
-// Calls visit(cell, receiver) for every cell whose water goes on, after all cells that drain into it: from each cell
-// without donors, water is followed as far as all donors have arrived. Takes: directions that stay on the grid and
-// close no circle. Source: Braun and Willett 2013.
+// Calls visit(cell, receiver) for every cell with a receiver, after all its donors: follows water from each cell
+// without donors as long as all donors have arrived. The directions must stay on the grid and form no cycle. Source:
+// Braun and Willett 2013.
 template <class Visit> void each_downstream(Raster<Direction> const& direction, Run const& run, Visit visit) {
     constexpr std::int8_t done = -1;
     Raster<std::int8_t> awaited(direction.grid()); // donors whose water has not arrived yet
@@ -45,15 +45,16 @@ bool contains(Sinks const& sinks, std::int64_t cell) {
     return std::binary_search(sinks.begin(), sinks.end(), cell);
 }
 
-/// Raises depressions to the level at which they spill. Gives: the way back to where the flood came from.
+/// Fills depressions to their spill level.
+/// \return by cell: direction towards the cell from which the flood reached it
 Raster<Direction> raise_to_spill(Raster<float>& level, Sinks const& sinks, Run const& run) {
     auto const is_sink = [&](std::int64_t i) { return contains(sinks, i); };
     return priority_flood(
         level, is_sink, [](float z) { return z; }, "drain", run);
 }
 
-/// Turns cells that have a lower neighbour towards the one down the steepest slope. With the flood's way for the others
-/// there is no cycle: each step leads lower, or level to a cell that the flood reached earlier.
+/// Directs cells with a lower neighbour to the steepest one. The other cells keep the flood's direction. There is no
+/// cycle: each step leads lower, or level to a cell that the flood reached earlier.
 void descend(Raster<float> const& level, Sinks const& sinks, Raster<Direction>& direction, Run const& run) {
     auto const offsets = d8_offsets(level.grid());
     parallel_ranges(run, level.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
@@ -76,7 +77,7 @@ void accumulate(FlowField& drainage, Run const& run) {
     });
 }
 
-/// The depressions of a DEM under its water, which is gone afterwards.
+/// Lists the depressions of a DEM from its water levels, which it consumes.
 std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>& level, Run const& run) {
     std::vector<Depression> found;
     Grid const& grid = dem.grid();
@@ -128,7 +129,7 @@ std::vector<Depression> take_depressions(Raster<float> const& dem, Raster<float>
     return found;
 }
 
-/// In the framed DEM, ascending.
+/// Converts indices of cells to the framed DEM; ascending.
 Sinks framed_sinks(Raster<float> const& dem, Grid const& framed, std::vector<std::int64_t> const& sinks) {
     Sinks cells;
     for (std::int64_t const sink : sinks) {

@@ -23,7 +23,7 @@ constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
     throw BadInput(fmt::format("flow.route_dinf: {}; take the drainage of this DEM", why));
 }
 
-/// The filled DEM in its frame: from where water leaves, up the ways it comes.
+/// Computes the filled levels of the framed DEM from the outlets upstream.
 Raster<float> levels(Raster<float> const& dem, Raster<Direction> const& direction, Run const& run) {
     auto const offsets = d8_offsets(dem.grid());
     Raster<float> level(dem.grid(), no_height);
@@ -56,8 +56,8 @@ Raster<float> levels(Raster<float> const& dem, Raster<Direction> const& directio
     return level;
 }
 
-/// Down the steepest facet, or dinf_leaves where no neighbour is lower. drop: to each neighbour, NaN where it has no
-/// data.
+/// Finds the bearing of the steepest facet; dinf_leaves: no neighbour is lower. drop: to each neighbour, NaN where it
+/// has no data.
 float steepest(std::array<double, 8> const& drop, std::array<double, 8> const& height) {
     constexpr double eighth_turn = portable::pi / 4.0;
     double best = 0.0; // square of the slope
@@ -116,7 +116,7 @@ Raster<float> bearings(Raster<float> const& level, Raster<Direction> const& dire
     return bearing;
 }
 
-/// The two neighbours that a cell's water goes to, as distances in the raster, and the share of the second.
+/// The two receivers of a cell, as index offsets, and the share of the second.
 struct Parting {
     std::int64_t first;
     std::int64_t second;

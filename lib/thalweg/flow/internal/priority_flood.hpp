@@ -17,14 +17,13 @@
 
 namespace thalweg::flow {
 
-/// Cells by height, first in first out among equals (both zeros are equal).
-/// Takes: never a cell below the one popped last, as a flood has none. Source: radix heap of Ahuja, Mehlhorn, Orlin and
-/// Tarjan 1990.
+/// A queue of cells by height, first in first out among equals (both zeros are equal). A cell must not be below the one
+/// popped last, as in a flood. Source: radix heap of \cite ahuja1990.
 class FloodQueue {
 public:
     void push(float z, std::int64_t cell) { put({rank_of(z), cell}); }
 
-    /// The lowest cell, or -1 when there is none.
+    /// \return the lowest cell; -1: empty.
     std::int64_t pop() {
         if (lowest_.empty() && !advance()) {
             return -1;
@@ -40,7 +39,7 @@ private:
         std::int64_t cell;
     };
 
-    /// Order of floats as unsigned numbers.
+    /// Maps floats to unsigned numbers in the same order.
     static std::uint32_t rank_of(float z) {
         auto const bits = std::bit_cast<std::uint32_t>(z + 0.0F);
         constexpr std::uint32_t sign = 0x80000000U;
@@ -70,14 +69,16 @@ private:
 
     std::uint32_t last_ = 0;
     std::deque<std::int64_t> lowest_;
-    std::vector<Entry> moving_;                ///< kept for its memory
+    std::vector<Entry> moving_;                ///< keeps its memory between calls
     std::array<std::vector<Entry>, 32> above_; ///< by the highest bit in which a rank differs from last_
 };
 
-/// Raises a framed DEM (framed) to the level at which its water spills.
-/// Takes: is_outlet(cell), where water leaves besides the border and cells beside no data; rise(level), the least level
-/// of a cell that the flood reaches from one at this level. Gives: by cell, the way back to where the flood came from.
-/// Throws: Cancelled. Source: Barnes, Lehman and Mulla 2014.
+/// Fills a framed DEM to its spill levels.
+/// \param is_outlet called with a cell; true: water leaves there, besides at the border and beside no data
+/// \param rise called with a level; returns the least level of a cell that the flood reaches from there
+/// \return by cell: direction towards the cell from which the flood reached it
+///
+/// Source: \cite barnes2014.
 template <class IsOutlet, class Rise>
 Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, Rise rise, char const* stage,
                                  Run const& run) {
