@@ -19,20 +19,20 @@
 namespace thalweg::geometry {
 namespace {
 
-// How two segments of some length meet.
+// How two segments of positive length meet.
 struct SegmentMeeting {
     enum class Kind {
         none,
-        vertex, // in a point that is an end of one of them
-        proper, // in a point inside both
-        stretch // in more than a point
+        vertex, // at an end of one of them
+        proper, // at a point inside both
+        stretch // along a stretch
     };
     Kind kind = Kind::none;
-    Vec2 first; // the end they meet in; of a stretch the end of lesser x, then y. Not set where proper
-    Vec2 last;  // the other end of a stretch, else first
+    Vec2 first; // where they meet; of a stretch the end with lesser x, then y. Not set if proper
+    Vec2 last;  // the other end of a stretch; otherwise equals first
 };
 
-// The point in which ab and cd, which cross properly, do so, and its place [0,1] on each: exact and rounded once.
+// The point where ab and cd cross properly, and its position [0, 1] on each: exact and rounded once.
 struct ProperCrossing {
     Vec2 at;
     double on_ab = 0.0;
@@ -42,7 +42,7 @@ struct ProperCrossing {
 using Point = CGAL::Exact_predicates_inexact_constructions_kernel::Point_2;
 using Rational = CGAL::Exact_rational;
 
-// A common end is the usual case in a network, and the one in which no filter spares the exact arithmetic.
+// Networks mostly meet at common ends, and that is the case in which no filter avoids exact arithmetic.
 int side(Vec2 a, Vec2 b, Vec2 p) {
     if (p == a || p == b) {
         return 0;
@@ -50,7 +50,7 @@ int side(Vec2 a, Vec2 b, Vec2 p) {
     return static_cast<int>(CGAL::orientation(Point(a.x, a.y), Point(b.x, b.y), Point(p.x, p.y)));
 }
 
-// The double nearest to q. CGAL::to_double only promises one beside it.
+// The double nearest to q. CGAL::to_double only promises a neighbour of it.
 double rounded(Rational const& q) {
     double best = CGAL::to_double(q);
     for (double const side : {-1.0, 1.0}) {
@@ -67,7 +67,7 @@ Vec2 without_minus_zero(Vec2 p) {
     return {p.x + 0.0, p.y + 0.0};
 }
 
-// Where the segments ab and cd meet: exact, and without rational arithmetic.
+// Finds where the segments ab and cd meet: exact, without rational arithmetic.
 SegmentMeeting meeting_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     using Kind = SegmentMeeting::Kind;
     int const of_a = side(c, d, a);
@@ -108,7 +108,7 @@ ProperCrossing crossing_of(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
     return {{rounded(Rational(a.x) + on_s * sx), rounded(Rational(a.y) + on_s * sy)}, rounded(on_s), rounded(on_t)};
 }
 
-// Place [0,1] on ab of a point that lies on it, exact and rounded once.
+// Position [0, 1] on ab of a point that lies on it, exact and rounded once.
 double place_on(Vec2 a, Vec2 b, Vec2 p) {
     if (p == a) {
         return 0.0;
@@ -126,7 +126,7 @@ struct LineSegment {
     std::uint32_t segment = 0;
 };
 
-// What CGAL asks of a box, without its own id and pointer: a million polylines have many segments.
+// A box for CGAL without its id and pointer, to save memory: a million polylines have many segments.
 class Box {
 public:
     using NT = double;
@@ -161,10 +161,10 @@ void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<
     }
 }
 
-// Calls visit once for every two segments whose boxes meet, in no order that means something. Takes: polylines of
-// finite coordinates, fewer than 2^32, of fewer than 2^32 vertices. A segment without length is passed over, but for
-// the first of a polyline that is one repeated point. Throws: BadInput when a coordinate is not finite. Source:
-// Zomorodian and Edelsbrunner 2000 (CGAL).
+// Calls visit once for every two segments whose boxes meet, in an unspecified order. Polylines have finite coordinates;
+// there are fewer than 2^32, of fewer than 2^32 vertices each. Segments of length 0 are skipped, except the first of a
+// polyline that is one repeated point. Throws BadInput when a coordinate is not finite. Source: Zomorodian and
+// Edelsbrunner 2000 (CGAL).
 void each_close_pair(std::vector<std::vector<Vec2>> const& lines,
                      std::function<void(LineSegment, LineSegment)> const& visit, Run const& run = {}) {
     std::size_t segments = 0;
@@ -187,7 +187,7 @@ void each_close_pair(std::vector<std::vector<Vec2>> const& lines,
 
 using Lines = std::vector<std::vector<Vec2>>;
 
-// Whether the two follow one another in their line: nothing but repeated vertices lies between.
+// Whether the two follow one another in their line, with only repeated vertices between.
 bool are_neighbours(Lines const& lines, LineSegment s, LineSegment t) {
     if (s.line != t.line) {
         return false;
@@ -231,7 +231,7 @@ public:
     }
 
     std::vector<Crossing> sorted() {
-        // Places that round alike are told apart by how far along the segment's own direction they lie.
+        // Positions that round to the same value are ordered along the segment's direction.
         auto const key = [&](Crossing const& c) {
             Vec2 const a = lines_[c.line][c.segment];
             Vec2 const b = lines_[c.line][c.segment + 1];

@@ -56,8 +56,8 @@ Vec2 midway(Diagram::Site const& s, Diagram::Site const& t, Vec2 p, Vec2 directi
 
 namespace {
 
-constexpr double far_away = 8.0;    // times the size of everything
-constexpr double same_place = 1e-9; // likewise
+constexpr double far_away = 8.0;    // in units of the whole extent
+constexpr double same_place = 1e-9; // in units of the whole extent
 
 void note_label(std::vector<std::int64_t>& labels, std::int64_t label) {
     auto const place = std::ranges::lower_bound(labels, label);
@@ -76,7 +76,7 @@ bool disjoint(std::vector<std::int64_t> const& a, std::vector<std::int64_t> cons
     return true;
 }
 
-/// Groups of faces whose vertices are one.
+/// Groups faces whose vertices coincide.
 class Groups {
 public:
     explicit Groups(std::size_t count) : above_(count) { std::iota(above_.begin(), above_.end(), std::size_t{0}); }
@@ -113,7 +113,7 @@ std::optional<std::pair<double, double>> within(Vec2 p, Vec2 q, Bounds const& b)
     return std::nullopt;
 }
 
-/// Lays edges into a diagram, cut at the bounds.
+/// Adds edges to a diagram, clipped to the bounds.
 class Edges {
 public:
     Edges(Diagram& diagram, Bounds const& bounds) : diagram_(diagram), bounds_(bounds) {}
@@ -146,7 +146,7 @@ public:
     }
 
 private:
-    // Chords leave their arcs: a point cut off one is moved along the bounds to where the arc meets them.
+    // Chords deviate from their arcs: a point cut off a chord is moved along the bounds to the arc.
     Vec2 place(Vec2 p, Vec2 q, double share, Diagram::Edge const& edge) const {
         if (share == 0.0) {
             return p;
@@ -181,7 +181,7 @@ private:
     Bounds const& bounds_;
 };
 
-/// From lower to higher faces, sorted: an order that does not hang on where in memory faces lie.
+/// Sorts by faces, the lower first in each link: an order independent of memory addresses.
 void sort(std::vector<RawDiagram::Link>& links) {
     for (auto& link : links) {
         if (link.from > link.to) {

@@ -6,7 +6,7 @@
 #include <map>
 #include <utility>
 
-// CGAL checks the whole diagram at every insertion of a debug build: minutes for a thousand segments.
+// In debug builds CGAL checks the whole diagram at every insertion: minutes for a thousand segments.
 #ifndef CGAL_NDEBUG
 #define CGAL_NDEBUG
 #endif
@@ -44,7 +44,7 @@ Vec2 normal_of(Site const& segment) {
     return {-d.y / l, d.x / l};
 }
 
-/// Distance to a site's point or line, on the side given for lines, and its gradient.
+/// Distance to a site's point or line (signed for lines), and its gradient.
 struct Slope {
     double distance = 0.0;
     Vec2 up;
@@ -75,7 +75,7 @@ double spread(std::array<Site, 3> const& sites, Vec2 p) {
     return most - least;
 }
 
-/// On the perpendicular through the end of a segment; other: the third site.
+/// Finds the point on the perpendicular through the end of a segment; other: the third site.
 Vec2 on_perpendicular(Vec2 end, Site const& segment, Site const& other, Vec2 guess) {
     if (is_end_of({0, 0, end, end}, other)) {
         return end;
@@ -120,7 +120,7 @@ Vec2 by_newton(std::array<Site, 3> const& sites, Vec2 p) {
     return best;
 }
 
-/// The middle of the shortest way between two sites that do not cross.
+/// Midpoint of the shortest connection between two sites that do not cross.
 Vec2 middle_between(Site const& s, Site const& t) {
     Vec2 middle;
     double least = std::numeric_limits<double>::infinity();
@@ -138,7 +138,7 @@ Vec2 middle_between(Site const& s, Site const& t) {
     return middle;
 }
 
-/// A guess where there is none: the best that is found from between two of the sites, seen counterclockwise.
+/// Makes a guess when there is none: the best candidate between two of the sites, in counterclockwise order.
 Vec2 guessed(std::array<Site, 3> const& sites) {
     Vec2 best = middle_between(sites[0], sites[1]);
     double least = std::numeric_limits<double>::infinity();
@@ -191,7 +191,7 @@ std::vector<Vec2> curve_between(Site const& s, Site const& t, Vec2 p, Vec2 q, do
     if (!(height > 0.0)) {
         return {};
     }
-    // With the vertex of the parabola over the origin: v = (u^2 + h^2) / 2h.
+    // With the vertex of the parabola above the origin: v = (u^2 + h^2) / 2h.
     Vec2 const along{up.y, -up.x};
     double const reach = std::sqrt(2.0 * height * farthest_m);
     double const first = std::clamp(dot(along, p - point.a), -reach, reach);
@@ -201,7 +201,7 @@ std::vector<Vec2> curve_between(Site const& s, Site const& t, Vec2 p, Vec2 q, do
     std::vector<Vec2> curve;
     for (std::int64_t k = 1; k < parts; ++k) {
         double const u = first + (last - first) * (static_cast<double>(k) / static_cast<double>(parts));
-        // From the point, not from the line: the sum of u^2 and h^2 would round what lies close to the point.
+        // Measured from the point, not from the line: rounding u^2 + h^2 would lose detail close to the point.
         double const v = (u * u - height * height) / (2.0 * height);
         curve.push_back(point.a + u * along + v * up);
     }
@@ -228,7 +228,7 @@ void require_vertices_where_lines_meet(std::vector<LabelledLine> const& lines, R
     }
 }
 
-/// What can be taken off coordinates between low and high without rounding any of them, and leaves them small.
+/// An offset that can be subtracted from coordinates between low and high without rounding, and makes them small.
 double origin_of(double low, double high) {
     double const size = high - low;
     return low >= size ? low : high <= -size ? high : 0.0;
@@ -251,7 +251,7 @@ Origin origin_of(LabelledSites const& sites) {
     return {{origin_of(west.a.x, east.a.x), origin_of(south.a.y, north.a.y)}};
 }
 
-/// The graph, and which site each of its vertices is. The far points follow the sites.
+/// The graph, and the site of each of its vertices. The far points follow the sites.
 struct Built {
     Graph graph;
     std::map<Graph::Vertex_handle, std::size_t> site_of;

@@ -31,7 +31,7 @@ struct Itself {
     Share operator()(Share const& share) const { return share; }
 };
 
-// triangulate() has judged the points and thrown out twins; its triangles are CGAL's once more.
+// triangulate() has checked the points and removed duplicates; this rebuilds its triangles in CGAL.
 HeightMesh mesh_of(Tin const& tin) {
     std::vector<std::pair<Point, double>> entries;
     entries.reserve(tin.vertices.size());
@@ -54,7 +54,8 @@ Raster<float> natural_neighbours(std::vector<Vec3> const& points, Grid const& gr
         std::vector<Share> shares;
         for (std::int64_t row = begin; row < end; ++row) {
             run.check();
-            // Each row begins its walk at the same face: where it stands must not depend on who drew the row before.
+            // Every row starts its walk at the same face, so that results do not depend on which thread computed the
+            // row before.
             HeightMesh::Face_handle near = mesh.infinite_face();
             for (std::int64_t col = 0; col < grid.width; ++col) {
                 Vec2 const at = grid.centre({col, row});

@@ -39,7 +39,7 @@ PointGrid::PointGrid(std::vector<Vec2> points, double cell_m) : points_(std::mov
 std::size_t PointGrid::nearest(Vec2 p) const {
     auto const col = slot(p.x - low_.x, width_);
     auto const row = slot(p.y - low_.y, height_);
-    // A point outside is brought to the border: what lies beyond the rings is farther still.
+    // A point outside is moved to the border: everything beyond the rings is farther still.
     double const off_x = std::max({low_.x - p.x, p.x - low_.x - static_cast<double>(width_) * cell_m_, 0.0});
     double const off_y = std::max({low_.y - p.y, p.y - low_.y - static_cast<double>(height_) * cell_m_, 0.0});
     double const off = std::max(off_x, off_y);

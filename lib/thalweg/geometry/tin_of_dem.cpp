@@ -24,7 +24,7 @@
 namespace thalweg::geometry {
 namespace {
 
-// Where triangles between the cell centres of a DEM may be: squares between four centres with data, halves of those
+// Where triangles between the cell centres of a DEM may lie: squares between four centres with data, halves of those
 // with three.
 class DemLand {
 public:
@@ -33,7 +33,7 @@ public:
     bool has(std::int64_t col, std::int64_t row) const {
         return dem_.grid().contains({col, row}) && !std::isnan(dem_[Cell{col, row}]);
     }
-    // Centres with data of the square south-east of a centre.
+    // Number of centres with data at the corners of the square south-east of a centre.
     int corners(std::int64_t col, std::int64_t row) const {
         return (has(col, row) ? 1 : 0) + (has(col + 1, row) ? 1 : 0) + (has(col, row + 1) ? 1 : 0) +
                (has(col + 1, row + 1) ? 1 : 0);
@@ -42,7 +42,7 @@ public:
         return has(col, row) && (corners(col, row) >= 3 || corners(col - 1, row) >= 3 || corners(col, row - 1) >= 3 ||
                                  corners(col - 1, row - 1) >= 3);
     }
-    // Whether the outline runs from a centre to its neighbour: the land lies on one side of the step, not on both.
+    // Whether the outline runs from a centre to its neighbour: terrain lies on one side of the step only.
     bool outline(std::int64_t col, std::int64_t row, int dx, int dy) const {
         if (dx < 0 || (dx == 0 && dy < 0)) {
             return outline(col + dx, row + dy, -dx, -dy);
@@ -59,7 +59,7 @@ public:
         return corners(col, dy > 0 ? row : row - 1) == 3;
     }
 
-    // Steps of the outline at a centre.
+    // Number of outline steps at a centre.
     int degree(std::int64_t col, std::int64_t row) const {
         int count = 0;
         for (int dy = -1; dy <= 1; ++dy) {
@@ -70,7 +70,7 @@ public:
         return count;
     }
 
-    // Whether a triangle whose sides do not cross the outline lies on land: asked at its middle, given thrice.
+    // Whether a triangle whose sides do not cross the outline lies on terrain; tests its centroid, given times three.
     bool is_inside(std::int64_t col3, std::int64_t row3) const {
         std::int64_t const col = col3 / 3;
         std::int64_t const row = row3 / 3;
@@ -93,7 +93,7 @@ private:
     Raster<float> const& dem_;
 };
 
-// The outline as straight lines between its corners; heights go with them. x: column, y: minus the row.
+// The outline as straight lines between its corners, with heights. x: column, y: minus the row.
 std::vector<std::vector<Vec3>> outlines_of(Raster<float> const& dem, DemLand const& land, Run const& run) {
     std::vector<std::vector<Vec3>> lines;
     auto const place = [&](std::int64_t col, std::int64_t row) {
@@ -121,7 +121,7 @@ std::vector<std::vector<Vec3>> outlines_of(Raster<float> const& dem, DemLand con
     return lines;
 }
 
-constexpr std::int64_t most_cells_a_side = 1 << 20; // areas fit 64 bits, circles 128
+constexpr std::int64_t most_cells_a_side = 1 << 20; // so that areas fit 64 bits and circles 128
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
 struct Spot {
@@ -212,7 +212,7 @@ public:
 private:
     struct Face {
         std::array<std::uint32_t, 3> corner;
-        std::array<std::uint32_t, 3> beyond; // the face on the other side of the side across from each corner
+        std::array<std::uint32_t, 3> beyond; // the neighbouring face opposite each corner
         double error_m = 0.0;
     };
     struct Candidate {
@@ -221,7 +221,7 @@ private:
         std::uint32_t face = 0;
         std::uint32_t stamp = 0;
 
-        // Which of two is taken later.
+        // Orders by time of insertion: the lesser is inserted later.
         friend bool operator<(Candidate const& a, Candidate const& b) {
             return std::tie(a.error_m, b.cell, b.face) < std::tie(b.error_m, a.cell, a.face);
         }
@@ -292,7 +292,7 @@ private:
         }
     }
 
-    // The side of a face that runs through a vertex in it; 3: none.
+    // The side of a face on which a vertex lies; 3: none.
     std::size_t side_through(std::uint32_t face, std::uint32_t p) const {
         auto const& corner = faces_[face].corner;
         std::size_t on = 3;
@@ -304,7 +304,7 @@ private:
         return on;
     }
 
-    // A face becomes three round the new vertex.
+    // Splits a face into three around the new vertex.
     void split_face(std::uint32_t face, std::uint32_t p) {
         auto const [a, b, c] = faces_[face].corner;
         auto const [to_a, to_b, to_c] = faces_[face].beyond;
@@ -318,25 +318,25 @@ private:
         loose_ = {face, second, third};
     }
 
-    // Both faces of a side get a sister: (p, apex, one end) and (p, other end, apex).
+    // Splits both faces of a side in two: (p, apex, one end) and (p, other end, apex).
     void split_side(std::uint32_t face, std::size_t k, std::uint32_t p) {
         std::uint32_t const apex = faces_[face].corner[k];
         std::uint32_t const from = faces_[face].corner[(k + 1) % 3];
         std::uint32_t const to = faces_[face].corner[(k + 2) % 3];
         std::uint32_t const other = faces_[face].beyond[k];
-        std::uint32_t const to_from = faces_[face].beyond[(k + 1) % 3]; // across from `from`: along to-apex
-        std::uint32_t const to_to = faces_[face].beyond[(k + 2) % 3];   // along apex-from
+        std::uint32_t const to_from = faces_[face].beyond[(k + 1) % 3]; // opposite `from`: across side to-apex
+        std::uint32_t const to_to = faces_[face].beyond[(k + 2) % 3];   // across side apex-from
         std::uint32_t const sister = new_face();
         std::uint32_t other_sister = nobody;
         if (other != nobody) {
             std::size_t const j = side_towards(other, face);
             std::uint32_t const tip = faces_[other].corner[j];
-            std::uint32_t const along_from = faces_[other].beyond[(j + 1) % 3]; // along from-tip
-            std::uint32_t const along_to = faces_[other].beyond[(j + 2) % 3];   // along tip-to
+            std::uint32_t const along_from = faces_[other].beyond[(j + 1) % 3]; // across side from-tip
+            std::uint32_t const along_to = faces_[other].beyond[(j + 2) % 3];   // across side tip-to
             other_sister = new_face();
             set(other, {p, from, tip}, {nobody, other_sister, nobody});
             set(other_sister, {p, tip, to}, {along_to, nobody, other});
-            // Corners of `other` were (tip, to, from): across from `to` lies from-tip.
+            // The corners of `other` were (tip, to, from): side from-tip is opposite `to`.
             faces_[other].beyond = {along_from, other_sister, face};
             faces_[other_sister].beyond = {along_to, sister, other};
             relink(along_to, other, other_sister);
@@ -350,7 +350,7 @@ private:
         loose_.push_back(sister);
     }
 
-    // p is a corner of the face; turns the side across from it when the corner beyond lies in the circle.
+    // p is a corner of the face; flips the side opposite it if the corner beyond lies in the circumcircle.
     void make_delaunay(std::uint32_t f, std::uint32_t p) {
         std::size_t const k = faces_[f].corner[0] == p ? 0 : faces_[f].corner[1] == p ? 1 : 2;
         std::uint32_t const g = faces_[f].beyond[k];
@@ -376,7 +376,7 @@ private:
         loose_.push_back(g);
     }
 
-    // The worst cell of a face, its sides included.
+    // Finds the worst cell of a face, its sides included.
     void scan(std::uint32_t face) {
         auto const& corner = faces_[face].corner;
         std::array<Spot, 3> s{spots_[corner[0]], spots_[corner[1]], spots_[corner[2]]};
@@ -407,7 +407,7 @@ private:
             double const at_row = z0 + north * d(y - at.y);
             for (std::int64_t x = ceil_of(left.over, left.under); x <= end; ++x) {
                 double const error = std::fabs(at_row + east * d(x - at.x) - static_cast<double>(heights[x]));
-                // A corner's own rounding must not bring it in again.
+                // Rounding at a corner must not insert it again.
                 if (error > worst.error_m && !is_corner(s, x, y)) {
                     worst.error_m = error;
                     worst.cell = dem_.grid().index({x, -y});
@@ -428,10 +428,10 @@ private:
     double error_m_;
     std::vector<Spot> spots_;
     std::vector<Face> faces_;
-    std::vector<std::uint32_t> stamps_; // how often each face has changed: older candidates are void
+    std::vector<std::uint32_t> stamps_; // number of changes of each face: invalidates older candidates
     std::priority_queue<Candidate> queue_;
     std::vector<std::uint32_t> changed_;
-    std::vector<std::uint32_t> loose_; // faces whose side across from the new vertex is to be looked at
+    std::vector<std::uint32_t> loose_; // faces whose side opposite the new vertex is still to be checked
 };
 
 void require_sound(Raster<float> const& dem, TinOfDemParams const& params) {

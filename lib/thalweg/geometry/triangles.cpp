@@ -17,7 +17,7 @@
 namespace thalweg::geometry {
 namespace {
 
-// Beyond these, products over- or underflow and the bounds below do not hold.
+// Beyond these limits products over- or underflow and the error bounds below do not hold.
 constexpr double least_magnitude = 1e-280;
 constexpr double greatest_magnitude = 1e280;
 
@@ -28,7 +28,7 @@ bool is_exact(double a, double b) {
     return (a - a_virtual) + (b_virtual - b) == 0.0;
 }
 
-// What rounding took from a * b (Dekker).
+// Rounding error of a * b (Dekker).
 double rest_of_product(double a, double b, double product) {
     constexpr double splitter = 134217729.0; // 2^27 + 1
     double const ca = splitter * a;
@@ -60,7 +60,7 @@ int side_of_line(Vec2 a, Vec2 b, Vec2 p) {
             return sign(left - right);
         }
         if (is_exact(a.x, p.x) && is_exact(a.y, p.y) && is_exact(b.x, p.x) && is_exact(b.y, p.y)) {
-            // Rounding keeps the order of the products: only where they round alike do their rests decide.
+            // Rounding preserves the order of products: only if they round to the same value do the errors decide.
             return left != right ? sign(left - right)
                                  : sign(rest_of_product(ax, by, left) - rest_of_product(ay, bx, right));
         }
@@ -82,7 +82,7 @@ double height_on_plane(Vec3 const& a, Vec3 const& b, Vec3 const& c, Vec2 p) {
     Rational const of_b = (px * cy - cx * py) / area;
     Rational const of_c = (bx * py - px * by) / area;
     Rational const z = Rational(a.z) + of_b * difference(b.z, a.z) + of_c * difference(c.z, a.z);
-    double best = CGAL::to_double(z); // which only promises one beside the nearest
+    double best = CGAL::to_double(z); // which only promises a neighbour of the nearest
     for (double const side : {-1.0, 1.0}) {
         double const next = std::nextafter(best, side * std::numeric_limits<double>::infinity());
         Rational const gain = CGAL::abs(Rational(best) - z) - CGAL::abs(Rational(next) - z);
@@ -97,7 +97,7 @@ namespace {
 
 using Triangle = std::array<std::uint32_t, 3>;
 
-// Every second bit.
+// Spreads the bits of v to every second bit.
 std::uint32_t spread(std::uint32_t v) {
     v = (v | (v << 8U)) & 0x00ff00ffU;
     v = (v | (v << 4U)) & 0x0f0f0f0fU;
@@ -105,7 +105,7 @@ std::uint32_t spread(std::uint32_t v) {
     return (v | (v << 1U)) & 0x55555555U;
 }
 
-// Places on the curve: 2^16 steps along each side of the square around the vertices.
+// Positions on the Morton curve: 2^16 steps along each side of the square around the vertices.
 std::vector<std::uint32_t> curve(std::vector<Vec3> const& vertices) {
     double west = std::numeric_limits<double>::infinity();
     double south = std::numeric_limits<double>::infinity();
@@ -132,7 +132,7 @@ struct Placed {
     Triangle triangle;
 };
 
-// By one half of the place, keeping the order of equals.
+// Sorts by one half of the position; stable.
 void sort_by_half(std::vector<Placed>& from, std::vector<Placed>& to, unsigned shift) {
     std::vector<std::size_t> next(65537, 0);
     for (Placed const& p : from) {
@@ -206,7 +206,7 @@ std::vector<std::array<double, 3>> half_cotangents(Tin const& tin, Measured meas
         require_area(tin, i, measured);
         auto const& t = tin.triangles[i];
         Vec3 const& a = tin.vertices[t[0]];
-        // From the first corner, or coordinates of millions would leave little of their products.
+        // Relative to the first corner: products of coordinates in the millions would lose most digits.
         auto const off = [&](std::uint32_t v) {
             Vec3 const& p = tin.vertices[v];
             return Vec3{p.x - a.x, p.y - a.y, p.z - a.z};

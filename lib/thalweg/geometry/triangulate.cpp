@@ -31,7 +31,7 @@ using Kernel = CGAL::Exact_predicates_inexact_constructions_kernel;
 using Point = Kernel::Point_2;
 using Vertices = CGAL::Triangulation_vertex_base_with_info_2<std::uint32_t, Kernel>;
 using Free = CGAL::Delaunay_triangulation_2<Kernel, CGAL::Triangulation_data_structure_2<Vertices>>;
-// crossings() has cut the lines: CGAL need not make points, and throws should one be missing.
+// crossings() has already cut the lines: CGAL need not construct points, and throws if one were missing.
 using Bound = CGAL::Constrained_Delaunay_triangulation_2<
     Kernel, CGAL::Triangulation_data_structure_2<Vertices, CGAL::Constrained_triangulation_face_base_2<Kernel>>,
     CGAL::No_constraint_intersection_requiring_constructions_tag>;
@@ -39,15 +39,15 @@ using Bound = CGAL::Constrained_Delaunay_triangulation_2<
 constexpr std::uint32_t unnumbered = std::numeric_limits<std::uint32_t>::max();
 constexpr double farthest_m = 1e15;
 
-// Everything a vertex may come of: points, line vertices, then what crossings add; and the lines by number of place.
+// All candidate vertices (points, line vertices, then those added at crossings), and the lines by index into them.
 struct Places {
     std::vector<Vec3> at;
     std::size_t points = 0;
-    std::size_t given = 0; // before the added ones
+    std::size_t given = 0; // number before the added ones
     std::vector<std::vector<std::uint32_t>> lines;
 };
 
-// name: says which it is, asked only when it is wanted.
+// name: called only for the message.
 template <class Name> void require_finite(Vec3 const& p, Name name) {
     if (!is_finite(p)) {
         throw BadInput(
@@ -91,7 +91,8 @@ std::vector<std::vector<Vec2>> plans(Places const& places) {
     return lines;
 }
 
-// Cuts the lines where they meet away from their vertices. Gives whether any was.
+// Cuts the lines where they meet away from their vertices.
+// \return true: any line was cut
 bool cut(Places& places, double& greatest_dz_m, Run const& run) {
     auto const drawn = plans(places);
     auto const found = crossings(drawn, run);
@@ -127,7 +128,7 @@ bool cut(Places& places, double& greatest_dz_m, Run const& run) {
     return any;
 }
 
-// A crossing is rounded, which bends its lines by less than a bit: now and then over another line.
+// Rounding a crossing bends its lines by less than an ulp, now and then across another line: repeat.
 void cut_all(Places& places, double& greatest_dz_m, Run const& run) {
     constexpr int most_rounds = 50;
     for (int round = 0; cut(places, greatest_dz_m, run); ++round) {
@@ -207,7 +208,7 @@ bool is_between(Point const& a, Point const& b, Point const& p) {
     return CGAL::collinear_are_strictly_ordered_along_line(a, p, b);
 }
 
-// From one vertex to another along the constraint between them, which other vertices may lie on.
+// The vertices along the constraint between two vertices, including others that lie on it.
 std::vector<std::uint32_t> chain_of(Bound const& mesh, Bound::Vertex_handle from, Bound::Vertex_handle to) {
     std::vector<std::uint32_t> chain;
     while (!mesh.is_edge(from, to)) {

@@ -10,44 +10,46 @@
 
 namespace thalweg::geometry {
 
-/// The point equally far from three sites of a segment Voronoi diagram, a guess made better.
-/// Takes: sites that lie near the origin in terms of their distances, counterclockwise; a guess not far off, or one
-/// that is not finite.
-/// Gives: the point at which the distances agree best, the guess itself where nothing better is found.
+/// Refines a guess of the point equally far from three sites of a segment Voronoi diagram.
+/// \param sites near the origin compared with their distances, counterclockwise
+/// \param guess near the point, or not finite
+/// \return the point at which the distances agree best; the guess itself if no better one is found
+///
 /// Source: Newton's method; in closed form where a site is an end of another.
 Vec2 equidistant(std::array<Diagram::Site, 3> const& sites, Vec2 guess);
 
-/// Points between p and q on the curve equally far from two sites: a parabola where one is a point and one a segment,
-/// which chords between the points leave by at most the tolerance; a straight line, without points, elsewhere.
-/// Of the parabola only what is nearer than farthest_m to the sites is drawn so finely.
+/// Samples the curve between p and q equally far from two sites: a parabola for a point and a segment, from which
+/// chords deviate by at most the tolerance; a straight line, without points, otherwise. Parts of the parabola farther
+/// than farthest_m from the sites are sampled more coarsely.
 std::vector<Vec2> curve_between(Diagram::Site const& s, Diagram::Site const& t, Vec2 p, Vec2 q, double tolerance_m,
                                 double farthest_m);
 
-/// The places of lines, each once, with the labels of all lines through it: what a diagram is made of.
+/// The distinct sites of lines, with the labels of all lines through them; the input of a diagram.
 struct LabelledSites {
     std::vector<Diagram::Site> sites;
     std::vector<std::vector<std::int64_t>> labels; ///< by site, ascending
-    std::vector<std::array<std::size_t, 2>> ends;  ///< by segment, which follow the points: its points
-    std::size_t points = 0;                        ///< the sites before the segments
-    std::array<Vec2, 4> far;                       ///< points around all sites and the bounds, far from them
+    std::vector<std::array<std::size_t, 2>> ends;  ///< by segment (segments follow the points): its points
+    std::size_t points = 0;                        ///< number of point sites, which precede the segments
+    std::array<Vec2, 4> far;                       ///< points far outside all sites and the bounds
     double size_m = 0.0;                           ///< diagonal of all sites and the bounds
 };
 
-/// Takes: segments, whether the lines' segments count or only their vertices. Throws: BadInput naming a vertex that is
-/// not finite; BadParameter when the bounds have no area.
+/// Collects the sites of lines: vertices alone, or segments too.
+/// \throws BadInput naming a vertex that is not finite
+/// \throws BadParameter when the bounds have no area
 enum class Parts : std::uint8_t { vertices, segments };
 LabelledSites sites_of(std::vector<LabelledLine> const& lines, Bounds const& bounds, Parts parts,
                        std::string const& what);
 
-/// The sites around a face counterclockwise, the least first, and which of the face's vertices that is. CGAL's meshes
-/// keep faces, and say which vertex of a face is the first, by where in memory they lie.
+/// The sites around a face counterclockwise, the least first, and the position of that one among the face's vertices.
+/// CGAL orders faces and their vertices by memory address, which is not reproducible.
 struct Around {
     std::array<std::size_t, 3> sites{};
     int first = 0;
 };
 Around least_first(std::array<std::size_t, 3> const& sites);
 
-/// A diagram before its vertices are merged and its edges are cut: by face of its dual.
+/// A diagram before vertices are merged and edges clipped, by face of its dual.
 struct RawDiagram {
     struct Link {
         std::size_t from = 0; ///< face
@@ -62,8 +64,8 @@ struct RawDiagram {
 
 using Curve = std::function<std::vector<Vec2>(Diagram::Site const&, Diagram::Site const&, Vec2, Vec2)>;
 
-/// Merges vertices that rounding alone keeps apart, leaves out edges between sites with a label in common, and cuts
-/// the others at the bounds. curve: the points between the ends of an edge.
+/// Merges vertices that only rounding separates, drops edges between sites with a common label, and clips the others to
+/// the bounds. curve: samples an edge between its ends.
 Diagram finish(LabelledSites const& sites, RawDiagram raw, Bounds const& bounds, Curve const& curve, Run const& run);
 
 } // namespace thalweg::geometry
