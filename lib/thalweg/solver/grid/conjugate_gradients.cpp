@@ -12,7 +12,7 @@
 namespace thalweg::solver {
 namespace {
 
-/// Numbers row by row, with zeros to an even width and height and one more row and column.
+/// Numbers row by row, padded with zeros to an even width and height, plus one more row and column.
 template <class T> class Padded {
 public:
     explicit Padded(Board const& board)
@@ -36,7 +36,7 @@ struct Equations {
 Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& board, Run const& run) {
     Padded<std::uint8_t> degree(board);
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
-        // No row beyond the border: all of it is outside.
+        // The row beyond the border is all outside.
         Indexed<ColumnIndex, std::uint8_t> const nothing(board.width, outside_cell);
         for (std::int64_t y = begin; y < end; ++y) {
             std::uint8_t const* const here = kind.row(y).data();
@@ -61,7 +61,7 @@ Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& boar
     return degree;
 }
 
-/// Spreads a row over the colours.
+/// Distributes a row over the colours.
 template <class T> void split(T const* from, std::int64_t y, Board const& board, TwoColours<T>& to) {
     T* const even = to.of[Board::first(y, 0)].row(y);
     T* const odd = to.of[1 - Board::first(y, 0)].row(y);
@@ -71,13 +71,13 @@ template <class T> void split(T const* from, std::int64_t y, Board const& board,
     }
 }
 
-/// What is left of an edge between cells of 2 x 2: numbers that are alike two by two make differences look steeper than
-/// they are. With a half, the Laplacian is that of the coarser grid; edges to fixed cells stay whole. A power of two,
-/// so that nothing is rounded off, and the diagonal less all edges is exactly that to fixed cells.
+/// Factor of the coarser levels' edges between 2 x 2 cells: a piecewise constant correction makes differences look
+/// steeper than they are. With 1/2, the Laplacian is that of the coarser grid; edges to fixed cells keep their weight.
+/// A power of two rounds nothing off, so that the diagonal minus all edges is exactly the edges to fixed cells.
 constexpr float share_of_edges = 0.5F;
 
-/// A coarse cell's equation from those of the 2 x 2 cells it stands for.
-/// east(x, y), south(x, y), diagonal(x, y): of the finer level.
+/// Combines the equations of 2 x 2 cells into a coarse cell's equation. east(x, y), south(x, y), diagonal(x, y): of the
+/// finer level.
 template <class Edge, class South, class Diagonal>
 Equations sums(Board const& fine, Run const& run, Edge const& east, South const& south, Diagonal const& diagonal) {
     Equations coarse(fine.coarser());
@@ -200,7 +200,7 @@ SmoothingRows<CoarseRow> const& loops(GridRows const& rows, CoarseLevel const&) 
     return rows.coarse;
 }
 
-/// The last four rows of one colour, each in its own place or where it is lent one.
+/// The last four rows of one colour, stored here or elsewhere (lend).
 class Window {
 public:
     explicit Window(Board const& board) : stride_(board.stride()), values_(static_cast<std::size_t>(4 * stride_ + 16)) {
@@ -222,8 +222,8 @@ private:
     std::array<float*, 4> rows_{};
 };
 
-/// Sweeps red, then black, from zero, and hands what is left of r to the coarser level. After the sweep nothing is left
-/// in black cells, and in red ones what the black ones' change has brought: the sum of the neighbours.
+/// Sweeps red, then black, from zero, and restricts the residual to the coarser level. After the sweep the residual is
+/// 0 in black cells; in red ones it is the sum of the changes of their black neighbours.
 template <class Level>
 void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, GridRows const& rows, Run const& run) {
     SmoothingRows<std::remove_cvref_t<decltype(equations(level, 0, red))>> const& loop = loops(rows, level);
@@ -251,7 +251,8 @@ void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, G
     });
 }
 
-/// Adds the coarser level's correction and sweeps black, then red. Gives the sum of r e.
+/// Adds the coarser level's correction and sweeps black, then red.
+/// \return the sum of r e
 template <class Level>
 double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, CoarseLevel const& coarse,
           GridRows const& rows, Run const& run) {
@@ -271,7 +272,7 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
             }
             loop.corrected(e_red.row(y), r.of[red].row(y), equations(level, y, red), correction.data(), n);
             if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
-                // Rows of the next range are made here too, but only it may write them.
+                // This range also computes rows of the next range, but only the next range may write them.
                 b >= 2 * begin&& b < 2 * end ? e_black.lend(b, e.of[black].row(b)) : e_black.keep(b);
                 loop.relax(e_black.row(b), r.of[black].row(b), equations(level, b, black), e_red.around(b, black), n);
             }
@@ -289,7 +290,7 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
     return sum;
 }
 
-/// Solves the level's equations for its own right-hand side, nearly.
+/// Approximately solves the level's equations for its own right-hand side.
 void solve(std::vector<CoarseLevel>& levels, std::size_t index, GridRows const& rows, Run const& run) {
     CoarseLevel& level = levels[index];
     if (index + 1 == levels.size()) { // one red cell
@@ -302,12 +303,12 @@ void solve(std::vector<CoarseLevel>& levels, std::size_t index, GridRows const& 
     up(level, level.r, level.e, coarser, rows, run);
 }
 
-// z = M r with M one V(1,1) cycle: symmetric and positive definite, near the inverse of the problem's matrix. On every
-// level one red-black Gauss-Seidel sweep from zero, the correction of the coarser level, and the sweep backwards; the
-// coarser levels' edges are halved for what constant pieces lack. Legs run down and up the rows once, so that of the
-// sweeps only z is ever stored. Gives: the sum of r z. The same bytes for any number of threads: a range of rows makes
-// the rows around it anew. Source: Braess 1995, Towards algebraic multigrid for elliptic problems of second order
-// (aggregation).
+// z = M r with M one V(1,1) cycle: symmetric and positive definite, close to the inverse of the problem's matrix. Each
+// level makes one red-black Gauss-Seidel sweep from zero, adds the coarser level's correction, and sweeps backwards;
+// the coarser levels' edges are halved because corrections are piecewise constant. Sweeps are fused in one pass over
+// the rows per leg, so that only z is stored. Returns the sum of r z. The same bytes for any number of threads: each
+// range of rows recomputes the rows around it. Source: Braess 1995, Towards algebraic multigrid for elliptic problems
+// of second order (aggregation).
 double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
                GridRows const& rows, Run const& run) {
     down(top, r, coarse.front(), rows, run);
@@ -336,7 +337,8 @@ public:
         : problem_(problem), levels_(levels), rows_(rows), run_(run), board_(problem.top.board), n_(board_.half()),
           r_(board_), z_(board_), p_(board_) {}
 
-    /// Counts r from x. Gives its norm.
+    /// Computes r from x.
+    /// \return its norm
     double renew() {
         return std::sqrt(sum_of(each_row(board_, run_, [&](std::int64_t y) {
             double squares = 0.0;
@@ -349,12 +351,13 @@ public:
         })));
     }
 
-    /// Makes z, what a cycle would add to x.
+    /// Computes z, the correction that a cycle would add to x.
     void precondition() { rz_ = v_cycle(problem_.top, levels_, r_, z_, rows_, run_); }
 
     double greatest_correction() const { return greatest(z_, board_, run_); }
 
-    /// Steps on along the direction that z gives. Gives the norm of r as it follows from the one before.
+    /// Takes a step along the direction given by z.
+    /// \return the norm of r by recurrence
     double advance() {
         auto const conjugate = static_cast<float>(rz_before_ > 0.0 ? rz_ / rz_before_ : 0.0);
         rz_before_ = rz_;
@@ -372,7 +375,7 @@ public:
                 }
             }
         });
-        // The first and last rows of chunks waited for their neighbours.
+        // The first and last rows of chunks had to wait for their neighbours.
         parallel_ranges(run_, chunks, 32, [&](std::int64_t first, std::int64_t last) {
             for (std::int64_t i = first; i < last; ++i) {
                 for (std::int64_t const y : {i * chunk, std::min(board_.height, (i + 1) * chunk) - 1}) {
@@ -385,7 +388,7 @@ public:
             all.pap += part.pap;
             all.rp += part.rp;
         }
-        if (!(all.pap > 0.0)) { // nothing is left that a float could tell from 0
+        if (!(all.pap > 0.0)) { // the rest is 0 in single precision
             rz_before_ = 0.0;
             return 0.0;
         }
@@ -405,7 +408,7 @@ public:
 private:
     struct Products {
         double pap = 0.0;
-        double rp = 0.0; ///< r z but for what floats have lost: with it each step is downhill
+        double rp = 0.0; ///< r z but for float rounding; with it every step goes downhill
     };
 
     void direct(std::int64_t y, float conjugate) {
@@ -414,7 +417,7 @@ private:
         }
     }
 
-    /// z has served: A p takes its place.
+    /// z is no longer needed: A p replaces it.
     Products apply(std::int64_t y) {
         Products sum;
         for (int colour : {0, 1}) {
@@ -442,17 +445,17 @@ private:
 
 Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLevel>& levels, double zero,
                                 Goal const& goal, GridRows const& rows, Run const& run) {
-    constexpr int patience = 60;     // iterations without a smaller residual
-    constexpr double lasting = 1e-3; // digits a float keeps without doubt
-    constexpr double unseen = 4.0;   // what a cycle may leave of an error beside what it takes
+    constexpr int patience = 60;     // iterations allowed without a smaller residual
+    constexpr double lasting = 1e-3; // reduction over which float keeps its accuracy
+    constexpr double unseen = 4.0;   // bound of the error after a cycle, relative to the correction it makes
     double const wanted = goal.tolerance * zero;
     Board const& board = problem.top.board;
     Iteration iteration(problem, levels, rows, run);
     double norm = iteration.renew();
-    double counted = norm; // the last one that was counted from x
+    double counted = norm; // the last one computed from x
     double least = norm;
     int least_at = 0;
-    double size = -1.0; // of x, once it has settled
+    double size = -1.0; // largest |x|, once it has settled
     double share = 0.0;
     for (int done = 0;; ++done) {
         iteration.precondition();
@@ -485,7 +488,7 @@ Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLeve
         bool const stuck = done - least_at > patience;
         if (stuck || norm < lasting * counted) {
             norm = iteration.renew();
-            if (stuck || norm > 0.5 * counted) { // double has no more digits
+            if (stuck || norm > 0.5 * counted) { // the limit of double precision
                 if (norm <= wanted) {
                     return {done + 1, norm};
                 }

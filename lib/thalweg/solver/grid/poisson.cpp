@@ -16,7 +16,7 @@
 namespace thalweg::solver {
 namespace {
 
-/// Spans of cells that are not outside, joined to parts; the root of a part knows whether it has a fixed cell.
+/// Spans of cells that are not outside, joined to parts; the root of a part records whether it has a fixed cell.
 struct Parts {
     std::vector<CellSpan> spans;
     std::vector<std::size_t> parent;
@@ -142,7 +142,7 @@ void demand_solvable(GridProblem const& problem, Contents const& all, char const
 
 enum class FreeCells : std::uint8_t { zero, guess };
 
-/// Values in the two colours' order.
+/// Copies values into colour order.
 void spread(GridProblem const& problem, FreeCells free, TwoColours<double>& x, Run const& run) {
     parallel_ranges(run, problem.kind.height(), 32, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = begin; y < end; ++y) {
@@ -290,9 +290,9 @@ GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run
 
 namespace {
 
-// Even numbers, so that a block's rows have the colours of the grid's.
+// Even, so that a block's rows have the grid's colours.
 constexpr std::int64_t block_rows = 32;
-constexpr int sweeps_a_pass = 4; // what a block loses by the rows around it, it gains by staying in the cache
+constexpr int sweeps_a_pass = 4; // recomputing the rows around a block costs less than leaving the cache
 
 void demand(GridProblem const& problem, ExplicitParams const& params) {
     refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25),
@@ -304,7 +304,7 @@ void demand(GridProblem const& problem, ExplicitParams const& params) {
                         "solver.relax_explicit: the problem has a source; solve_poisson takes one");
 }
 
-/// A block of rows and those around it, before and after a sweep.
+/// A block of rows and its surrounding rows, before and after a sweep.
 struct Block {
     explicit Block(std::int64_t width)
         : board{width, block_rows + 2 * std::int64_t{sweeps_a_pass}}, before(board), after(board) {}
@@ -312,7 +312,7 @@ struct Block {
     TwoColours<double> before, after;
 };
 
-/// Sweeps the rows [begin, end) of `from` some times, into `to`.
+/// Makes several sweeps over the rows [begin, end) of `from`, into `to`.
 void sweep_block(TopLevel const& top, TwoColours<double> const& from, TwoColours<double>& to, std::int64_t begin,
                  std::int64_t sweeps, double alpha, Block& block, GridRows const& rows) {
     std::int64_t const n = top.board.half();

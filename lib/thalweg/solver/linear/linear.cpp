@@ -45,7 +45,7 @@ Solution finished(MatrixXd const& a, VectorXd const& b, VectorXd const& x, Index
             a.rows() > 0 ? std::sqrt(squares / static_cast<double>(a.rows())) : 0.0};
 }
 
-/// y of length tau that makes y' S y - 2 g' y least, S symmetric.
+/// Finds y of length tau that minimises y' S y - 2 g' y, S symmetric.
 VectorXd least_on_sphere(MatrixXd const& s, VectorXd const& g, double tau) {
     Eigen::SelfAdjointEigenSolver<MatrixXd> const eigen(s);
     VectorXd const& w = eigen.eigenvalues(); // ascending
@@ -73,10 +73,10 @@ VectorXd least_on_sphere(MatrixXd const& s, VectorXd const& g, double tau) {
         }
         y = eigen.eigenvectors() * (h.array() / (w.array() - w[0] + high)).matrix();
     }
-    return y * (tau / y.norm()); // what rounding left
+    return y * (tau / y.norm()); // removes rounding
 }
 
-/// The columns that are not bound to the sphere, in order.
+/// The columns outside the constraint, in order.
 std::vector<Index> unbound_columns(std::size_t columns, std::vector<std::size_t> const& unknowns) {
     std::vector<bool> bound(columns, false);
     for (std::size_t const column : unknowns) {
@@ -128,7 +128,7 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     }
     MatrixXd const free = all(Eigen::all, others);
     Eigen::ColPivHouseholderQR<MatrixXd> qr;
-    MatrixXd rest = with; // what the free unknowns cannot explain
+    MatrixXd rest = with; // the part that the free unknowns cannot explain
     VectorXd rest_right = right;
     if (!others.empty()) {
         qr.compute(free);
@@ -145,7 +145,8 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
                             "solver.least_squares_on_sphere: the form is not positive definite");
     // With u = L' y the condition is |u| = tau.
     auto const l = form.matrixL();
-    // Lazy products: the blocks of others follow the processor's caches, and with them the order of sums.
+    // Lazy products: the block sizes of Eigen's other products depend on the processor's caches, and so does their
+    // order of summation.
     MatrixXd const gram = rest.transpose().lazyProduct(rest);
     MatrixXd const half = l.solve(gram);
     MatrixXd s = l.solve(half.transpose());
@@ -166,7 +167,8 @@ Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, 
     return finished(all, right, x, Eigen::ColPivHouseholderQR<MatrixXd>(all).rank());
 }
 
-// Not Eigen's: its products cut matrices by the size of the processor's caches, and so sum in another order elsewhere.
+// Not Eigen's: it blocks matrices by the size of the processor's caches, which changes the order of summation between
+// machines.
 Cholesky factor(std::vector<double> matrix, std::size_t size, double ridge, Run const& run) {
     double largest = 0.0;
     for (std::size_t i = 0; i < size; ++i) {
@@ -189,7 +191,7 @@ Cholesky factor(std::vector<double> matrix, std::size_t size, double ridge, Run 
             matrix[i * size + k] /= root;
             column[i] = matrix[i * size + k];
         }
-        // Each number is reduced by one product at a time, in the order of k, whatever thread it falls to.
+        // Each number is reduced by one product at a time, in the order of k, on any thread.
         parallel_ranges(run, static_cast<std::int64_t>(size - k - 1), 128, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t r = begin; r < end; ++r) {
                 std::size_t const i = k + 1 + static_cast<std::size_t>(r);

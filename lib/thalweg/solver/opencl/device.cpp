@@ -27,7 +27,7 @@ struct Found {
     std::string name;
     std::string platform_name;
     cl_device_type type = 0;
-    std::string fault; ///< why it cannot be used; "" when it can
+    std::string fault; ///< why it cannot be used; "": it can
 };
 
 template <class T> T number_of(cl_device_id id, cl_device_info what) {
@@ -63,9 +63,9 @@ std::string fault_of(cl_device_id id) {
     return "";
 }
 
-/// No platform is no error here: the list is empty then.
+/// A missing platform is not an error: the list is then empty.
 std::vector<Found> find_devices() {
-    // PoCL's processor: its other way of making work groups ends the program in version 6.0, the numbers are the same.
+    // PoCL on a processor: its other method for work groups crashes in version 6.0; results are the same.
     setenv("POCL_WORK_GROUP_METHOD", "cbs", 0);
     cl_uint platform_count = 0;
     if (clGetPlatformIDs(0, nullptr, &platform_count) != CL_SUCCESS || platform_count == 0) {
@@ -160,7 +160,7 @@ std::string opencl_device_name() {
 
 OpenClDevice const& opencl_device() {
     static std::mutex one_at_a_time;
-    // Never freed: when statics are, a driver may be gone already.
+    // Never freed: the driver may be unloaded before static destructors run.
     static auto& ready = *new std::map<cl_device_id, OpenClDevice>;
     Found const found = choose(find_devices());
     std::scoped_lock const lock(one_at_a_time);
@@ -253,10 +253,10 @@ cl_program build(OpenClDevice const& device, std::string const& stage, std::stri
     return program;
 }
 
-/// Compiled once: drivers take from milliseconds to seconds for it.
+/// Compiled once: it takes a driver from milliseconds to seconds.
 cl_program program_of(OpenClDevice const& device, std::string const& stage, std::string_view source) {
     static std::mutex one_at_a_time;
-    static auto& built = *new std::map<std::pair<void*, std::string>, cl_program>; // kept, as the devices are
+    static auto& built = *new std::map<std::pair<void*, std::string>, cl_program>; // never freed, like the devices
     std::scoped_lock const lock(one_at_a_time);
     std::pair const key{device.device, std::string(source)};
     auto at = built.find(key);
@@ -275,7 +275,7 @@ DeviceQueue::DeviceQueue(char const* stage, std::string_view source)
                                                         static_cast<cl_device_id>(device_->device), 0, &code);
     check(code, "making a queue");
     queue_ = {queue, [](void* q) {
-                  clFinish(static_cast<cl_command_queue>(q)); // the host's memory of a copy may end next
+                  clFinish(static_cast<cl_command_queue>(q)); // the host memory of a copy may be freed next
                   clReleaseCommandQueue(static_cast<cl_command_queue>(q));
               }};
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compiled in the place of the three files that call OpenCL where it is not installed.
+// Compiled instead of the three files that call OpenCL where it is not installed.
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/solver/opencl/devices.hpp>
 #include <thalweg/solver/opencl/internal/opencl.hpp>

@@ -276,7 +276,7 @@ kernel void collect(global const uchar* kind, global const double* u, double tim
 }
 )";
 
-// What solve_poisson_opencl runs on the device, in OpenCL C.
+// Kernels of solve_poisson_opencl, in OpenCL C.
 std::string_view poisson_kernels() {
     return source_of_poisson;
 }
@@ -285,15 +285,15 @@ std::int64_t even(std::int64_t n) {
     return n + n % 2;
 }
 
-/// Cells that one work item of a sum takes; with a group's size a constant of the kernels.
+/// Cells summed by one work item; with the group size a constant of the kernels.
 constexpr std::int64_t each = 16;
 
 constexpr auto group = static_cast<std::int64_t>(DeviceQueue::group);
 
-// Where a level's cells stand in its arrays: row behind row of an even length, an even number of rows, zeros before and
+// Layout of a level's cells in its arrays: consecutive rows of even length, an even number of rows, zeros before and
 // after that are never written.
 struct DeviceLayout {
-    // Sums take whole groups, and neighbours of the last cell they take.
+    // Sums read whole groups, and neighbours of the last cell.
     DeviceLayout(std::int64_t level_width, std::int64_t level_height)
         : width(level_width), height(level_height), stride(even(width)), rows(even(height)),
           margin(stride + each * group), count(stride * rows + 2 * margin) {}
@@ -305,39 +305,38 @@ struct DeviceLayout {
     std::int64_t count; // of numbers, margins included
 };
 
-// A grid's equations on the OpenCL device, and the steps of conjugate gradients that solve them. Norms are against that
-// of the residual with 0 in the free cells.
+// A grid's equations on the OpenCL device, and the steps of conjugate gradients that solve them. Norms are relative to
+// that of the residual with 0 in the free cells.
 class DeviceEquations {
 public:
-    // Where the search begins.
+    // The initial values.
     struct Start {
-        bool guessed = false; // at the problem's own values
-        double value = 0.0;   // else at this
-        double scale = 1.0;   // a power of 2, by which all numbers on the device are multiplied
+        bool guessed = false; // the problem's own values
+        double value = 0.0;   // otherwise this value
+        double scale = 1.0;   // a power of 2 that multiplies all numbers on the device
     };
 
-    // Takes: a problem with a fixed cell for every free one; the stage that asks, for messages.
-    // Throws: as DeviceQueue; IoError when the device's memory is too small.
+    // Throws as DeviceQueue, and IoError when the device has too little memory. problem: every free cell is connected
+    // to a fixed one; stage: for messages.
     DeviceEquations(GridProblem const& problem, Start const& start, char const* stage);
 
-    // Of the residual with 0 in the free cells, scaled.
+    // Norm of the residual with 0 in the free cells, scaled.
     double zero_norm() const { return zero_norm_; }
-    // Counts the residual from the values. Gives: its norm.
+    // Computes the residual from the values; returns its norm.
     double renew();
-    // Makes the correction that a cycle over all levels would add to the values.
+    // Computes the correction that a cycle over all levels would add to the values.
     void precondition();
-    // Greatest |number| of a correction and of the values, both scaled.
+    // Largest absolute correction and value, both scaled.
     struct Greatest {
         double correction = 0.0;
         double value = 0.0;
     };
     Greatest greatest();
-    // Forgets the direction of the steps before.
+    // Restarts conjugate gradients.
     void begin_anew() { rz_ = 0.0; }
-    // Steps on along the direction that the correction gives. Gives: the residual's norm as it follows from the one
-    // before.
+    // Takes a step along the direction given by the correction; returns the norm of the residual by recurrence.
     double advance();
-    // Free cells take their values.
+    // Copies the values of free cells.
     void read_into(Raster<double>& value);
 
 private:
@@ -355,7 +354,7 @@ private:
     std::int64_t width_, height_;
     DeviceLayout finest_;
     DeviceQueue queue_;
-    std::int64_t groups_; // that a sum is cut into
+    std::int64_t groups_; // number of groups in a sum
     DeviceArray<std::uint8_t> kind_;
     DeviceArray<double> value_;
     DeviceArray<float> diagonal_;
@@ -368,15 +367,15 @@ private:
     double rz_ = 0.0;
 };
 
-/// How much of Galerkin's ties between cells a coarser level keeps: what is right for the Laplacian where no cell is
-/// fixed. With all of them a cycle's corrections are half as long as they should be.
+/// Factor of Galerkin's edges between cells on coarser levels: right for the Laplacian where no cell is fixed. With 1 a
+/// cycle's corrections would be half as long as they should be.
 constexpr float share_of_ties = 0.5F;
 
 std::int64_t groups_of(DeviceLayout const& finest) {
     return (finest.stride * finest.rows + each * group - 1) / (each * group);
 }
 
-/// Throws: IoError when the arrays do not fit.
+/// \throws IoError when the arrays do not fit.
 DeviceQueue queue_for(GridProblem const& problem, DeviceLayout const& finest, char const* stage) {
     DeviceQueue queue(stage, fmt::format("#define GROUP {}\n#define EACH {}\n{}", group, each, poisson_kernels()));
     std::int64_t bytes = problem.kind.cells() * 9 + problem.source.cells() * 8;
@@ -422,7 +421,7 @@ DeviceEquations::DeviceEquations(GridProblem const& problem, Start const& start,
     zero_norm_ = std::sqrt(sum("square_sum", right_, finest_.margin));
 }
 
-/// Groups add in one order on the device, their sums in one order here.
+/// Groups are summed in a fixed order on the device, their sums in a fixed order here.
 template <class... Arguments> double DeviceEquations::sum(char const* kernel, Arguments const&... arguments) {
     queue_.run(kernel, groups_ * group, 1, arguments..., sums_);
     parts_.resize(static_cast<std::size_t>(groups_));
@@ -441,7 +440,7 @@ double DeviceEquations::renew() {
            zero_norm_;
 }
 
-/// A V-cycle from 0, the same backwards as forwards: so it is a symmetric and positive definite matrix times r.
+/// A V-cycle from 0, symmetric forwards and backwards: a symmetric, positive definite matrix times r.
 void DeviceEquations::precondition() {
     for (std::size_t l = 0; l < levels_.size(); ++l) {
         Level const& fine = levels_[l];
@@ -507,10 +506,10 @@ double scale_of(Contents const& contents) {
     return std::ldexp(1.0, -exponent);
 }
 
-/// Iterates until the residual, counted from the values, and what a further cycle would add to them are small enough.
-/// Takes: greatest |height| of the fixed cells, scaled as the equations are.
+/// Iterates until the residual, computed from the values, and the correction of a further cycle are small enough.
+/// height: largest absolute height of the fixed cells, scaled like the equations.
 GridSolution iterate(DeviceEquations& equations, double height, PoissonParams const& params, Run const& run) {
-    constexpr double unseen = 2.0; // what a cycle may leave of an error beside what it takes
+    constexpr double unseen = 2.0; // bound of the error after a cycle, relative to the correction it makes
     GridSolution solution;
     double counted = std::numeric_limits<double>::infinity();
     double norm = equations.renew();

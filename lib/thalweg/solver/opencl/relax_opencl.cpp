@@ -8,7 +8,7 @@
 namespace thalweg::solver {
 namespace {
 
-// What relax_opencl runs on the device, in OpenCL C.
+// Kernels of relax_opencl, in OpenCL C.
 std::string_view relax_kernels() {
     return R"(
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
@@ -57,7 +57,7 @@ kernel void sweep(global const uchar* restrict sides, global const double* restr
 
 constexpr char const* relax_stage = "solver.relax_explicit";
 
-/// Sweeps that are queued before the host looks whether it shall stop: about a tenth of a second on slow devices.
+/// Sweeps queued between two checks of the stop token: about a tenth of a second on slow devices.
 std::int64_t batch(std::int64_t cells) {
     return std::clamp<std::int64_t>((std::int64_t{1} << 26) / cells, 1, 256);
 }
@@ -71,7 +71,7 @@ void relax_opencl(GridProblem& problem, double alpha, std::int64_t sweeps, Run c
         return;
     }
     DeviceQueue queue(relax_stage, relax_kernels());
-    // The last group may reach beyond the cells, and from there asks for neighbours.
+    // The last group may read beyond the cells, including their neighbours.
     std::int64_t const margin = grid.width + static_cast<std::int64_t>(DeviceQueue::group);
     std::int64_t const block = (cells + 2 * margin) * static_cast<std::int64_t>(sizeof(double));
     check_device_memory(queue.device(), relax_stage, 2 * block + 2 * cells, block);

@@ -47,9 +47,9 @@ namespace {
 using Line = std::vector<Complex>;
 using Lines = std::vector<Complex, LargePages<Complex>>;
 
-// So many columns are gathered at once that what is read of a row fills cache lines.
+// Columns gathered at a time: the part read of a row fills cache lines.
 constexpr std::size_t columns_at_once = 8;
-constexpr std::int64_t rows_a_range = 8; ///< that share the work memory of a transform
+constexpr std::int64_t rows_a_range = 8; ///< rows that share the work memory of a transform
 
 std::size_t size(std::int64_t n) {
     return static_cast<std::size_t>(n);
@@ -69,8 +69,8 @@ void for_columns(Run const& run, std::size_t columns, LineTransform const& prepa
     });
 }
 
-/// Transforms two even lines at once, given by their halves [0, length/2]: the one is the real, the other the imaginary
-/// part, and as the transform of an even line is real they stay apart.
+/// Transforms two even lines at once, given by their halves [0, length/2]: one is the real, the other the imaginary
+/// part. The transform of an even line is real, so that they stay separate.
 void transform_even(LineTransform& transform, Line& in, Line& out) {
     std::size_t const length = in.size();
     for (std::size_t i = 1; i < length / 2; ++i) {
@@ -79,7 +79,7 @@ void transform_even(LineTransform& transform, Line& in, Line& out) {
     transform(in.data(), out.data());
 }
 
-/// Along both axes of a torus, in place.
+/// Transforms along both axes of a torus, in place.
 void transform_even(Quarter& quarter, std::int64_t width, std::int64_t height, Run const& run) {
     std::size_t const columns = size(width / 2 + 1);
     std::size_t const rows = size(height / 2 + 1);
@@ -151,8 +151,8 @@ void draw_spectrum(Circulant const& torus, std::uint64_t seed, std::uint64_t sta
     }
 }
 
-/// The first rows of a random field, transformed along columns; row by row. A real field's spectrum mirrors itself:
-/// half of its columns are drawn.
+/// Computes the first rows of a random field, transformed along columns; row by row. A real field's spectrum is
+/// symmetric: only half of its columns are drawn.
 Lines sample_columns(Circulant const& torus, std::size_t rows, std::uint64_t seed, std::uint64_t stage,
                      Run const& run) {
     std::size_t const columns = size(torus.width / 2 + 1);
@@ -182,8 +182,8 @@ Lines sample_columns(Circulant const& torus, std::size_t rows, std::uint64_t see
     return half;
 }
 
-/// Packs two real rows into one complex one, from the halves of their spectra: the one is the real, the other the
-/// imaginary part.
+/// Packs two real rows into one complex row, from the halves of their spectra: one is the real, the other the imaginary
+/// part.
 void pack_rows(Complex const* one, Complex const* other, std::size_t columns, Line& in) {
     constexpr Complex i{0.0, 1.0};
     for (std::size_t u = 0; u < columns; ++u) {
@@ -194,7 +194,7 @@ void pack_rows(Complex const* one, Complex const* other, std::size_t columns, Li
     }
 }
 
-/// Transforms two fields along their rows, the one as real, the other as imaginary part.
+/// Transforms two fields along their rows, one as the real, the other as the imaginary part.
 Lines transform_rows(Circulant const& torus, Raster<double> const& first, Raster<double> const& second,
                      Run const& run) {
     std::size_t const width = size(torus.width);
@@ -216,7 +216,7 @@ Lines transform_rows(Circulant const& torus, Raster<double> const& first, Raster
     return lines;
 }
 
-/// Multiplies the rows' transforms by the eigenvalues, there and back along columns.
+/// Multiplies the rows' transforms by the eigenvalues, with transforms along columns forwards and backwards.
 void multiply_columns(Circulant const& torus, std::size_t rows, Lines& lines, Run const& run) {
     std::size_t const width = size(torus.width);
     std::size_t const length = size(torus.height);
@@ -295,7 +295,7 @@ Circulant circulant(TorusCovariance const& covariance, std::int64_t width, std::
         double* const row = &torus.eigenvalues[size(r) * columns];
         SignedSums part;
         for (std::size_t c = 0; c < columns; ++c) {
-            // All but the axes stand for their mirror images too.
+            // Coefficients off the axes also stand for their mirror images.
             double const times = (c == 0 || c + 1 == columns ? 1.0 : 2.0) * (r == 0 || r + 1 == rows ? 1.0 : 2.0);
             part.all += times * std::max(row[c], 0.0);
             part.negative -= times * std::min(row[c], 0.0);
@@ -352,7 +352,7 @@ void multiply(Circulant const& torus, Raster<double>& first, Raster<double>& sec
 
 namespace {
 
-/// Stein's covariance of a distance r in diagonals: with reach 1 its slope, with reach 2 its curvature too is
+/// Stein's covariance at a distance r in diagonals: with reach 1 its slope, with reach 2 also its curvature is
 /// continuous where the branches meet.
 struct SteinCovariance {
     explicit SteinCovariance(double hurst_exponent) : hurst(hurst_exponent) {
@@ -387,8 +387,7 @@ struct SteinCovariance {
     double square = 0.0;
 };
 
-/// Cells around the torus along a side of the lattice; what is farther than the lattice's extent may lie within reach
-/// both ways round.
+/// Size of the torus along a side of the lattice: distances beyond the lattice's extent may wrap around.
 std::int64_t around(std::int64_t cells, double reach_cells) {
     return good_size(cells - 1 + static_cast<std::int64_t>(std::ceil(reach_cells)));
 }
@@ -415,7 +414,7 @@ struct TorusFrame {
 
 TorusFrame torus_around(std::int64_t width, std::int64_t height, double hurst) {
     check(width, height, hurst);
-    constexpr std::int64_t longest = std::int64_t{1} << 16; // the torus of a longer side is too large in any case
+    constexpr std::int64_t longest = std::int64_t{1} << 16; // a longer side always makes the torus too large
     if (width > longest || height > longest) {
         refuse_size(width, height);
     }
@@ -516,7 +515,7 @@ void superpose_variograms(FractionalSurface const& surface, Raster<double>& weig
     Moments const m = moments(weights, run);
     Raster<double> nothing(weights.grid());
     multiply(surface.torus, weights, nothing, run);
-    // (r/d)^(2H) is c0 + c2 (r/d)^2 less the covariance, and the first two follow from the weights' moments.
+    // (r/d)^(2H) is c0 + c2 (r/d)^2 minus the covariance; the first two follow from the moments of the weights.
     double const d = surface.diagonal_cells;
     double const amplitude = portable::pow(d, 2.0 * surface.hurst);
     double const square = surface.square / (d * d);

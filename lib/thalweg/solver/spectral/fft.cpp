@@ -15,7 +15,7 @@ namespace thalweg::solver {
 
 namespace {
 
-// So many columns are gathered at once that what is read of a row fills cache lines.
+// Columns gathered at a time: the part read of a row fills cache lines.
 constexpr std::int64_t columns_a_bundle = 8;
 
 } // namespace
@@ -42,13 +42,13 @@ LineTransform::LineTransform(std::int64_t length, Direction direction) : plan_(s
     auto& kiss = plan_->kiss;
     kiss.m_inverse = direction == Direction::inverse;
     kiss.m_twiddles.resize(static_cast<std::size_t>(length));
-    // Not kissfft's own twiddles: those are libm's sin and cos, whose bits depend on the processor.
+    // Not kissfft's own twiddles: they come from libm's sin and cos, whose bits depend on the processor.
     double const step = (kiss.m_inverse ? 2.0 : -2.0) * portable::pi;
     for (std::size_t i = 0; i < kiss.m_twiddles.size(); ++i) {
         double const angle = step * (static_cast<double>(i) / static_cast<double>(length));
         kiss.m_twiddles[i] = {portable::cos(angle), portable::sin(angle)};
     }
-    if (length > 1) { // kissfft does not know length 1
+    if (length > 1) { // kissfft does not support length 1
         kiss.factorize(static_cast<int>(length));
     }
 }

@@ -35,7 +35,7 @@ void add(float a, float b, double& squares, std::int64_t& pairs) {
     }
 }
 
-/// What the square of each lag weighs in H: the least-squares slope is the sum of weight times ln(square)/2.
+/// Weights of the squares in H: the least-squares slope is the sum of weight times ln(square)/2.
 std::vector<double> weights(std::vector<Difference> const& differences) {
     std::vector<double> x;
     double mean = 0.0;
@@ -135,7 +135,7 @@ Gradient gradient_at(Raster<float> const& dem, std::int64_t c, std::int64_t r) {
             central_difference(height_at(dem, c, r - 1), z, height_at(dem, c, r + 1))};
 }
 
-/// Sum of term(z, column) over the cells of a row that have heights; all rows' sums in their order.
+/// Sums term(z, column) over the cells of a row that have heights; adds the rows' sums in order.
 template <class Term> double sum_cells(Raster<float> const& dem, Run const& run, Term const& term) {
     return sum_rows(run, dem.height(), [&](std::int64_t r) {
         run.check();
@@ -148,7 +148,7 @@ template <class Term> double sum_cells(Raster<float> const& dem, Run const& run,
     });
 }
 
-/// What a cell's own difference along an axis owes to the height before it, to its own and to that after it.
+/// Weights of the previous, own and next height in a cell's difference along an axis.
 struct Stencil {
     double before;
     double here;
@@ -178,7 +178,7 @@ Slopes slope_row(Raster<float> const& dem, std::int64_t r) {
     return row;
 }
 
-/// Every cell gathers from itself and its neighbours, so that ranges of rows do not meet.
+/// Every cell gathers from itself and its neighbours, so that ranges of rows do not conflict.
 Raster<double> slope_derivative(Raster<float> const& dem, std::int64_t cells, Run const& run) {
     Raster<double> result(dem.grid());
     double const share = 1.0 / static_cast<double>(cells);
@@ -248,7 +248,7 @@ Raster<double> dimension_derivative(Raster<float> const& dem, FieldStatistics co
     return result;
 }
 
-/// With r_k = sum of products / (pairs std^2) a length answers to products, to the mean they count from and to std.
+/// With r_k = sum of products / (pairs std^2), a length depends on the products, on their mean and on std.
 Raster<double> length_derivative(Raster<float> const& dem, FieldStatistics const& is, Axis axis, Run const& run) {
     Correlogram const& correlogram = axis == Axis::rows ? is.along_row : is.along_column;
     std::vector<double> const slopes = correlation_length_slopes(correlogram);
@@ -280,7 +280,7 @@ FieldStatistics field_statistics(Raster<float> const& dem, Run const& run) {
     auto const values = dem.values();
     is.cells = std::count_if(values.begin(), values.end(), [](float z) { return !std::isnan(z); });
     auto const n = static_cast<double>(is.cells);
-    // A height of the DEM as datum: no digits go into an offset.
+    // A height of the DEM as datum avoids losing digits to an offset.
     double const datum = *std::find_if(values.begin(), values.end(), [](float z) { return !std::isnan(z); });
     is.mean = datum + sum_cells(dem, run, [&](float z, Cell) { return z - datum; }) / n;
     is.std = std::sqrt(sum_cells(dem, run, [&](float z, Cell) { return (z - is.mean) * (z - is.mean); }) / n);
@@ -325,7 +325,7 @@ namespace {
 constexpr double longest_fine_cells = 12.0;
 constexpr double most_fine_share = 0.5;
 
-/// A share of fine forms with the coarse ones lengthened so that the sum is 1/e at the same distances.
+/// Adds a share of fine forms and lengthens the coarse ones, so that the sum is 1/e at the same distances.
 StableCovariance shared(StableCovariance const& plain, double fine_share) {
     StableCovariance mixed = plain;
     double const length = std::sqrt(plain.lx_cells * plain.ly_cells);
@@ -345,7 +345,7 @@ StableCovariance shared(StableCovariance const& plain, double fine_share) {
 double expected_slope(StableCovariance const& covariance, double std) {
     constexpr int angles = 32;
     constexpr int radii = 64;
-    // The central difference of heights two cells apart: half of theirs.
+    // The central difference is half the difference of heights two cells apart.
     double const x = 0.5 * std * std * (1.0 - covariance(2.0, 0.0));
     double const y = 0.5 * std * std * (1.0 - covariance(0.0, 2.0));
     double sum = 0.0;

@@ -19,11 +19,11 @@ namespace {
 using PairLine = Indexed<std::int64_t, Complex>;
 using PairLines = Indexed<std::int64_t, PairLine>;
 
-// Two real lines make one complex one, and so many pairs are read at once that a row's part fills a cache line.
+// Two real lines form one complex line; this many pairs read at once fill a cache line with each row's part.
 constexpr std::int64_t lines_at_once = 16;
-// Bundles are added up in so many blocks, in this order whatever the number of threads.
+// Number of blocks in which bundles are summed, in this order for any number of threads.
 constexpr std::int64_t most_blocks = 64;
-// A few weights are cheaper added one by one.
+// Fewer weights than this are cheaper to add one by one.
 constexpr std::size_t few_weights = 16;
 
 /// A DEM as lines along an axis.
@@ -38,11 +38,11 @@ struct LinesOfDem {
         return axis == Axis::rows ? line * dem.width() + i : i * dem.width() + line;
     }
 
-    /// Heights less the datum, 0 where there are none, of the lines from first on, by twos as real and imaginary parts.
+    /// Heights minus the datum (0: no data) of the lines from `first`, in pairs as real and imaginary parts.
     void heights(std::int64_t first, PairLines& pairs) const {
         read(first, pairs, [&](float z) { return std::isnan(z) ? 0.0 : z - datum; });
     }
-    /// 1 where there are heights, 0 where there are none.
+    /// 1: the cell has a height, 0: no data.
     void presence(std::int64_t first, PairLines& pairs) const {
         read(first, pairs, [](float z) { return std::isnan(z) ? 0.0 : 1.0; });
     }
@@ -87,8 +87,8 @@ struct Power {
     }
 };
 
-/// Sums of products at the lags [0, lags] of what read(first, pairs) gives: the spectra's squares, added up and
-/// transformed back once. Of a + ib the real part holds the products of a with a and of b with b.
+/// Sums products at the lags [0, lags] of the values that read(first, pairs) returns: adds up squared spectra and
+/// transforms back once. Of a + ib the real part contains the products of a with a and of b with b.
 template <class Read>
 std::vector<double> lagged(LinesOfDem const& lines, std::int64_t lags, Run const& run, Read const& read) {
     std::int64_t const size = good_size(lines.length() + lags);
@@ -240,7 +240,7 @@ std::optional<std::size_t> crossing(std::vector<double> const& r) {
     return std::nullopt;
 }
 
-/// The line through u = ln(-ln r) over x = ln k, of the lags with 0 < r < 1.
+/// The least-squares line through u = ln(-ln r) over x = ln k, for lags with 0 < r < 1.
 struct Fit {
     double lags = 0.0;
     double mean_x = 0.0;
@@ -262,7 +262,7 @@ struct Fit {
         });
         alpha /= spread;
     }
-    /// A single lag fixes no line, and correlation that does not fall has no length.
+    /// A single lag determines no line, and correlation that does not decrease has no length.
     bool holds() const { return lags > 1.0 && alpha > 0.0; }
 
     template <class Body> static void for_lags(std::vector<double> const& r, Body const& body) {

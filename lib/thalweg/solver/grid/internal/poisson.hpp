@@ -17,9 +17,9 @@
 
 namespace thalweg::solver {
 
-/// A grid coloured like a chessboard, each colour stored by itself: the cells of one colour in a row lie side by side,
-/// and all neighbours of a cell have the other colour. Cell (x, y) is red (0) where x + y is even; it is the x/2-th of
-/// its colour in its row. Around the grid lies a margin of zeros.
+/// A grid coloured like a chessboard, with each colour stored separately: the cells of one colour in a row are
+/// contiguous, and all neighbours of a cell have the other colour. Cell (x, y) is red (0) if x + y is even; it is the
+/// x/2-th of its colour in its row. The grid has a margin of zeros.
 struct Board {
     std::int64_t width = 0;
     std::int64_t height = 0;
@@ -27,23 +27,23 @@ struct Board {
     static constexpr std::int64_t rows_above = 2;
     static constexpr std::int64_t rows_below = 3;
 
-    static constexpr std::int64_t lanes = 8; ///< cells of one colour that are computed side by side
+    static constexpr std::int64_t lanes = 8; ///< cells of one colour computed at a time
 
-    std::int64_t half() const { return (width + 1) / 2; } ///< cells of one colour in a row, the last one maybe beyond
-    /// From row to row: whole lanes, and at least one zero behind them.
+    std::int64_t half() const { return (width + 1) / 2; } ///< cells of one colour in a row; the last may lie beyond it
+    /// Distance between rows: whole lanes, and at least one zero after them.
     std::int64_t stride() const { return ((half() + lanes - 1) / lanes * lanes + 16) / 16 * 16; }
     Board coarser() const { return {half(), (height + 1) / 2}; }
     /// Column of the first cell of a colour in a row.
     static std::int64_t first(std::int64_t row, std::int64_t colour) { return (row + colour) & 1; }
 };
 
-/// Rows that are worth a thread of their own.
+/// Smallest number of rows worth a thread.
 inline std::int64_t rows_a_range(Board const& board) {
     return std::max<std::int64_t>(32, 65536 / board.half());
 }
 
-/// What belongs to the cells of one colour. Takes rows from -rows_above to height + rows_below - 1, and in each row
-/// indices from -1 to half().
+/// Values of the cells of one colour. Rows run from -rows_above to height + rows_below - 1, indices in a row from -1 to
+/// half().
 template <class T> class Plane {
 public:
     Plane() = default;
@@ -66,7 +66,7 @@ template <class T> struct TwoColours {
     Plane<T> of[2]; ///< red, black
 };
 
-/// Rows of the other colour so that [k] is the neighbour of the k-th cell of a row.
+/// Neighbouring rows of the other colour, offset so that [k] is the neighbour of a row's k-th cell.
 template <class T> struct Around {
     T const* above = nullptr;
     T const* left = nullptr;
@@ -80,8 +80,8 @@ template <class T> Around<T> around(Plane<T> const& other, std::int64_t row, std
     return {other.row(row - 1), other.row(row) + shift - 1, other.row(row) + shift, other.row(row + 1)};
 }
 
-// The inner loops of v_cycle, conjugate_gradients and relax_explicit: one colour of one row. n: cells of that colour
-// in the row; of floats those up to the next multiple of Board::lanes are written too, as 0.
+// The inner loops of v_cycle, conjugate_gradients and relax_explicit: one colour of one row. n: cells of that colour in
+// the row; floats up to the next multiple of Board::lanes are also written, as 0.
 
 /// Equations of a row of the finest level: weights 1.
 struct TopRow {
@@ -94,7 +94,7 @@ struct CoarseRow {
     Around<float> weight;
 };
 
-/// Loops over equations of one kind. sum: of the neighbours' e, each times its edge's weight.
+/// Loops over equations of one kind. sum: of the neighbours' e times the weights of their edges.
 template <class Row> struct SmoothingRows {
     /// e = r / diagonal
     void (*first)(float* e, float const* r, Row const& row, std::int64_t n);
@@ -113,7 +113,8 @@ struct GridRows {
     void (*merge)(float* to, float const* even, float const* odd, float times, std::int64_t n);
     /// even[k] = a[2 k] + b[2 k], odd[k] = a[2 k + 1] + b[2 k + 1]; a and b hold 2 n numbers
     void (*split_sum)(float* even, float* odd, float const* a, float const* b, std::int64_t n);
-    /// Sum of a[k] b[k]; both are zero from n to the next multiple of 16. One order of adding whatever the lanes.
+    /// Sum of a[k] b[k]; both are zero from n to the next multiple of 16. The order of summation is the same for all
+    /// lanes.
     double (*dot)(float const* a, float const* b, std::int64_t n);
     /// p = z + times * p
     void (*direct)(float* p, float const* z, float times, std::int64_t n);
@@ -131,13 +132,13 @@ struct GridRows {
 
 GridRows const& grid_rows(Lanes lanes);
 
-/// A coarser grid: each cell stands for 2 x 2 of the one before, its equations are the sums of theirs (Galerkin).
+/// A coarser grid: each cell represents 2 x 2 of the finer one, its equations are the sums of theirs (Galerkin).
 struct CoarseLevel {
     Board board;
     TwoColours<float> r;       ///< right-hand side
-    TwoColours<float> e;       ///< sought
-    TwoColours<float> inverse; ///< 1 / diagonal; 0 where no free cell is
-    /// Weights of the edges from each red cell; those between black cells' neighbours are the same edges.
+    TwoColours<float> e;       ///< solution
+    TwoColours<float> inverse; ///< 1 / diagonal; 0 without free cells
+    /// Weights of the edges from each red cell; black cells share them.
     Plane<float> above, left, right, below;
 };
 
@@ -147,23 +148,25 @@ struct TopLevel {
     TwoColours<std::uint8_t> degree; ///< of free cells: neighbours that are not outside; 0: not free
 };
 
-/// Takes: a CellKind a cell.
+/// Prepares the finest level.
+/// \param kind CellKind by cell
 TopLevel top_level(Raster<std::uint8_t> const& kind, Run const& run);
 
-/// Multigrid's levels above the grid, the finest first, the last of one cell. Takes: at least two cells.
+/// Builds multigrid's coarser levels, the finest first, the last of one cell.
+/// \param kind at least two cells
 std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run const& run);
 
-// Inside of solve_poisson and relax_explicit: a GridProblem looked through, and in the two colours' order.
+// Shared by solve_poisson and relax_explicit: checks a GridProblem and reorders it by colour.
 
-/// What the cells of a problem hold.
+/// Statistics of a problem's cells.
 struct Contents {
     std::int64_t free = 0;
     std::int64_t fixed = 0;
     std::int64_t outside = 0;
-    std::int64_t bad = std::numeric_limits<std::int64_t>::max(); ///< first cell that cannot be used
-    std::int64_t guesses = 0;                                    ///< free cells with a number other than 0
-    std::int64_t unknown = 0;                                    ///< free cells with no finite number
-    double least = std::numeric_limits<double>::infinity();      ///< of fixed cells
+    std::int64_t bad = std::numeric_limits<std::int64_t>::max(); ///< first unusable cell
+    std::int64_t guesses = 0;                                    ///< free cells with an initial guess other than 0
+    std::int64_t unknown = 0;                                    ///< free cells without a finite value
+    double least = std::numeric_limits<double>::infinity();      ///< least value of fixed cells
     double greatest = -std::numeric_limits<double>::infinity();
     double sum = 0.0;
     double size = 0.0; ///< greatest |value| of fixed cells, |source| of free ones
@@ -183,30 +186,33 @@ struct Contents {
     }
 };
 
-/// Takes: stage: "module.verb" for messages.
-/// Throws: BadInput naming a cell: a part with free cells and no fixed one, a value or source that is not finite;
-/// rasters of different frames; Cancelled.
+/// Checks a problem.
+/// \param stage "module.verb" for messages
+/// \throws BadInput naming a cell: a part with free cells and no fixed one, or a value or source that is not finite;
+/// rasters of different frames
 Contents look_through(GridProblem const& problem, char const* stage, Run const& run);
 
-/// A problem in the two colours' order.
+/// A problem in colour order.
 struct ColouredProblem {
     TopLevel top;
     TwoColours<double> x;              ///< free and fixed cells: their values; 0 outside
-    Raster<double> const* b = nullptr; ///< of free cells; none for Laplace's equation
-    double scale = 1.0;                ///< power of two that brings what floats hold near 1
+    Raster<double> const* b = nullptr; ///< of free cells; null for Laplace's equation
+    double scale = 1.0;                ///< power of two that brings floats near 1
 };
 
-/// Gives: free cells at 0. Refers to the problem's source.
+/// Reorders a problem. It refers to the problem's source.
+/// \return free cells are 0
 ColouredProblem coloured(GridProblem const& problem, Contents const& contents, Run const& run);
 
-/// Sets the free cells of x, which are 0, to their first guess, or without one to the mean of the fixed cells.
+/// Sets the free cells of x, which are 0, to their initial guess, or without one to the mean of the fixed cells.
 void set_guess(GridProblem const& problem, Contents const& contents, ColouredProblem& coloured, Run const& run);
 
-/// Free cells of the problem take what x has; for Laplace's equation brought between the least and the greatest value
-/// of `contents`.
+/// Copies x into the problem's free cells; for Laplace's equation clamped between the least and the greatest value of
+/// `contents`.
 void collect(ColouredProblem const& coloured, Contents const& contents, GridProblem& problem, Run const& run);
 
-/// What term(row) gives for each row of a board.
+/// Calls term(row) for each row of a board.
+/// \return the results, by row
 template <class Part = double, class Term>
 Indexed<RowIndex, Part> each_row(Board const& board, Run const& run, Term const& term) {
     Indexed<RowIndex, Part> parts(board.height);
@@ -218,17 +224,17 @@ Indexed<RowIndex, Part> each_row(Board const& board, Run const& run, Term const&
     return parts;
 }
 
-/// Added in the order of the rows.
+/// Sums in row order.
 double sum_of(std::vector<double> const& parts);
 
-/// Residual of a row of one colour, times scale; r: as long as the stride.
+/// Computes the residual of a row of one colour, times scale; r: as long as the stride.
 void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, float* r, GridRows const& rows);
 
-/// Norm of the problem's residual times scale, counted in double from x.
+/// Computes the norm of the problem's residual times scale, in double from x.
 double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run const& run);
 
 struct Goal {
-    double tolerance = 0.0; ///< of the residual's norm, and of the values' error as a cycle sees it
+    double tolerance = 0.0; ///< of the residual's norm, and of the values' error estimated by a cycle
     int most_iterations = 0;
 };
 
@@ -237,12 +243,13 @@ struct Convergence {
     double residual = 0.0; ///< norm reached, in units of scale
 };
 
-/// Improves x until the norm of the residual is at most tolerance * zero, and four times the greatest correction
-/// another cycle would make at most tolerance times the greatest value: conjugate gradients with v_cycle for
-/// preconditioner. x is held in double, the rest in floats; each time the residual has fallen a thousandfold, and
-/// before returning, it is counted anew from x, so that floats do not bound the accuracy. Takes: levels: of the
-/// problem. zero: the norm at which nothing is done yet. Throws: NotConverged: after most iterations, or where double
-/// has no more digits; Cancelled.
+/// Improves x until the norm of the residual is at most tolerance * zero, and four times the largest correction of
+/// another cycle is at most tolerance times the largest value: conjugate gradients preconditioned by v_cycle. x is
+/// stored in double, everything else in float; the residual is recomputed from x after each reduction by a factor of
+/// 1000 and before returning, so that float rounding does not limit the accuracy.
+/// \param levels of the problem
+/// \param zero norm of the residual with 0 in the free cells
+/// \throws NotConverged after most_iterations, or at the limit of double precision
 Convergence conjugate_gradients(ColouredProblem& problem, std::vector<CoarseLevel>& levels, double zero,
                                 Goal const& goal, GridRows const& rows, Run const& run);
 

@@ -14,27 +14,31 @@
 
 namespace thalweg::solver {
 
-/// The chosen device, ready for work: one for the life of the process, made when it is first asked for. A handle is
-/// OpenCL's own pointer.
+/// The chosen device, ready for use: created on first use, kept for the life of the process. Handles are OpenCL's own
+/// pointers.
 struct OpenClDevice {
     void* device = nullptr;
     void* context = nullptr;
     std::string name;
     std::int64_t memory_bytes = 0;        ///< of the device
-    std::int64_t largest_block_bytes = 0; ///< that can be taken at once
+    std::int64_t largest_block_bytes = 0; ///< largest single allocation
 };
 
-/// Throws: as opencl_device_name().
+/// Returns the device of opencl_device_name().
+/// \throws BadParameter as opencl_device_name()
 OpenClDevice const& opencl_device();
 
-/// What OpenCL's numbers mean: "CL_OUT_OF_RESOURCES".
+/// The name of an OpenCL error code: "CL_OUT_OF_RESOURCES".
 std::string opencl_error_name(int code);
 
-/// Throws: IoError with both numbers when blocks of these sizes do not fit into the device's memory.
-/// Takes: the stage that asks, for the message; bytes of all blocks and of the largest.
+/// Checks that blocks fit into the device's memory.
+/// \param stage for messages
+/// \param bytes of all blocks
+/// \param largest of the largest block
+/// \throws IoError with both numbers when they do not fit
 void check_device_memory(OpenClDevice const& device, char const* stage, std::int64_t bytes, std::int64_t largest_bytes);
 
-/// A block of numbers in the memory of the OpenCL device; copies share it, the last one frees it.
+/// An array in the memory of the OpenCL device; copies share it, the last one frees it.
 template <class T> class DeviceArray {
 public:
     DeviceArray() = default;
@@ -47,36 +51,39 @@ private:
     std::int64_t count_ = 0;
 };
 
-/// Kernels compiled for the OpenCL device and work that it does in the order given. One object serves one thread.
-/// Every call throws IoError with OpenCL's own words when the device fails.
+/// Compiled kernels and an in-order queue of work on the OpenCL device. Use one object per thread. Every call throws
+/// IoError with OpenCL's message when the device fails.
 class DeviceQueue {
 public:
-    /// Work items that share local memory; every kernel is run in whole groups along its first axis.
+    /// Work items that share local memory; every kernel runs in whole groups along its first axis.
     static constexpr std::size_t group = 64;
 
-    /// Takes: source in OpenCL C 1.2, which is compiled once in the life of the process; the stage that asks, for
-    /// messages. Throws: BadParameter as opencl_device(); IoError with the compiler's words.
+    /// Compiles kernels, once in the life of the process.
+    /// \param stage for messages
+    /// \param source OpenCL C 1.2
+    /// \throws BadParameter as opencl_device()
+    /// \throws IoError with the compiler's message
     DeviceQueue(char const* stage, std::string_view source);
 
     OpenClDevice const& device() const { return *device_; }
 
-    /// Numbers that are 0.
+    /// Makes an array of zeros.
     template <class T> DeviceArray<T> zeros(std::int64_t count) {
         return {take(count * static_cast<std::int64_t>(sizeof(T))), count};
     }
-    /// A copy of these with zeros, as many as margin says, before and after.
+    /// Copies values to the device, with `margin` zeros before and after.
     template <class T> DeviceArray<T> copy_of(std::span<T const> values, std::int64_t margin = 0) {
         auto array = zeros<T>(static_cast<std::int64_t>(values.size()) + 2 * margin);
         write(array.handle(), static_cast<std::size_t>(margin) * sizeof(T), values.data(), values.size_bytes());
         return array;
     }
-    /// Copies what stands behind the margin to the host, after all that was queued before.
+    /// Copies an array, without its margin, to the host, after all queued work.
     template <class T> void read(DeviceArray<T> const& from, std::span<T> to, std::int64_t margin = 0) {
         read(from.handle(), static_cast<std::size_t>(margin) * sizeof(T), to.data(), to.size_bytes());
     }
 
-    /// Queues a kernel. Takes: columns and rows of work items, of which columns is rounded up to whole groups; arrays
-    /// and numbers in the order of the kernel's parameters.
+    /// Queues a kernel for columns x rows work items (columns is rounded up to whole groups), with arrays and numbers
+    /// in the order of the kernel's parameters.
     template <class... Arguments>
     void run(char const* kernel, std::int64_t columns, std::int64_t rows, Arguments const&... arguments) {
         void* const k = kernel_of(kernel);
@@ -84,7 +91,7 @@ public:
         (set(k, at++, arguments), ...);
         start(k, kernel, columns, rows);
     }
-    /// Waits until all is done.
+    /// Waits until all work is done.
     void finish();
 
 private:
