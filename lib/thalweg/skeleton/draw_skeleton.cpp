@@ -20,16 +20,16 @@ namespace {
 
 constexpr std::uint64_t noise_stage = 0x6e6f697365616c31; // "noiseal1"
 constexpr double sum_of_gains = 1.875;                    // of four octaves
-constexpr double widest_shift = 256.0;                    // [wavelengths] after which libnoise repeats itself
+constexpr double widest_shift = 256.0;                    // [wavelengths] period of libnoise's noise
 
 void demand(NoiseAlongParams const& params) {
     require_in("skeleton.noise_along", "amplitude_m", params.amplitude_m, Range::at_least(0.0));
     require_in("skeleton.noise_along", "wavelength_m", params.wavelength_m, Range::above(0.0));
 }
 
-/// A place in wavelengths from the origin.
+/// A position in wavelengths from the origin.
 Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wavelength_m) {
-    constexpr double farthest = 0x1p20; // libnoise folds coordinates beyond 2^30, after three doublings
+    constexpr double farthest = 0x1p20; // libnoise wraps coordinates beyond 2^30, after three doublings
     Vec2 const at{(place.at.x - origin.x) / wavelength_m, (place.at.y - origin.y) / wavelength_m};
     refuse_if<BadInput>(!(std::fabs(at.x) <= farthest && std::fabs(at.y) <= farthest),
                         "skeleton.noise_along: place {} at ({}, {}) is not within 2^20 wavelengths of {} m from ({}, "
@@ -48,7 +48,7 @@ std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 ori
     demand(params);
     run.check();
     auto const words = random_block(params.seed, noise_stage);
-    // libnoise folds its seed to 16 bits, and its noise is 0 wherever coordinates are whole.
+    // libnoise truncates its seed to 16 bits, and its noise is 0 at whole coordinates.
     double const shift_x = widest_shift * unit(words[1]);
     double const shift_y = widest_shift * unit(words[2]);
     double const level = unit(words[3]);
@@ -63,7 +63,7 @@ std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 ori
     }
     noise = perlin(shifted, static_cast<int>(words[0] >> 33U), run);
     for (std::size_t i = 0; i < places.size(); ++i) {
-        // What libnoise calls 1 is passed now and then.
+        // libnoise sometimes exceeds its nominal bound of 1.
         double const share = places[i].share;
         noise[i] = params.amplitude_m * std::clamp(noise[i] / sum_of_gains, -1.0, 1.0) * (4.0 * share * (1.0 - share));
     }
@@ -72,14 +72,15 @@ std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 ori
 
 namespace {
 
-/// What meets in a cell.
+/// Bits for the features that meet in a cell.
 constexpr std::uint8_t river = 1;
 constexpr std::uint8_t ridge = 2;
 constexpr std::uint8_t point = 4;
 
-/// Heights of one kind of feature: the highest in each cell.
+/// Keeps the highest height of one kind of feature in each cell.
 void raise(Raster<float>& z, std::int64_t cell, double height) {
-    auto const rounded = static_cast<float>(height) + 0.0F; // -0 becomes 0: of equals any may come first
+    // -0 becomes 0, so that the order of equal heights does not matter
+    auto const rounded = static_cast<float>(height) + 0.0F;
     if (std::isnan(z[cell]) || rounded > z[cell]) {
         z[cell] = rounded;
     }
@@ -105,7 +106,7 @@ std::vector<Cell> cells_of(std::vector<Vec3> const& line, Grid const& grid, std:
     return cells;
 }
 
-/// A ridge cell by cell, before noise.
+/// The cells of a ridge, before noise.
 struct Trail {
     std::vector<std::int64_t> cells;
     std::vector<PlaceOnLine> places;
@@ -130,7 +131,7 @@ Trail trail_of(std::vector<Vec3> const& line, std::vector<Cell> const& at, Grid 
         Vec3 const& b = line[i];
         walk_cells(at[i - 1], at[i], [&](Cell c, std::int64_t k, std::int64_t n) {
             if (k > 0 && k == n) {
-                return; // where the next one begins
+                return; // the next segment begins there
             }
             double const t = n == 0 ? 0.0 : static_cast<double>(k) / static_cast<double>(n);
             double const z = std::clamp(a.z + t * (b.z - a.z), std::min(a.z, b.z), std::max(a.z, b.z));
@@ -143,7 +144,7 @@ Trail trail_of(std::vector<Vec3> const& line, std::vector<Cell> const& at, Grid 
 
 Raster<float> drawn_ridges(RidgeLines const& ridges, Grid const& grid, NoiseAlongParams const& params, Run const& run) {
     Raster<float> z(grid, std::numeric_limits<float>::quiet_NaN());
-    noise_along({}, {}, params, run); // refuses parameters though there be no ridges
+    noise_along({}, {}, params, run); // checks parameters even without ridges
     for (std::size_t number = 1; RidgeLine const& ridge_line : ridges.lines) {
         std::string const what = fmt::format("ridge {}", number++);
         std::vector<Vec3> const& line = ridge_line.line;

@@ -31,7 +31,7 @@ void demand(Skeleton const& skeleton, MidpointInverseParams const& params) {
     }
 }
 
-/// Fills an empty cell from its known children; steps: where these lie, in steps of h.
+/// Fills an empty cell from its known children; steps: their offsets, in units of h.
 void fill(Raster<float>& z, Cell parent, std::array<Cell, 4> const& steps, std::int64_t h) {
     if (!std::isnan(z[parent])) {
         return;
@@ -74,7 +74,7 @@ void fill_from_centres(Raster<float>& z, std::int64_t h, Run const& run) {
     });
 }
 
-/// Copies what two rasters share in their north-western corners.
+/// Copies the common north-western part of two rasters.
 void copy_shared(Raster<float> const& from, Raster<float>& to) {
     std::int64_t const width = std::min(from.width(), to.width());
     for (std::int64_t r = 0; r < std::min(from.height(), to.height()); ++r) {
@@ -87,7 +87,7 @@ void copy_shared(Raster<float> const& from, Raster<float>& to) {
 Skeleton midpoint_inverse(Skeleton const& skeleton, MidpointInverseParams const& params, Run const& run) {
     demand(skeleton, params);
     Grid const& grid = skeleton.z.grid();
-    std::int64_t whole = 1; // side of the square, less one
+    std::int64_t whole = 1; // side of the square minus one
     while (whole < std::max(grid.width, grid.height) - 1) {
         whole *= 2;
     }
@@ -99,7 +99,7 @@ Skeleton midpoint_inverse(Skeleton const& skeleton, MidpointInverseParams const&
     if (longest == 0) {
         return out;
     }
-    // A height passes on by less than 4 longest along an axis; what leaves the grid and comes back, by half of it.
+    // A height spreads by less than 4 longest along an axis, and by half of it outside the grid and back.
     Grid frame = grid;
     frame.width = std::min(whole + 1, grid.width + 2 * longest);
     frame.height = std::min(whole + 1, grid.height + 2 * longest);

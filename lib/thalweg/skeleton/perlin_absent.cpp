@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Compiled in the place of perlin.cpp where libnoise is not installed.
+// Compiled instead of perlin.cpp where libnoise is not installed.
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/skeleton/internal/perlin.hpp>
 

@@ -25,14 +25,14 @@ double at_least_half(double half) {
     return half > 0.0 ? half : 0.5; // a single row or column
 }
 
-/// The terms and where they stand on a grid.
+/// The terms of the regression and their coordinates on a grid.
 class Basis {
 public:
     Basis(Grid const& grid, RegressParams const& params)
         : grid_(grid), params_(params), half_x_(at_least_half(0.5 * static_cast<double>(grid.width - 1))),
           half_y_(at_least_half(0.5 * static_cast<double>(grid.height - 1))) {}
 
-    /// Terms at (x, y) [cells] from the middle, y to the north.
+    /// Values of the terms at (x, y) [cells] from the centre, y northwards.
     Terms at(double x, double y) const {
         double const u = x / half_x_;
         double const v = y / half_y_;
@@ -52,7 +52,7 @@ public:
                 hill * wave_y(y, portable::sin)};
     }
 
-    /// Derivatives of the terms to x and y [a cell]; those of |x| and |y| are 0 at 0.
+    /// Derivatives of the terms by x and y [1/cell]; those of |x| and |y| are 0 at 0.
     std::pair<Terms, Terms> slopes(double x, double y) const {
         double const u = x / half_x_;
         double const v = y / half_y_;
@@ -95,7 +95,7 @@ public:
         return {to_x, to_y};
     }
 
-    /// Cells from the middle of the grid to a place on the ground.
+    /// Position relative to the grid's centre [cells].
     Vec2 from_middle(Vec2 ground) const {
         return {(ground.x - 0.5 * (grid_.west + grid_.east())) / grid_.cell_m,
                 (ground.y - 0.5 * (grid_.north + grid_.south())) / grid_.cell_m};
@@ -149,13 +149,13 @@ void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& 
     }
 }
 
-/// The side condition of equation 13 on the columns that are there.
+/// The constraint of equation 13 on the columns in use.
 solver::Sphere sphere_of(Basis const& basis, Grid const& grid, RegressParams const& params,
                          std::vector<std::size_t> const& columns) {
     solver::Sphere sphere;
     sphere.tau = portable::sin(params.slope_rad) / portable::cos(params.slope_rad);
     if (params.slope == SlopeMode::centre) {
-        sphere.unknowns = {1, 2}; // x and y: in the middle all other terms are level
+        sphere.unknowns = {1, 2}; // x and y: all other terms are level at the centre
         sphere.form = solver::Matrix(2, 2);
         auto const [to_x, to_y] = basis.slopes(0.0, 0.0);
         sphere.form.at(0, 0) = to_x[1] * to_x[1];

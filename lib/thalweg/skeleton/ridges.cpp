@@ -32,7 +32,7 @@ struct RidgePiece {
     RidgeLine ridge;
 };
 
-// Rivers as a diagram takes them, with heights.
+// Rivers as input of a diagram, with heights.
 struct LabelledRivers {
     std::vector<geometry::LabelledLine> lines;
     std::vector<std::vector<double>> z; // [m] by line, one a vertex
@@ -40,13 +40,13 @@ struct LabelledRivers {
 
 struct Rise {
     double gain = 0.0;
-    double farthest_m = 0.0; // infinity for no bound
+    double farthest_m = 0.0; // infinity: no limit
     double clear_m = 0.0;
 };
 
 using geometry::Diagram;
 
-/// The part of pq nearer than clear_m to both sites of the edge it belongs to, as shares of it.
+/// The part of pq closer than clear_m to both sites of its edge, as shares of pq.
 std::optional<std::pair<double, double>> too_near(Diagram::Site const& left, Diagram::Site const& right, Vec2 p, Vec2 q,
                                                   double clear_m) {
     if (left.a == left.b || right.a == right.b) {
@@ -63,7 +63,7 @@ std::optional<std::pair<double, double>> too_near(Diagram::Site const& left, Dia
         double const end = std::min(1.0, (-half + std::sqrt(root)) / square);
         return start < end ? std::optional(std::pair(start, end)) : std::nullopt;
     }
-    // Midway between two straight stretches the distance changes evenly.
+    // Midway between two straight segments the distance changes linearly.
     double const here = distance_to(left, p);
     double const there = distance_to(left, q);
     if (here >= clear_m && there >= clear_m) {
@@ -151,7 +151,8 @@ private:
     std::vector<RidgePiece> pieces_;
 };
 
-// The edges of a diagram of rivers as pieces with heights, without what comes nearer to its sites than clear_m.
+// Converts the edges of a diagram of rivers to pieces with heights, without the parts closer to their sites than
+// clear_m.
 std::vector<RidgePiece> ridge_pieces(Diagram const& diagram, LabelledRivers const& rivers, Rise const& rise) {
     Cutter cutter(diagram, rivers, rise);
     for (auto const& edge : diagram.edges) {
@@ -160,7 +161,7 @@ std::vector<RidgePiece> ridge_pieces(Diagram const& diagram, LabelledRivers cons
     return cutter.take();
 }
 
-/// What begins and ends at a node.
+/// The pieces that begin and end at a node.
 struct Meeting {
     std::vector<std::size_t> out;
     std::vector<std::size_t> in;
@@ -192,7 +193,7 @@ public:
                 ridges.lines.push_back(from(i));
             }
         }
-        // What is left are closed lines.
+        // The remaining pieces form closed lines.
         std::vector<std::size_t> order(pieces_.size());
         for (std::size_t i = 0; i < order.size(); ++i) {
             order[i] = i;
@@ -236,8 +237,8 @@ private:
     std::map<std::size_t, Meeting> meetings_;
 };
 
-// Joins pieces into the longest lines that keep their labels and meet others only in their ends. Gives: each piece in
-// one line; left < right; sorted by left, right and place; closed lines begin at their vertex farthest west.
+// Joins pieces into the longest lines that have the same labels and meet others only at their ends. Each piece is in
+// one line; left < right; sorted by left, right and position; closed lines begin at their westernmost vertex.
 RidgeLines chain_ridges(std::vector<RidgePiece> pieces) {
     return Chains(std::move(pieces)).take();
 }
@@ -272,7 +273,7 @@ void demand(ElevatedNetwork const& network, std::vector<std::int64_t> const& lab
     }
 }
 
-/// The arcs in an order that begins downstream: of all labels at a confluence the first is that of the arc leaving it.
+/// Orders arcs from downstream: at a confluence the first of all labels is that of the arc that leaves it.
 std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
     std::vector<std::size_t> order;
     for (NodeId const n : network.upstream_order()) {
@@ -283,7 +284,7 @@ std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
     return order;
 }
 
-/// Puts vertices into a line so that none are farther apart than spacing_m.
+/// Inserts vertices so that consecutive ones are at most spacing_m apart.
 void densify(std::vector<Vec2>& line, std::vector<double>& z, double spacing_m) {
     std::vector<Vec2> denser{line.front()};
     std::vector<double> heights{z.front()};
@@ -302,7 +303,7 @@ void densify(std::vector<Vec2>& line, std::vector<double>& z, double spacing_m) 
     z = std::move(heights);
 }
 
-/// Leaves out pieces that meet a river, or another piece elsewhere than in both their ends.
+/// Removes pieces that meet a river, or meet another piece elsewhere than at ends of both.
 std::vector<RidgePiece> without_meetings(std::vector<RidgePiece> pieces, LabelledRivers const& rivers, Run const& run) {
     std::vector<std::vector<Vec2>> drawn;
     for (auto const& river : rivers.lines) {
@@ -370,7 +371,7 @@ RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> cons
         }
         pieces = ridge_pieces(geometry::voronoi(dense.lines, bounds, run), dense, rise);
     }
-    for (RidgePiece& piece : pieces) { // cut anew near rivers, a place on the edge may leave it by a rounding
+    for (RidgePiece& piece : pieces) { // clipping near rivers may round a point off its edge
         for (Vec3& p : piece.ridge.line) {
             p.x = std::clamp(p.x, bounds.west, bounds.east);
             p.y = std::clamp(p.y, bounds.south, bounds.north);

@@ -49,15 +49,15 @@ namespace {
 
 struct PlacePointsParams {
     std::uint64_t seed = 7;
-    std::int64_t count = 0;          // >= 0, those that stand already included
+    std::int64_t count = 0;          // >= 0, those that already exist included
     double spacing_cells = 0.0;      // [cells] >= 0
-    std::vector<Vec2> standing = {}; // [m] places that stand already, at least the spacing apart
+    std::vector<Vec2> standing = {}; // [m] existing places, at least the spacing apart
 };
 
 struct PlacedPoints {
-    std::vector<Vec2> places; // [m] without those that stood
-    std::int64_t missing = 0; // of the wanted count: no more room was found
-    double density = 0.0;     // count spacing^2 / area; 0.6965 is where darts jam, 1.1547 the densest packing
+    std::vector<Vec2> places; // [m] without the existing ones
+    std::int64_t missing = 0; // number that found no room
+    double density = 0.0;     // count spacing^2 / area; dart throwing jams at 0.6965, 1.1547 is the densest packing
 };
 
 constexpr std::uint64_t place_stage = 0x7363617474657231; // "scatter1"
@@ -68,7 +68,7 @@ constexpr double densest = 1.15;
 constexpr std::int64_t most_darts = 1'000'000;
 constexpr int candidates = 30; // around a point (Bridson)
 
-/// Points with room around them, found again by square tiles of side spacing / sqrt 2: at most one a tile.
+/// Points at a minimum distance, indexed by square tiles of side spacing / sqrt 2: at most one per tile.
 class Crowd {
 public:
     Crowd(Grid const& grid, double spacing_m) : grid_(grid), spacing_m_(spacing_m), tile_(spacing_m / std::sqrt(2.0)) {}
@@ -117,7 +117,7 @@ private:
     std::unordered_map<std::uint64_t, std::size_t> tiles_;
 };
 
-/// The ground that points may lie on.
+/// The area in which points may lie.
 struct Ground {
     Grid const& grid;
     Mask const& free; ///< without cells: the whole grid
@@ -156,7 +156,7 @@ void throw_darts(Crowd& crowd, Ground const& ground, PlacePointsParams const& pa
     }
 }
 
-/// Fills the ground from the points that stand already: candidates between one and two spacings around each.
+/// Fills the area from the existing points: candidates lie between one and two spacings around each.
 void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params, double spacing_m, Run const& run) {
     if (crowd.places().empty()) {
         for (std::uint64_t dart = 0; crowd.places().empty(); ++dart) {
@@ -179,7 +179,7 @@ void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params,
         Vec2 const around = crowd.places()[active[which]];
         bool found = false;
         for (std::uint64_t k = 1; k <= candidates && !found; ++k) {
-            // In the square of side 4 spacings; what falls outside the annulus is drawn anew.
+            // In the square of side 4 spacings; candidates outside the annulus are redrawn.
             for (std::uint64_t again = 0;; ++again) {
                 auto const words = random_block(params.seed, annulus_stage, turn, k, again);
                 Vec2 const p{around.x + (4.0 * unit(words[0]) - 2.0) * spacing_m,
@@ -204,7 +204,7 @@ void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params,
 }
 
 void demand_room(Grid const& grid, PlacePointsParams const& params) {
-    // Points may stand on the border itself: what the spacing asks for is a little less than the grid's ground alone.
+    // Points may lie on the border itself: the spacing requires slightly less than the grid's area.
     double const ground = (static_cast<double>(grid.width) + params.spacing_cells) *
                           (static_cast<double>(grid.height) + params.spacing_cells);
     double const square = static_cast<double>(params.count) * params.spacing_cells * params.spacing_cells;
@@ -215,7 +215,7 @@ void demand_room(Grid const& grid, PlacePointsParams const& params) {
     }
 }
 
-/// More than asked for: those that a draw puts first.
+/// Reduces the points to the wanted number, in random order.
 void thin_out(std::vector<Vec2>& places, std::size_t wanted, std::uint64_t seed) {
     if (places.size() <= wanted) {
         return;
@@ -227,9 +227,9 @@ void thin_out(std::vector<Vec2>& places, std::size_t wanted, std::uint64_t seed)
     places.resize(wanted);
 }
 
-// Takes: free: cells that points may lie in, by number other than 0; without cells: all of the grid. Gives: distances
-// >= spacing exactly; count points or how many are missing. Throws: BadParameter, with the density, when no packing on
-// the whole grid could hold the points. Source: Zhang, Liu and Li, equations 6, 7 and 11; darts, above a density of
+// Finds places at distances >= spacing exactly; returns count points, or the number missing. free: cells that may
+// contain points (not 0); without cells: all of the grid. Throws BadParameter, with the density, when no packing on the
+// whole grid could hold the points. Source: Zhang, Liu and Li, equations 6, 7 and 11; dart throwing, above a density of
 // 0.62 on a whole grid Bridson 2007 (denser).
 PlacedPoints place_points(Grid const& grid, Mask const& free, PlacePointsParams const& params, Run const& run) {
     demand_room(grid, params);
@@ -254,7 +254,7 @@ PlacedPoints place_points(Grid const& grid, Mask const& free, PlacePointsParams 
     }
     if (placed.density > darts_jam && free.cells() == 0) {
         spread(crowd, ground, params, spacing_m, run);
-    } else { // which also reaches ground that is cut off
+    } else { // which also reaches separate areas
         throw_darts(crowd, ground, params, run);
     }
     auto const first = crowd.places().begin() + static_cast<std::ptrdiff_t>(params.standing.size());
@@ -276,7 +276,7 @@ double normal(std::uint64_t seed, std::uint64_t place) {
     return std::sqrt(-2.0 * portable::log(u)) * portable::cos(2.0 * portable::pi * unit(words[1]));
 }
 
-/// Numbers by the law: uniform in [-1, 1), or normal.
+/// Draws numbers by the law: uniform in [-1, 1), or normal.
 std::vector<double> drawn(std::size_t count, ScatterParams const& params) {
     std::vector<double> z(count);
     for (std::size_t i = 0; i < count; ++i) {
@@ -286,7 +286,8 @@ std::vector<double> drawn(std::size_t count, ScatterParams const& params) {
     return z;
 }
 
-/// Brings numbers to mean 0. Gives: their deviation.
+/// Shifts numbers to mean 0.
+/// \return their standard deviation
 double centre(std::vector<double>& z) {
     auto const count = static_cast<double>(z.size());
     double mean = 0.0;
@@ -347,8 +348,7 @@ void demand(Grid const& grid, ScatterParams const& p, double spacing_m) {
     }
 }
 
-/// Equation 10: draws a height to an extreme, the whole way at its place, at the reach by 1/e as printed, or not at
-/// all.
+/// Equation 10: moves a height towards an extreme, fully at its place; at the reach by 1/e as printed, or not at all.
 void attract(Vec3& point, Vec3 const& extreme, double reach_m, Falloff falloff) {
     double const away = distance({point.x, point.y}, {extreme.x, extreme.y});
     if (away <= reach_m) {
@@ -429,7 +429,8 @@ double distance_cells(Grid const& grid, std::int64_t a, std::int64_t b) {
     return std::sqrt(dx * dx + dy * dy);
 }
 
-/// Cell centres along the grid's border, evenly apart: as many as a border has where points spread evenly, and corners.
+/// Evenly spaced cell centres along the grid's border, corners included: as many as evenly spread points would put
+/// there.
 std::vector<Vec2> border_places(Grid const& grid, std::int64_t count) {
     double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(count)); // [cells]
     auto const parts = [apart](std::int64_t side) {
@@ -449,7 +450,7 @@ std::vector<Vec2> border_places(Grid const& grid, std::int64_t count) {
     return places;
 }
 
-/// Of these places those on free cells that keep the spacing, at most count.
+/// Selects up to count of these places that lie in free cells and keep the spacing.
 std::vector<Vec2> with_room(std::vector<Vec2> const& places, Mask const& free, ScatterBetweenParams const& params) {
     double const spacing_m = params.spacing_cells * free.grid().cell_m;
     std::vector<Vec2> kept;

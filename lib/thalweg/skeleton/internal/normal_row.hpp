@@ -7,8 +7,8 @@
 
 namespace thalweg::skeleton {
 
-/// Fills a row with independent normal deviates of mean 0 and deviation 1.
-/// Takes: the seed, the stage and the row's number, which name the random numbers.
+/// Fills a row with independent normal deviates of mean 0 and standard deviation 1; seed, stage and row identify the
+/// random numbers.
 void normal_row(std::uint64_t seed, std::uint64_t stage, std::uint64_t row, std::span<double> values);
 
 } // namespace thalweg::skeleton
