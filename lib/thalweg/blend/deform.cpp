@@ -24,7 +24,7 @@ void check(Raster<float> const& target, Mask const& region, DeformParams const& 
                         region.width(), region.height(), target.width(), target.height());
 }
 
-// Cells with data; an infinite one could not be bent.
+// Cells with data in the region; infinite ones are rejected.
 Mask bendable(Raster<float> const& target, Mask const& region) {
     Mask cells(target.grid());
     for (std::int64_t i = 0; i < target.cells(); ++i) {
@@ -38,7 +38,7 @@ Mask bendable(Raster<float> const& target, Mask const& region) {
     return cells;
 }
 
-// Takes each handle's cell out of those that are free.
+// Removes each handle's cell from the free cells.
 Mask grip(Mask& cells, std::vector<Handle> const& handles, Raster<double>& heights) {
     Mask held(cells.grid());
     for (Handle const& handle : handles) {

@@ -38,7 +38,7 @@ std::string place(Vec3 const& v) {
     return fmt::format("({}, {})", v.x, v.y);
 }
 
-/// What follows each vertex of the boundary.
+/// Maps each vertex of the boundary to the next.
 std::map<std::uint32_t, std::uint32_t> boundary(Tin const& mesh, std::string const& name) {
     std::vector<DirectedEdge> const edges = sorted_edges(mesh);
     auto const twice = std::adjacent_find(edges.begin(), edges.end());
@@ -220,10 +220,10 @@ std::vector<double> heights_on(Tin const& target, std::vector<Triangle> const& n
 /// The triangles that the region may touch, cut along the outline.
 struct Overlay {
     geometry::Triangulation mesh;
-    std::size_t target_edges = 0; ///< chains that are the target's edges; then the outline's sides
+    std::size_t target_edges = 0; ///< chains that are the target's edges, followed by the outline's sides
     std::vector<Edge> edges;      ///< of the target, by chain
-    std::map<Edge, int> rim;      ///< edges of the overlay at which the near triangles end: how often
-    std::map<Edge, int> outline;  ///< those on the outline
+    std::map<Edge, int> rim;      ///< edges of the overlay at which the near triangles end, with their count
+    std::map<Edge, int> outline;  ///< edges on the outline, with their count
 };
 
 void count_edges(std::vector<std::uint32_t> const& chain, std::map<Edge, int>& counts) {
@@ -241,7 +241,7 @@ Overlay overlay_of(Tin const& target, std::vector<Triangle> const& near, std::ve
         }
     }
     Overlay overlay;
-    std::vector<std::vector<Vec3>> lines; // the target's first: its heights stand where lines cross
+    std::vector<std::vector<Vec3>> lines; // the target's first: its heights are used at crossings
     for (auto const& [edge, times] : sides) {
         overlay.edges.push_back(edge);
         lines.push_back({target.vertices[edge.first], target.vertices[edge.second]});
@@ -275,7 +275,7 @@ bool is_odd(std::map<Edge, int> const& counts, Edge const& edge) {
     return found != counts.end() && found->second % 2 != 0;
 }
 
-/// From outside over the hull into every triangle: each line crossed changes the side.
+/// Floods from outside the hull into every triangle: each line crossed changes the side.
 std::vector<Where> sides_of(Overlay const& overlay) {
     constexpr std::size_t outside = std::numeric_limits<std::size_t>::max();
     std::vector<Triangle> const& triangles = overlay.mesh.tin.triangles;
@@ -318,7 +318,7 @@ std::vector<Where> sides_of(Overlay const& overlay) {
     return where;
 }
 
-/// Numbers of the result's vertices: those of the target that are left, then the overlay's own.
+/// Numbers the result's vertices: the remaining ones of the target, then the overlay's own.
 class Numbers {
 public:
     Numbers(Tin const& target, Overlay const& overlay)
@@ -339,7 +339,7 @@ public:
             of_overlay_[v] = 0;
         }
     }
-    /// The vertices used, numbered.
+    /// Numbers the vertices in use.
     void give_numbers(CutTin& cut) {
         for (std::size_t v = 0; v < used_.size(); ++v) {
             if (used_[v] != 0) {
@@ -384,7 +384,7 @@ void require_whole(Tin const& target, std::vector<Triangle> const& near, Overlay
     for (std::size_t i = 0; i < where.size(); ++i) {
         double const here = area(tin, tin.triangles[i]);
         after_cut += where[i].in_target ? here : 0.0;
-        // Slivers that rounding leaves along the target's edge do not count.
+        // Slivers left by rounding along the target's edge do not count.
         if (where[i].in_region && !where[i].in_target && here > 1e-12 * before_cut) {
             Vec3 const& p = tin.vertices[tin.triangles[i][0]];
             throw BadInput(fmt::format(
@@ -452,10 +452,10 @@ using Inserted = std::vector<std::uint32_t>;
 
 constexpr std::uint32_t elsewhere = std::numeric_limits<std::uint32_t>::max();
 
-/// The patch with its outline cut as the target's edges cut it, at its own heights.
+/// The patch at its own heights, with its outline split where the target's edges cross it.
 struct Region {
     Tin mesh;
-    std::vector<std::uint32_t> vertex_of; ///< by vertex of the region: that of the cut target, elsewhere inside
+    std::vector<std::uint32_t> vertex_of; ///< by vertex of the region: its vertex in the cut target; inside: new
     std::map<std::pair<std::uint32_t, std::uint32_t>, Inserted> inserted; ///< by edge of the patch's outline
 };
 
@@ -465,7 +465,7 @@ double height_between(Vec3 const& a, Vec3 const& b, Vec2 p) {
     return a.z + along * (b.z - a.z);
 }
 
-/// A triangle and what lies on its edges a-b, b-c and c-a, cut into triangles with these as corners.
+/// Splits a triangle at the vertices on its edges a-b, b-c and c-a.
 void cut_triangle(Triangle const& t, std::array<Inserted, 3> const& on, std::vector<Triangle>& out) {
     for (std::size_t k = 0; k < 3; ++k) {
         if (on[k].empty()) {
@@ -486,7 +486,7 @@ void cut_triangle(Triangle const& t, std::array<Inserted, 3> const& on, std::vec
     out.push_back(t);
 }
 
-/// Numbers the patch's vertices as the region's, those of the outline by the cut target's.
+/// Numbers the patch's vertices as the region's, those on the outline as in the cut target.
 Region region_of(Tin const& patch, std::vector<std::uint32_t> const& outline, CutTin const& cut) {
     Region region;
     std::vector<std::uint32_t> number(patch.vertices.size(), elsewhere);

@@ -28,7 +28,7 @@ void check(Polygon const& polygon, std::string const& name) {
     }
 }
 
-// The first column or row whose centre lies at v (in cells from the edge) or beyond it.
+// The first column or row whose centre is at or beyond v (in cells from the edge).
 std::int64_t first_from(double v, std::int64_t count) {
     double const cell = std::ceil(v - 0.5);
     return !(cell > 0.0) ? 0 : cell >= static_cast<double>(count) ? count : static_cast<std::int64_t>(cell);
@@ -41,7 +41,7 @@ public:
 
     void add_edge(Vec2 a, Vec2 b) {
         if (a.y < b.y) {
-            std::swap(a, b); // from north to south: a shared edge is cut at the same places for both its owners
+            std::swap(a, b); // from north to south, so that both owners of a shared edge cut it at the same positions
         }
         std::int64_t const begin = first_from((grid_.north - a.y) / grid_.cell_m, grid_.height);
         std::int64_t const end = first_from((grid_.north - b.y) / grid_.cell_m, grid_.height);
@@ -93,7 +93,7 @@ private:
                                grid.south(), grid.east(), grid.north));
 }
 
-/// Gives the cells in each polygon the value of its number, counted from 1; the others 0.
+/// Sets the cells in each polygon to the value of its number, counted from 1; others to 0.
 template <class T, class Value> Raster<T> burned(Polygons const& polygons, Grid const& grid, Value value_of) {
     Raster<T> raster(grid);
     Crossings crossings(grid);

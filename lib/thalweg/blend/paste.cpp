@@ -21,10 +21,10 @@ namespace {
 
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
-// [cells] What coordinates of millions of metres lose to rounding.
+// [cells] rounding of coordinates in the millions of metres.
 constexpr double snap = 1e-6;
 
-/// A place on the source in columns and rows; whole numbers are centres of cells.
+/// A position on the source in columns and rows; whole numbers are cell centres.
 struct Place {
     double col;
     double row;
@@ -35,7 +35,7 @@ double snapped(double v) {
     return std::fabs(v - whole) <= snap ? whole : v;
 }
 
-// Cells without data that reach the source's edge through others: what lies beyond its outline, not a hole in it.
+// Cells without data that are connected to the source's edge: beyond its outline, not holes in it.
 Mask beyond_outline(Raster<float> const& source) {
     Grid const& grid = source.grid();
     Mask beyond(grid);
@@ -71,7 +71,7 @@ std::int64_t count(Mask const& mask, Run const& run) {
     });
 }
 
-/// How target and source lie to one another.
+/// The transformation between target and source.
 class Placement {
 public:
     Placement(Raster<float> const& source, SourceWindow const& window, PlacePatchParams const& params)
@@ -119,7 +119,7 @@ public:
         return within(p.col, window_.col, window_.width) && within(p.row, window_.row, window_.height);
     }
 
-    /// Takes: a place on the lattice.
+    /// p: a position on the lattice.
     double height(Place p) const {
         Cell const cell{static_cast<std::int64_t>(p.col), static_cast<std::int64_t>(p.row)};
         double const x = p.col - static_cast<double>(cell.col);
@@ -178,7 +178,7 @@ SourceWindow window_of(Raster<float> const& source, PlacePatchParams const& para
     return w;
 }
 
-/// Cells the window may touch, and their neighbours.
+/// Cells that the window may touch, and their neighbours.
 struct Span {
     std::int64_t first_col;
     std::int64_t end_col;
@@ -283,7 +283,7 @@ void check(Raster<float> const& target, Patch const& patch, PasteParams const& p
     }
 }
 
-// Counts what of the mask does not change, too.
+// Also counts the cells of the mask that do not change.
 Mask changes_of(Patch const& patch, PasteParams const& params, Pasted& pasted) {
     Mask changes(patch.mask.grid());
     for (std::int64_t i = 0; i < changes.cells(); ++i) {
@@ -315,7 +315,7 @@ Raster<double> cut_out(Raster<double> const& z, Opening const& opening) {
     return part;
 }
 
-// The patch; where it has no height the target's; where that has none either, a mean.
+// The patch's heights; where missing the target's; where missing too, their mean.
 Raster<double> carrier_of(Raster<double> const& source, Opening const& opening) {
     Raster<double> carrier = source;
     double sum = 0.0;
@@ -334,7 +334,7 @@ Raster<double> carrier_of(Raster<double> const& source, Opening const& opening) 
     return carrier;
 }
 
-/// The differences the pasted land shall have.
+/// The differences that the pasted terrain should have.
 class Wanted {
 public:
     Wanted(Raster<double> const& source, Opening const& opening, PasteParams const& params, Run const& run)
@@ -342,7 +342,7 @@ public:
         if (feather_ > 0.0) {
             Mask changes(opening.kind.grid());
             for (std::int64_t i = 0; i < changes.cells(); ++i) {
-                // What is outside keeps no height that the land could differ from.
+                // Cells outside have no heights to take differences from.
                 changes[i] = opening.kind[i] == fixed_cell ? 0 : 1;
             }
             distance_ = distance_within(changes, run);
@@ -385,7 +385,7 @@ bool has_gap(Raster<double> const& source, Opening const& opening) {
     return false;
 }
 
-// None where the differences are the patch's own: then Laplace's equation is left.
+// Empty if the differences are the patch's own, which leaves Laplace's equation.
 Guidance guidance_of(Raster<double> const& source, Opening const& opening, PasteParams const& params, Run const& run) {
     if (params.relief == Relief::source && params.feather_cells == 0.0 && !has_gap(source, opening)) {
         return {};

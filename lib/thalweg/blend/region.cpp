@@ -28,7 +28,7 @@ struct Box {
     Cell last;
 };
 
-// With its ring.
+// Includes its ring.
 Box box_of(Mask const& changes, std::string const& stage) {
     Box box{{changes.width(), changes.height()}, {-1, -1}};
     for (std::int64_t row = 0; row < changes.height(); ++row) {
@@ -57,7 +57,7 @@ Grid frame_of(Grid const& target, Box const& box) {
     return frame;
 }
 
-// Every connected part of the free cells needs a fixed neighbour to hang on.
+// Every connected part of the free cells needs a fixed neighbour.
 void require_held(Opening const& opening, Grid const& target, std::string const& stage, Run const& run) {
     Grid const& grid = opening.kind.grid();
     Mask seen(grid);
@@ -148,7 +148,7 @@ struct Mean {
     }
 };
 
-// What is sought is the difference from the carrier.
+// The unknown is the difference from the carrier.
 void set_values(solver::GridProblem& problem, Raster<double> const& fixed, Raster<double> const& carrier,
                 Run const& run) {
     std::int64_t const width = fixed.width();
@@ -180,7 +180,7 @@ void set_source(solver::GridProblem& problem, Raster<double> const& carrier, Gui
             if (problem.kind[i] != free_cell) {
                 continue;
             }
-            // By how much more than the carrier's own each difference shall be.
+            // How much each wanted difference exceeds the carrier's own.
             auto const more = [&](Raster<double> const& wanted, std::int64_t here, std::int64_t there) {
                 return problem.kind[here] == outside_cell || problem.kind[there] == outside_cell
                            ? 0.0
@@ -223,7 +223,7 @@ namespace {
 
 constexpr float far = std::numeric_limits<float>::infinity();
 
-// Along columns: by rows, each from the one before it.
+// Along columns, row by row, each from the previous one.
 void sweep_columns(Mask const& mask, Raster<float>& distance) {
     auto const step = [&](std::int64_t row, std::int64_t from) {
         for (std::int64_t col = 0; col < mask.width(); ++col) {
@@ -289,7 +289,7 @@ private:
     }
 
     std::vector<double> centres_;
-    std::vector<double> begins_; // where each becomes the lowest
+    std::vector<double> begins_; // where each begins to be the lowest
     std::vector<double> heights_;
 };
 

@@ -19,7 +19,7 @@ namespace {
 
 using geometry::Measured;
 
-// Of a x + b y + c z.
+// Linear combination a x + b y + c z.
 Vec3 sum(Vec3 const& row, CoordinateGradients const& g) {
     return {row.x * g.x.x + row.y * g.y.x + row.z * g.z.x, row.x * g.x.y + row.y * g.y.y + row.z * g.z.y,
             row.x * g.x.z + row.y * g.y.z + row.z * g.z.z};
@@ -52,7 +52,7 @@ CoordinateGradients mapped(LinearMap const& map, CoordinateGradients const& grad
 std::array<Vec3, 3> hat_gradients_by_area(Vec3 const& a, Vec3 const& b, Vec3 const& c, Measured measured) {
     Vec3 const ab = seen(b - a, measured);
     Vec3 const ac = seen(c - a, measured);
-    Vec3 const normal = cross(ab, ac); // twice the area long
+    Vec3 const normal = cross(ab, ac); // its length is twice the area
     Vec3 const half = (0.5 / norm(normal)) * normal;
     return {cross(half, ac - ab), cross(half, -1.0 * ac), cross(half, ab)};
 }
@@ -62,7 +62,7 @@ std::vector<CoordinateGradients> gradients_of(Tin const& parameter, std::vector<
     refuse_if<BadInput>(places.size() != parameter.vertices.size(),
                         "blend.gradients_of: {} places for a mesh of {} vertices", places.size(),
                         parameter.vertices.size());
-    geometry::half_cotangents(parameter, measured); // has every triangle area?
+    geometry::half_cotangents(parameter, measured); // throws for a triangle without area
     std::vector<CoordinateGradients> gradients;
     gradients.reserve(parameter.triangles.size());
     for (auto const& t : parameter.triangles) {
@@ -70,7 +70,7 @@ std::vector<CoordinateGradients> gradients_of(Tin const& parameter, std::vector<
         auto const hats = hat_gradients_by_area(corner(0), corner(1), corner(2), measured);
         double const area =
             0.5 * norm(cross(seen(corner(1) - corner(0), measured), seen(corner(2) - corner(0), measured)));
-        // From the first corner's place: the hats add up to 1, their gradients to 0.
+        // Relative to the first corner: the hat functions sum to 1, their gradients to 0.
         Vec3 const second = (1.0 / area) * (places[t[1]] - places[t[0]]);
         Vec3 const third = (1.0 / area) * (places[t[2]] - places[t[0]]);
         auto const gradient = [&](double at_second, double at_third) {
@@ -113,7 +113,7 @@ std::vector<std::optional<Vec3>> places_of(Tin const& parameter, std::vector<Fix
     return places;
 }
 
-// Every part of the mesh must hang on a fixed vertex.
+// Every part of the mesh needs a fixed vertex.
 void require_held(Tin const& parameter, std::vector<std::optional<Vec3>> const& places) {
     std::vector<std::uint32_t> root(parameter.vertices.size());
     std::iota(root.begin(), root.end(), 0U);
@@ -144,7 +144,7 @@ void require_held(Tin const& parameter, std::vector<std::optional<Vec3>> const& 
     }
 }
 
-/// What is sought is how far vertices move from the parameter mesh, a system for each coordinate.
+/// The unknowns are the shifts of vertices from the parameter mesh: one system per coordinate.
 struct System {
     std::vector<std::uint32_t> unknown; // by vertex
     std::uint32_t size = 0;

@@ -11,45 +11,53 @@
 
 namespace thalweg::blend {
 
-/// The piece of a target that a stage changes: the smallest box that holds it, with a ring of one cell around it.
+/// The part of a target that a stage changes: its smallest bounding box plus a ring of one cell.
 struct Opening {
-    Cell corner;                 ///< of the target: cell (0, 0) of the rasters below
+    Cell corner;                 ///< cell of the target that is cell (0, 0) of the rasters below
     Raster<std::uint8_t> kind;   ///< solver::CellKind
     Raster<double> target;       ///< [m] heights, NaN where there is no data
-    std::int64_t cells = 0;      ///< that change
-    std::int64_t neighbours = 0; ///< cells beside them that keep their height
+    std::int64_t cells = 0;      ///< number of cells that change
+    std::int64_t neighbours = 0; ///< number of neighbours that keep their height
 };
 
-/// Opens a target for cells to be changed.
-/// Takes: which cells change; more cells whose height is given beside their neighbours, or an empty mask; the name of
-/// the stage, for messages. Gives: changing cells are free; those 4-neighbours of theirs that have a height are fixed,
-/// the others outside, as is what lies beyond the target's edge: nothing flows there. Cells that are given are fixed.
-/// Throws: BadInput when no cell changes, when one that stays is infinite, or when no cell of a part of what changes
-/// has a neighbour that is fixed: it names a cell of that part and where it lies; Cancelled.
+/// Extracts the part of a target that is to change.
+/// \param changes cells that change
+/// \param given more cells with fixed heights, or an empty mask
+/// \param stage its name, for messages
+/// \return changing cells are free; their 4-neighbours with heights and the given cells are fixed; all others are
+/// outside, as is everything beyond the target's edge: no flux there
+/// \throws BadInput when no cell changes, when a fixed one is infinite, or naming a cell and its position when a
+/// changing part has no fixed neighbour
 Opening open_target(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
                     Run const& run);
 
-/// How much higher a cell's neighbour shall be.
+/// Wanted differences of heights between neighbours.
 struct Guidance {
-    Raster<double> east;  ///< [m] of the neighbour in the east; read between cells that are not outside
-    Raster<double> south; ///< [m] of the neighbour in the south
+    Raster<double> east;  ///< [m] to the eastern neighbour; read between cells that are not outside
+    Raster<double> south; ///< [m] to the southern neighbour
 };
 
-/// Heights whose differences follow a guidance g as nearly as fixed cells let them: lap f = div g.
-/// Takes: what each cell is (solver::CellKind); the heights of fixed cells; a carrier, some land finite in every cell
-/// that is not outside; the guidance, or an empty one for the differences of the carrier itself.
-/// Gives: f in free and fixed cells; of any two carriers the same f to the tolerance. Where the guidance is empty, f is
-/// the carrier and the harmonic extension of what the fixed cells differ from it by; equal by any constant, they give
-/// f the carrier and that constant. Throws: as solver::solve_poisson.
-/// Source: paper 003, eqs 14 to 16 on a grid: any diagonal of its cells has the weight 0.
+/// Computes heights whose differences follow a guidance g as closely as fixed cells allow: lap f = div g.
+/// \param kind solver::CellKind by cell
+/// \param fixed heights of fixed cells
+/// \param carrier terrain finite in every cell that is not outside
+/// \param guidance wanted differences; empty: the carrier's own
+/// \return f in free and fixed cells, the same for any carrier to the tolerance. With empty guidance f is the carrier
+/// plus the harmonic extension of its differences to the fixed cells; if these are constant, f is the carrier plus that
+/// constant.
+/// \throws Error as solver::solve_poisson
+///
+/// Source: \cite nenu2015, eqs 14 to 16 on a grid: any diagonal of its cells has the weight 0.
 solver::GridSolution follow(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
                             Raster<double> const& carrier, Guidance const& guidance,
                             solver::PoissonParams const& params = {}, Run const& run = {});
 
-/// How far it is out of a mask.
-/// Gives: [cells] from each centre to the nearest centre of a cell that is not in the mask, 0 for those; infinity where
-/// every cell is. Exact up to the square root's rounding, in time that does not depend on the distance.
-/// Throws: Cancelled. Source: Felzenszwalb and Huttenlocher 2012, Distance transforms of sampled functions.
+/// Computes the distance to the outside of a mask, exact up to the rounding of sqrt, in time independent of the
+/// distance.
+/// \return [cells] from each centre to the nearest centre of a cell outside the mask; 0: outside; infinity: every cell
+/// is inside
+///
+/// Source: Felzenszwalb and Huttenlocher 2012, Distance transforms of sampled functions.
 Raster<float> distance_within(Mask const& mask, Run const& run = {});
 
 } // namespace thalweg::blend
