@@ -68,8 +68,8 @@ solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, 
 
 namespace {
 
-// Heights [m] of a problem's values: fixed cells take the bits of z, free ones are rounded once, cells outside are NaN.
-// Takes: kind: a solver::CellKind a cell; all three of one frame.
+// Converts a problem's values to heights [m]: fixed cells take the bits of z, free ones are rounded once, cells outside
+// are NaN. kind: solver::CellKind by cell; all three have one frame.
 Raster<float> heights_of(Raster<double> const& value, Raster<std::uint8_t> const& kind, Raster<float> const& z) {
     Raster<float> heights(z.grid(), std::numeric_limits<float>::quiet_NaN());
     for (std::int64_t i = 0; i < heights.cells(); ++i) {
@@ -91,13 +91,13 @@ std::vector<double> weights_of(double sigma_cells) {
     return weights;
 }
 
-/// Sum along one line of cells: of values and of the weights that count.
+/// Sums along one line of cells: of values and of the weights that count.
 struct Sums {
     Raster<double> value;
     Raster<double> weight;
 };
 
-/// Calls add(distance, index of the other cell) for the cells of a line of `count` around place `at`.
+/// Calls add(distance, index of the other cell) for the cells of a line of `count` around position `at`.
 template <class Add> void around_on_line(std::int64_t at, std::int64_t count, std::int64_t radius, Add const& add) {
     for (std::int64_t other = std::max<std::int64_t>(0, at - radius); other <= std::min(count - 1, at + radius);
          ++other) {
@@ -154,8 +154,8 @@ Cell block_of(Cell c) {
     return {c.col / side, c.row / side};
 }
 
-// Gives free cells of a problem the steady state on cells eight times as large, whose height is the mean of the fixed
-// ones in them. Takes: a problem each part of which has a fixed cell.
+// Initialises the free cells of a problem with the steady state on cells eight times as large, whose heights are the
+// means of their fixed cells. Each part of the problem needs a fixed cell.
 void start_coarse(solver::GridProblem& problem, Run const& run) {
     Grid const& grid = problem.kind.grid();
     Grid const blocks{(grid.width + side - 1) / side, (grid.height + side - 1) / side, 1.0, 0.0, 0.0, ""};
@@ -174,7 +174,8 @@ void start_coarse(solver::GridProblem& problem, Run const& run) {
     for (std::int64_t i = 0; i < blocks.cells(); ++i) {
         coarse.value[i] = count[i] > 0 ? coarse.value[i] / count[i] : 0.0;
     }
-    // A path to a fixed cell passes through blocks that are neighbours: each part of them has a fixed one.
+    // A path to a fixed cell passes through neighbouring blocks, so that each part of the coarse problem has a fixed
+    // cell.
     Raster<double> const value = solver::solve_poisson(std::move(coarse), {1e-4, 1000}, run).value;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         problem.value[i] = problem.kind[i] == solver::free_cell ? value[block_of(grid.at(i))] : problem.value[i];

@@ -17,14 +17,14 @@
 namespace thalweg::surface {
 namespace {
 
-// Throws: BadInput: a grid without cells, or with cells whose side is not above 0.
+// \throws BadInput when the grid has no cells or its cell size is not above 0.
 void check_frame(Grid const& grid) {
     refuse_if<BadInput>(grid.cells() <= 0, "surface.dilate: the valley's grid has no cells; make it at least 1 x 1");
     refuse_if<BadInput>(!(grid.cell_m > 0.0 && std::isfinite(grid.cell_m)),
                         "surface.dilate: the valley's cell size is {} m; give one above 0", grid.cell_m);
 }
 
-// Throws: BadInput: a valley in which no cell has a height, or one has an infinite height.
+// \throws BadInput when no cell of the valley has a height, or one is infinite.
 void check_heights(Raster<float> const& valley) {
     Grid const& grid = valley.grid();
     bool wet = false;
@@ -43,7 +43,7 @@ void check_heights(Raster<float> const& valley) {
                         grid.width, grid.height);
 }
 
-// Throws: BadInput: the mask has another frame than the valley.
+// \throws BadInput when the mask has another frame than the valley.
 void check_mask(Grid const& valley, Grid const& mask) {
     refuse_if<BadInput>(valley != mask,
                         "surface.dilate: the mask ({} x {} cells of {} m) has another frame than the valley ({} x {} "
@@ -51,7 +51,7 @@ void check_mask(Grid const& valley, Grid const& mask) {
                         mask.width, mask.height, mask.cell_m, valley.width, valley.height, valley.cell_m);
 }
 
-// Share [0,1] of the cells of a DEM off the valley that have no lower 4-neighbour; 0 where there are none.
+// Computes the share [0, 1] of the cells off the valley that have no lower 4-neighbour; 0 if there are none.
 double flat_share(Valley const& valley, Raster<float> const& dem, Run const& run) {
     std::int64_t const width = dem.width();
     std::int64_t const height = dem.height();
@@ -90,10 +90,10 @@ void check_dilate_params(DilateParams const& params) {
         !(params.relief_m >= 0.0 && std::isfinite(params.relief_m)),
         "surface.dilate: relief is {} m; give a finite height above 0, or 0 for the units of Cao, Long and Lü (2009)",
         params.relief_m);
-    increments(0, params.increment); // what cannot be read is refused before the work
+    increments(0, params.increment); // reject unreadable expressions before the work
 }
 
-/// Factor from the papers' units to metres, where `top` is the greatest sum of increments on the grid.
+/// Factor from the paper's units to metres, where `top` is the largest sum of increments on the grid.
 double metres_per_unit(double top, DilateParams const& params, Grid const& grid) {
     if (params.relief_m == 0.0) {
         return grid.cell_m;
@@ -107,7 +107,7 @@ double metres_per_unit(double top, DilateParams const& params, Grid const& grid)
     return params.relief_m / top;
 }
 
-/// Throws where a surface over valley heights up to `greatest` would leave the range of a float.
+/// Throws if a surface over valley heights up to `greatest` would exceed the range of float.
 void check_reach(std::vector<double> const& above_valley, double greatest) {
     for (std::size_t d = 0; d < above_valley.size(); ++d) {
         refuse_if<BadParameter>(
@@ -116,7 +116,7 @@ void check_reach(std::vector<double> const& above_valley, double greatest) {
     }
 }
 
-/// Scales the increments to metres and gives their sums, d = 0 .. levels. top: as in metres_per_unit.
+/// Scales the increments to metres and sums them, d = 0 .. levels. top: as in metres_per_unit.
 std::vector<double> to_metres(std::vector<double>& dh, double top, double greatest, DilateParams const& params,
                               Grid const& grid) {
     if (!dh.empty()) {
@@ -128,7 +128,7 @@ std::vector<double> to_metres(std::vector<double>& dh, double top, double greate
     return above_valley;
 }
 
-/// The same where every level from 0 to the last occurs.
+/// The same if every level from 0 to the last occurs.
 std::vector<double> use_increments(Dilated& dilated, double greatest, DilateParams const& params) {
     dilated.increments = increments(dilated.levels, params.increment);
     std::vector<double> const units = heights_above_valley(dilated.increments);
@@ -146,7 +146,7 @@ double greatest_of_valley(Raster<float> const& valley) {
     return static_cast<double>(greatest);
 }
 
-/// Whether every dilation rises by more than a float's spacing up there: then no cell can be flat.
+/// Whether every dilation rises by more than one ulp of a float at these heights: then no cell can be flat.
 bool surely_drained(std::vector<double> const& used, std::vector<double> const& above_valley, double greatest) {
     double reach = greatest;
     for (double const h : above_valley) {
@@ -155,7 +155,7 @@ bool surely_drained(std::vector<double> const& used, std::vector<double> const& 
     return std::all_of(used.begin(), used.end(), [&](double dh) { return dh > reach * 0x1p-22; });
 }
 
-/// Sets flat_share; every cell stands dh above a neighbour, so that it need be counted only where dh can vanish.
+/// Sets flat_share. Every cell is dh above a neighbour, so that flats need to be counted only if dh can vanish.
 void report_flats(Dilated& dilated, Valley const& valley, std::vector<double> const& above_valley, double greatest,
                   Run const& run) {
     if (!surely_drained(dilated.increments, above_valley, greatest)) {
@@ -202,7 +202,7 @@ Dilated dilate_masked(Valley const& valley, Mask const& inside, DilateParams con
     return dilated;
 }
 
-/// Sum of increments up to a distance between two dilations.
+/// Sum of increments up to a distance, also between whole numbers of dilations.
 double sum_at(double distance, std::vector<double> const& dh, std::vector<double> const& sums) {
     double const whole = std::floor(distance);
     auto const level = static_cast<std::size_t>(whole);
@@ -359,7 +359,7 @@ Expansion expand(Valley const& valley, Run const& run) {
 
 namespace {
 
-/// The same valley at height 0: what is dilated from it is H(d) alone.
+/// The same valley at height 0: dilating it gives H(d) alone.
 Valley levelled(Valley const& valley, Raster<float> const& base) {
     refuse_if<BadInput>(base.grid() != valley.z.grid(),
                         "surface.dilate_over: the base has another frame than the valley; lay it on the valley's grid");

@@ -58,8 +58,8 @@ bool assigns(std::string_view text) {
     return false;
 }
 
-// libm inside muParser differs between machines in the last bits: 2^-32, but never more than 36 significant bits, hides
-// them.
+// libm inside muParser differs between machines in the last bits: rounding to 2^-32, but to at most 36 significant
+// bits, hides this.
 double tamed(double value) {
     double scale = 0x1p32;
     while (std::fabs(value) * scale >= 0x1p36) {
@@ -68,7 +68,7 @@ double tamed(double value) {
     return std::floor(value * scale + 0.5) / scale;
 }
 
-/// Values for x = 1 .. levels. Takes: at(x), and how messages name it and another of its kind.
+/// Evaluates x = 1 .. levels. at: the function; name, another: how messages name it and another of its kind.
 template <class At>
 std::vector<double> values_of(At const& at, std::string_view name, std::string_view another, std::int64_t levels) {
     std::vector<double> values(static_cast<std::size_t>(levels));
@@ -136,7 +136,7 @@ std::vector<double> signed_increments(std::int64_t levels, IncrementParams const
     return values;
 }
 
-/// What the values are made of, between whole x too. Takes: a function, or an expression that was read before.
+/// Returns the increments as a function of any x, from a function or from an expression that has already been parsed.
 std::function<double(double)> anywhere(IncrementParams const& params) {
     if (params.function) {
         return params.function;
@@ -168,7 +168,7 @@ std::vector<IncrementJump> increment_jumps(std::int64_t levels, IncrementParams 
     std::vector<double> const values = increments(levels, params);
     std::vector<IncrementJump> jumps;
     if ((!params.function && in_table_1(params.increment) != nullptr) ||
-        values.size() < 2) { // those of the table are continuous
+        values.size() < 2) { // the table's are continuous
         return jumps;
     }
     double greatest = 0.0;

@@ -13,7 +13,7 @@
 namespace thalweg::surface::separable {
 namespace {
 
-/// Level of a cell that nothing has reached; every level of a grid is less.
+/// Level of a cell not reached; every level of a grid is less.
 template <class Level> constexpr Level no_level = std::is_same_v<Level, std::uint16_t> ? 0xffff : 1 << 30;
 
 template <class Level> struct Field {
@@ -23,7 +23,7 @@ template <class Level> struct Field {
     float* base = nullptr;
 };
 
-/// The row below, of a strip of columns.
+/// The row below, for a strip of columns.
 struct Carry {
     std::int64_t count = 0;
     std::int32_t* level = nullptr;
@@ -49,13 +49,14 @@ std::int64_t workers(Run const& run) {
     return run.threads > 0 ? run.threads : std::max<std::int64_t>(1, std::thread::hardware_concurrency());
 }
 
-/// Rows of a band: some more bands than workers, but one for one, since rows carry downwards within a band only.
+/// Rows per band: a few more bands than workers, but a single one for one worker, since rows carry downwards within a
+/// band only.
 std::int64_t band_rows(std::int64_t height, Run const& run) {
     std::int64_t const bands = run.threads == 1 ? 1 : 2 * workers(run);
     return std::max<std::int64_t>(8, (height + bands - 1) / bands);
 }
 
-/// Columns of a strip: as wide as the workers allow, for memory likes long rows.
+/// Columns per strip: as wide as the number of workers allows, because long rows suit the memory.
 std::int64_t strip_cols(std::int64_t width, Run const& run) {
     return std::max<std::int64_t>(64, (width + workers(run) - 1) / workers(run));
 }
@@ -78,7 +79,7 @@ float bands_down(Valley const& valley, Field<Level> const& field, std::int64_t r
     return greatest < 0 ? -1.0F : std::bit_cast<float>(greatest.load());
 }
 
-/// Carries each band's last row into the next as far as it changes anything, then measures the levels.
+/// Carries each band's last row into the next as long as cells change, then computes the levels.
 template <class Level>
 std::int64_t join_bands(Field<Level> const& field, std::int64_t rows, Lanes lanes, Run const& run) {
     auto* const mend = lanes == Lanes::avx2 ? &avx2::mend_row<Level> : &plain::mend_row<Level>;
@@ -141,7 +142,7 @@ template <class Level>
 void sweep_up(Swept<Level> const& swept, Raster<float>& base, std::vector<double> above_valley, Lanes lanes,
               Run const& run) {
     Field<Level> const field = field_of(swept, base);
-    above_valley[0] = -0.0; // the one number that leaves every height its bits when added, -0 too
+    above_valley[0] = -0.0; // the only number that preserves every height's bits when added, including -0
     strips_up(field, run, [&](std::int64_t begin, std::int64_t end, std::int64_t first, Carry const& carry) {
         auto* const rows_up = lanes == Lanes::avx2 ? &avx2::rows_up_heights<Level> : &plain::rows_up_heights<Level>;
         rows_up(field, begin, end, first, carry, above_valley.data());

@@ -42,7 +42,7 @@ void check_params(EquilibriumParams const& params) {
 }
 
 void check_grid(Grid const& grid) {
-    constexpr std::int64_t most = std::int64_t{1} << 30; // cells are counted in 32 bits, the frame included
+    constexpr std::int64_t most = std::int64_t{1} << 30; // cells are numbered in 32 bits, the frame included
     refuse_if<BadInput>(grid.width <= 0 || grid.height <= 0,
                         "surface.equilibrium: the rivers' grid has no cells; make it at least 1 x 1");
     refuse_if<BadInput>(grid.width > most || grid.height > most || grid.cells() > most,
@@ -126,10 +126,11 @@ void check_field(Grid const& grid, Raster<float> const& field, Mask const& land,
     }
 }
 
-/// Heights may not rise downstream, also from one that is given to the next, past cells without.
+/// Checks that heights do not rise downstream, also between prescribed heights with free cells between them.
 void check_channel_heights(Channels const& rivers) {
     float const none = std::numeric_limits<float>::quiet_NaN();
-    std::vector<float> below(rivers.z.size(), none); // height of the nearest cell downstream that has one, itself first
+    // height of the nearest cell downstream that has one, the cell itself included
+    std::vector<float> below(rivers.z.size(), none);
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
         float const z = rivers.z[n];
         if (std::isinf(z)) {
@@ -159,10 +160,11 @@ void check_equilibrium(Channels const& rivers, EquilibriumFields const& fields, 
 
 constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
-constexpr float of_perched = 3.0F; // times what counts as perched at last: what will not come down by itself
-constexpr int floors_after = 2;    // rounds: areas are near enough by then
+// factor of the tangent that finally counts as perched: such tips will not be lowered any more
+constexpr float of_perched = 3.0F;
+constexpr int floors_after = 2; // rounds: areas have settled by then
 
-/// What lies in the frame of a level, before it is solved.
+/// The content of a level's frame before it is solved.
 struct Plan {
     LevelExtent extent;
     RiverCells rivers;
@@ -175,7 +177,7 @@ Plan coarser(Plan const& fine) {
             fine.land.cells() == 0 ? Mask{} : coarsened(fine.land)};
 }
 
-/// Levels from the finest to one of about forty cells a side, the coarse ones of the region.
+/// Makes the levels from the finest to one of about forty cells a side, the coarse ones of the region.
 std::vector<Plan> plans(WidenedLand& land, Region const& region, Grid const& grid, std::uint64_t seed) {
     constexpr std::int64_t short_side = 8;
     constexpr std::int64_t long_side = 40;
@@ -198,7 +200,7 @@ std::vector<Plan> plans(WidenedLand& land, Region const& region, Grid const& gri
     }
 }
 
-/// Everything that a level's rounds need, before the first.
+/// Prepares a level for its rounds.
 LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, LandLevel const& region,
                    RockFields const& fields, RockParams const& rock, EquilibriumParams const& params, Run const& run) {
     LandLevel level;
@@ -232,7 +234,7 @@ void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin
     }
 }
 
-/// Leaves what the next level or the written land need.
+/// Frees everything that the next level and the output do not need.
 void drop_what_is_done(LandLevel& level) {
     level.erodibility = {};
     level.cap = {};
@@ -241,14 +243,14 @@ void drop_what_is_done(LandLevel& level) {
     level.area = {};
 }
 
-/// The heights of a level, from those of the coarser one.
+/// Computes the heights of a level from those of the coarser one.
 class Solver {
 public:
     Solver(EquilibriumParams const& params, Channels const& rivers, Window const& window, Run const& run)
         : params_(params), rivers_(rivers), window_(window), run_(run), law_(params, window.grid.cell_m),
           per_length_(jittered_per_length()) {}
 
-    /// The frame is as its nearest rivers where the region says nothing of it.
+    /// The frame is set from the nearest rivers where the region has no information.
     void solve(LandLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
         bool const by_rivers = goes_on(params_.edge) && frame.cells.empty();
         EdgeCells const edge =
@@ -295,14 +297,14 @@ public:
     std::vector<std::int64_t> const& shortened() const { return shortened_; }
 
 private:
-    /// From few at the finest level to many at the coarsest.
+    /// Few at the finest level, many at the coarsest.
     static int rounds_of(std::size_t number, std::size_t levels) {
         return levels == 1 ? coarse_rounds
                            : fine_rounds + (coarse_rounds - fine_rounds) * static_cast<int>(number) /
                                                static_cast<int>(levels - 1);
     }
 
-    /// A level takes a quarter of what the finer one takes.
+    /// A level takes a quarter of the time of the next finer one.
     static double share_done(std::size_t number, int round, int rounds) {
         double below = 1.0;
         for (std::size_t k = 0; k < number; ++k) {
@@ -311,7 +313,7 @@ private:
         return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
     }
 
-    /// With what only the grid's own rivers ask for: no perched head, and water that keeps to them.
+    /// Relaxes rivers with the constraints of the grid's own rivers: no perched head, and water that follows them.
     void relax_finest_rivers(LandLevel& level, int rounds_left) {
         if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
             give_up(level);
@@ -323,7 +325,7 @@ private:
         keep_to_receivers(level);
     }
 
-    /// Where divides have moved in the last round land slides, and with it what tips of rivers stood on.
+    /// Where divides moved in the last round, terrain slides and may leave tips of rivers perched.
     void come_to_rest(LandLevel& level, bool given) {
         slide_land(level);
         if (!given) {
@@ -348,7 +350,7 @@ private:
     }
 
     static constexpr int to_come_down =
-        3; ///< rounds that land takes where a river was given up or its rock made firmer
+        3; ///< rounds that the terrain needs where a river was removed or its erodibility lowered
 
     EquilibriumParams const& params_;
     Channels const& rivers_;
@@ -378,7 +380,7 @@ RockParams rock_of(EquilibriumParams const& params, Window const& window) {
     return {params.roughness, noise};
 }
 
-/// The finest level, with heights of rivers in its own units or none.
+/// Solves all levels; rivers' heights are in solver units, or free.
 Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
               Run const& run) {
     WidenedLand land = widened(rivers, fields, params);
@@ -388,7 +390,7 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
     Solver solver(params, rivers, window, run);
     RockParams const rock = rock_of(params, window);
     LandLevel level;
-    LandLevel around; // the finest level of the region
+    LandLevel around; // the region's finest level
     std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, around, land.fields, rock, params, run);
@@ -412,7 +414,7 @@ bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
            std::any_of(rivers.z.begin(), rivers.z.end(), [](float z) { return !std::isnan(z); });
 }
 
-/// Height 0 of the solver where heights are given: the sea, or else the lowest of them.
+/// Height of the solver's 0 if heights are prescribed: the sea, otherwise the lowest of them.
 float base_of(Channels const& rivers, Edge edge) {
     float low = std::numeric_limits<float>::infinity();
     for (float const z : rivers.z) {
@@ -421,7 +423,7 @@ float base_of(Channels const& rivers, Edge edge) {
     return edge == Edge::coast || edge == Edge::mainland ? 0.0F : low;
 }
 
-/// A land around given heights and the metres of the solver's unit.
+/// Terrain solved around prescribed heights, and the metres of the solver's unit.
 struct Held {
     Solved land;
     double metres = 0.0;
@@ -437,7 +439,7 @@ Held held_land(Channels const& rivers, EquilibriumFields const& fields, Equilibr
     return {solved(drawn, fields, params, run), metres};
 }
 
-/// The same, solved again with other metres until the land has what is asked of it; the nearest that was found.
+/// Solves again with other metres per unit until the terrain reaches its target; returns the closest solution.
 Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
                     double metres, Run const& run) {
     constexpr int most_solves = 6;
@@ -464,7 +466,7 @@ Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, Equ
             best = std::move(next);
             best_off = off;
         }
-        constexpr double flat = 0.05; // the rivers alone decide what comes out
+        constexpr double flat = 0.05; // the rivers alone determine the result
         if (!(per_step > flat)) {
             break;
         }
@@ -482,7 +484,8 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     Channels drawn = rivers;
     drawn.z.clear();
     EquilibriumParams wanted = params;
-    wanted.region = asks_heights(rivers, params) ? 1.0 : params.region; // given heights know nothing of it
+    // prescribed heights do not depend on the region
+    wanted.region = asks_heights(rivers, params) ? 1.0 : params.region;
     Solved graded = solved(drawn, fields, wanted, run);
     Window const window{rivers.grid, fields.land, graded.margin};
     Raise const raise = raise_for(graded.level, rivers, window, params);
@@ -494,7 +497,7 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
         land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
         return land;
     }
-    // How high the land stands in all is known only now: what is given in metres can be put into it.
+    // The scale of heights is known only now, so that prescribed metres can be converted to solver units.
     graded = {};
     Held held = params.bring_to_target ? land_at_target(rivers, fields, params, raise.metres, run)
                                        : held_land(rivers, fields, params, raise.metres, run);

@@ -32,7 +32,7 @@ enum class RiverHeights : std::uint8_t {
 /// What becomes of the heads of graded rivers that would stand above their surroundings.
 enum class Heads : std::uint8_t {
     cut, ///< they become terrain
-    kept ///< rivers are lowered there, and rock below them is firmer
+    kept ///< rivers are lowered there, and erodibility below them is reduced
 };
 
 /// Fields that vary over the terrain, on the rivers' grid; empty: none.

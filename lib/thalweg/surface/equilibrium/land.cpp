@@ -8,7 +8,7 @@
 namespace thalweg::surface {
 namespace {
 
-/// Cells by height, in buckets that are lists through one array.
+/// Cells by height, in buckets stored as linked lists in one array.
 class Buckets {
 public:
     Buckets(LandLevel const& level) : next_(level.z.size()), head_(count, none) {
@@ -31,7 +31,7 @@ public:
         head_[bucket] = static_cast<std::uint32_t>(cell);
     }
 
-    /// A cell of the lowest bucket, or none.
+    /// \return a cell of the lowest bucket, or none.
     std::uint32_t pop() {
         while (at_ < count && head_[at_] == none) {
             ++at_;
@@ -57,15 +57,15 @@ private:
 
 constexpr std::int8_t unreached = -2;
 
-/// [least tangents] from a cell up to one that a flood reaches: by its node's place, so that ways across level floods
-/// wind as floods on rough land do.
+/// [least tangents] rise to a cell that a flood reaches, by its node's position, so that flow paths across flat floods
+/// meander as on rough terrain.
 float rise_to(LandLevel const& level, std::size_t i) {
     constexpr unsigned steps = 16;
     constexpr float most = 4.0F;
     return level.shift.empty() ? 1.0F : 1.0F + most / steps * static_cast<float>(5U * level.shift[i] % steps);
 }
 
-/// Sends a bank to the river beside it and raises it above all of it.
+/// Directs a bank to the river beside it and raises it above all of its cells.
 void settle_bank(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float highest = -std::numeric_limits<float>::infinity();
     float steepest = -std::numeric_limits<float>::infinity();
@@ -224,7 +224,7 @@ void order_cells(LandLevel& level) {
 
 namespace {
 
-// Weights of the nine-point Laplacian: neighbours by side and by corner.
+// Weights of the nine-point Laplacian: side and corner neighbours.
 constexpr float by_side = 4.0F / 6.0F;
 constexpr float by_corner = 1.0F / 6.0F;
 
@@ -252,7 +252,7 @@ Creep creep_at_rim(LandLevel const& level, std::size_t i, std::array<std::int64_
     return creep;
 }
 
-constexpr float tolerance = 1.5F; // times the cap
+constexpr float tolerance = 1.5F; // relative to the cap
 
 float greatest_height(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float const steepest = tolerance * level.cap[i] * level.side;
@@ -311,12 +311,12 @@ void slide_land(LandLevel& level) {
 
 namespace {
 
-constexpr float least_width = 0.5F; // [cells]: what is narrower shows as nothing
-constexpr float foot_widths = 2.0F; // where the foot ends, of the floor's half width
+constexpr float least_width = 0.5F; // [cells] narrower floors are not resolved
+constexpr float foot_widths = 2.0F; // end of the foot, in half widths of the floor
 constexpr float most_widening = 2.0F;
-constexpr float floor_share = 0.04F; // of the cap, on the floor
+constexpr float floor_share = 0.04F; // cap on the floor, relative to the cap
 
-/// Floors are nowhere ribbons of one width: from half of it in gorges to twice in basins.
+/// Varies the width of floors: from half in gorges to twice in basins.
 float widening(LandLevel const& level, std::size_t i, FloorParams const& params) {
     double const long_wave = std::max(2.0, 1800.0 / params.cell_m); // [cells]
     double const short_wave = std::max(2.0, 400.0 / params.cell_m);
@@ -325,7 +325,7 @@ float widening(LandLevel const& level, std::size_t i, FloorParams const& params)
     return static_cast<float>(portable::exp(std::clamp(noise, -1.0, 1.0) * 0.69));
 }
 
-/// By how much floors of river cells are wider near the sea, which has drowned and filled their mouths.
+/// Widening of river cells' floors near the sea, where mouths are drowned and filled.
 std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
     constexpr double reach_m = 3000.0;
     constexpr float at_mouth = 2.1F;
@@ -345,7 +345,7 @@ std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
     return more;
 }
 
-/// Width of a floor over that where 1 km² drains. Beyond, rivers of a range run between its flanks.
+/// Width of a floor relative to that where 1 km² drains. Rivers with larger areas run between the flanks of ranges.
 double growth(double area_km2) {
     constexpr double confined_km2 = 200.0;
     return portable::pow(std::min(area_km2, confined_km2), 0.42);

@@ -69,7 +69,7 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
 
 namespace {
 
-// A straight rim of an open land reaches about so far; a whole number of cells of every level that has it.
+// Extent of the influence of a straight boundary of open terrain; a whole number of cells on every level that has it.
 constexpr std::int64_t open_margin = 32;
 
 Grid grown(Grid grid, std::int64_t margin) {
@@ -80,7 +80,7 @@ Grid grown(Grid grid, std::int64_t margin) {
     return grid;
 }
 
-/// A raster that goes on beyond its border as it is there.
+/// Extends a raster beyond its border with its border values.
 template <class T> Raster<T> grown(Raster<T> const& inner, std::int64_t margin) {
     if (inner.cells() == 0) {
         return {};
@@ -95,7 +95,7 @@ template <class T> Raster<T> grown(Raster<T> const& inner, std::int64_t margin) 
     return outer;
 }
 
-/// The field over its mean on land, within what the solver can hold; NaN at sea.
+/// Divides a field by its mean on land, within the solver's limits; NaN at sea.
 Raster<float> relative(Raster<float> field, Mask const& land) {
     constexpr double most = 1e3;
     double sum = 0.0;
@@ -115,7 +115,7 @@ Raster<float> relative(Raster<float> field, Mask const& land) {
     return field;
 }
 
-/// The step by which a border cell leaves the grid: to the north or south where it can.
+/// The step by which a border cell leaves the grid, preferably to the north or south.
 Cell way_out(Grid const& grid, Cell c) {
     if (c.row == 0) {
         return {0, -1};
@@ -166,7 +166,8 @@ private:
         out_.number.push_back(-1);
     }
 
-    /// Gives: the number of the cell just outside the border.
+    /// Adds the cells outside the border.
+    /// \return number of the cell just outside
     std::int32_t lead_out(Cell c) {
         Cell const step = way_out(given_.grid, c);
         std::int32_t last = -1;
@@ -183,7 +184,7 @@ private:
     RiverCells out_;
 };
 
-/// Steps to the neighbours that a pass in row order has met before.
+/// Steps to the neighbours already visited by a pass in row order.
 constexpr std::array<std::size_t, 4> before = {4, 5, 6, 7};
 
 void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float length) {
@@ -305,8 +306,8 @@ void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks
 
 namespace {
 
-// Calls visit(column, byte) with a byte at random for each of `count` columns of a row of a level: thirty-two of them
-// cost one block of chance.
+// Calls visit(column, byte) with a random byte for each of `count` columns of a row of a level: thirty-two of them use
+// one block of random words.
 template <class Visit>
 void random_bytes(std::uint64_t seed, std::uint64_t stage, std::int64_t row, float side, std::int64_t count,
                   Visit visit) {
@@ -371,8 +372,8 @@ void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& r
     });
 }
 
-/// How far coarse land is moved where a finer level begins with it: valleys of coarse cells, which run straight along
-/// the grid, are bent before water has settled in them.
+/// Displacement of coarse terrain when a finer level is initialised: bends valleys of coarse cells, which follow the
+/// grid, before water settles in them.
 class Bends {
 public:
     Bends(LandLevel const& level, std::uint64_t seed) : across_(level.width / spacing + 2) {
@@ -429,7 +430,7 @@ void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_
 }
 
 void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, Run const& run) {
-    // A frame of infinite heights must not be mixed in: the outermost inner cells stand for it.
+    // The frame's infinite heights must not be interpolated: the outermost inner cells replace it.
     auto const held = [](std::int64_t at, std::int64_t size) { return std::clamp<std::int64_t>(at, 1, size - 2); };
     auto const height_at = [&](std::int64_t col, std::int64_t row) {
         float const z =
@@ -437,7 +438,7 @@ void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, R
         return std::isinf(z) ? 0.0F : z;
     };
     Bends const bends(level, seed);
-    // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1 where both begin at one place.
+    // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1 if both begin at the same place.
     float const first_x = 0.25F + static_cast<float>(level.corner.col - coarse.corner.col) / coarse.side;
     float const first_y = 0.25F + static_cast<float>(level.corner.row - coarse.corner.row) / coarse.side;
     set_heights(level, seed, 0.15F, run, [&](std::int64_t col, std::int64_t row) {
@@ -480,7 +481,7 @@ namespace {
 
 constexpr double half_stretch = 24.0;   // [finest cells]
 constexpr float fall_of_heads = 0.05F;  // a sixth of the steepest tangent
-constexpr float fall_of_large = 0.005F; // as rivers fall where the whole grid drains
+constexpr float fall_of_large = 0.005F; // the fall of rivers that drain the whole grid
 
 /// Means over 2 reach + 1 neighbours on a ring.
 std::vector<double> ring_means(std::vector<double> const& values, std::int64_t reach) {
@@ -508,7 +509,7 @@ float above_rivers(LandLevel const& level, std::size_t i, float z) {
     return z;
 }
 
-/// By inner cell how low a valley may lie there: a large river falls from it to one of the level.
+/// By inner cell, the lowest possible valley: a large river still falls from it to one of the level.
 Cells<float> lowest_valleys(LandLevel const& level) {
     float const each = fall_of_large * level.side;
     std::vector<float> head_start(level.rivers.cell.size());
@@ -541,7 +542,7 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond be
     auto const add = [&](EdgeCells::Part& part, std::size_t i, std::size_t inner) {
         part.cell.push_back(static_cast<std::uint32_t>(i));
         part.inner.push_back(static_cast<std::uint32_t>(inner));
-        bool const at_sea = level.cover[i] == Cover::sea; // whose height is 0
+        bool const at_sea = level.cover[i] == Cover::sea; // its height is 0
         part.river.push_back(at_sea ? static_cast<std::uint32_t>(i) : level.rivers.cell[near.number[inner]]);
         part.far.push_back(at_sea ? 0.0F : near.distance[inner] * level.side);
     };

@@ -21,7 +21,7 @@ bool ends_inside(Channels const& rivers) {
     return false;
 }
 
-/// The step by which a cell of a window's level leaves it.
+/// The step by which a cell leaves a window's level.
 Cell way_out(LevelExtent const& window, Cell c) {
     return c.row == 0                   ? Cell{0, -1}
            : c.row == window.height - 1 ? Cell{0, 1}
@@ -30,12 +30,13 @@ Cell way_out(LevelExtent const& window, Cell c) {
                                         : Cell{0, 0};
 }
 
-/// Rivers of the region while they are led on.
+/// Rivers of the region under extension.
 class LedOn {
 public:
     LedOn(LevelExtent const& region, std::uint64_t seed) : region_(region), width_(region.width + 2), seed_(seed) {}
 
-    /// Leads a river on from a cell inside the region. Gives: the number of its next cell, -1 where it ends there.
+    /// Extends a river from a cell inside the region.
+    /// \return number of its next cell; -1: it ends there
     std::int32_t lead_on(Cell from, Cell step, std::uint64_t river) {
         std::vector<Cell> path;
         std::int32_t joined = -1;
@@ -197,7 +198,7 @@ Vec2 middle_of(Cell c) {
     return {static_cast<double>(c.col), static_cast<double>(c.row)};
 }
 
-/// Shares of the frame's cells by how far they are from a valley that leaves the window.
+/// Computes the shares of the frame's cells from their distance to a valley that leaves the window.
 void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& region, Within const& within,
                std::uint64_t seed) {
     auto const around = region.offsets();

@@ -8,15 +8,15 @@
 namespace thalweg::surface {
 namespace {
 
-constexpr float creep_brings = 1.15F; // what rivers carry besides what is lifted under them, as other valleys do
-// Of the cap: two steps by corners must rise by less than land of the mean slope does in one by a side.
+constexpr float creep_brings = 1.15F; // factor of uplift below rivers by creep from their sides, as for other valleys
+// Relative to the cap: two diagonal steps must rise by less than one side step on terrain of mean slope.
 constexpr float share_of_cap = 0.3F;
-constexpr float above_land = 0.02F;  // [cells of the level] that a river may stand above the land two cells away
-constexpr float above_river = 0.25F; // [cells of the level] and above another river there
-constexpr float kept_share = 0.3F;   // of its fall, which a reach keeps when it is lowered for what lies upstream
-constexpr std::uint32_t great = 16;  // times the area of a brook: no river is lowered for it
+constexpr float above_land = 0.02F;  // [cells of the level] allowed height of a river above the terrain two cells away
+constexpr float above_river = 0.25F; // [cells of the level] allowed height above another river there
+constexpr float kept_share = 0.3F;   // share of its fall that a reach keeps when it is lowered for reaches upstream
+constexpr std::uint32_t great = 16;  // ratio of areas above which a river is not lowered for a brook
 
-/// The greatest height of a river cell that does not leave it perched: by the second ring of cells around it.
+/// The largest height of a river cell at which it is not perched, from the second ring of cells around it.
 float height_by_ring(LandLevel const& level, std::uint32_t cell) {
     float most = std::numeric_limits<float>::infinity();
     each_of_second_ring(level, cell, [&](std::size_t n) {
@@ -26,14 +26,14 @@ float height_by_ring(LandLevel const& level, std::uint32_t cell) {
     return most;
 }
 
-// The greatest heights of river cells, by number, that leave neither them nor, within one reach, what lies upstream
-// perched above the land beside them.
+// The largest heights of river cells, by number, at which neither they nor, within one reach, the cells upstream are
+// perched above the terrain beside them.
 std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
     std::vector<float> most(rivers.cell.size());
     std::transform(rivers.cell.begin(), rivers.cell.end(), most.begin(),
                    [&](std::uint32_t i) { return height_by_ring(level, i); });
-    std::vector<std::uint32_t> area(most.size()); // of the cell for which one is lowered
+    std::vector<std::uint32_t> area(most.size()); // of the cell for which it is lowered
     std::transform(rivers.cell.begin(), rivers.cell.end(), area.begin(),
                    [&](std::uint32_t i) { return level.area[i]; });
     for (std::size_t n = most.size(); n-- > 0;) {
@@ -82,7 +82,7 @@ void relax_rivers(LandLevel& level, EquilibriumLaw const& law) {
 
 namespace {
 
-/// Long profiles of rivers through the heights that are asked.
+/// Long profiles of rivers through prescribed heights.
 class Profiles {
 public:
     Profiles(LandLevel const& level, EquilibriumLaw const& law) : level_(level), rivers_(level.rivers) {
@@ -117,10 +117,10 @@ public:
 private:
     static constexpr std::int32_t nothing = -1;
 
-    /// A lake has its outlet's height, whatever is asked.
+    /// A lake has its outlet's height; a prescribed one is ignored.
     bool is_asked(std::size_t n) const { return !std::isnan(rivers_.asked[n]) && (is_end(n) || rivers_.level[n] == 0); }
 
-    /// How little a river may rise on its way from the anchor below to what is asked above.
+    /// The least rise per distance from the anchor downstream to the prescribed height upstream.
     float steepness(std::size_t asked) const {
         std::size_t const below = anchor_[asked];
         if (!is_asked(below)) {
@@ -130,7 +130,7 @@ private:
         return (rivers_.asked[asked] - rivers_.asked[below]) / std::max(graded_[asked] - graded_[below], least);
     }
 
-    /// Finds for each cell the height asked upstream that lets it rise the least.
+    /// Finds for each cell the prescribed height upstream that requires the gentlest rise.
     void aim() {
         aim_.assign(graded_.size(), nothing);
         for (std::size_t n = graded_.size(); n-- > 0;) {
@@ -168,8 +168,8 @@ private:
     LandLevel const& level_;
     RiverCells const& rivers_;
     std::vector<float> graded_;       ///< heights of graded rivers above their ends
-    std::vector<std::size_t> anchor_; ///< number of the next cell downstream whose height is asked, or of the end
-    std::vector<std::int32_t> aim_;   ///< number of the cell upstream, itself included, towards which a cell rises
+    std::vector<std::size_t> anchor_; ///< number of the next cell downstream with a prescribed height, or of the end
+    std::vector<std::int32_t> aim_;   ///< number of the cell upstream, itself included, towards which the cell rises
 };
 
 } // namespace
@@ -206,17 +206,17 @@ void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeight
 
 namespace {
 
-/// Above it a river cell stands perched.
+/// The height above which a river cell is perched.
 float highest_lawful(LandLevel const& level, std::uint32_t cell, float tangent) {
     float low = std::numeric_limits<float>::infinity();
     each_of_second_ring(level, cell, [&](std::size_t n) { low = std::min(low, level.z[n]); });
     return low + tangent * level.side;
 }
 
-/// Lowers a river cell to a height, and what lies downstream of it as far as needed; not at all where that would go on
-/// for long, or into a lake or an end.
+/// Lowers a river cell to a height, and cells downstream of it as far as necessary; does nothing if that would take too
+/// long, or reach a lake or an end.
 void dig(LandLevel& level, std::size_t from, float z, float step) {
-    constexpr int longest = 256; // [cells] on a floor that hardly falls
+    constexpr int longest = 256; // [cells] on a nearly level floor
     RiverCells const& rivers = level.rivers;
     std::size_t n = from;
     float wanted = z;
@@ -231,7 +231,7 @@ void dig(LandLevel& level, std::size_t from, float z, float step) {
     }
 }
 
-// Whether a river cell stands above the lowest cell of its second ring by more than a tangent times a cell.
+// Whether a river cell is above the lowest cell of its second ring by more than a tangent times a cell.
 bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
     return level.z[cell] > highest_lawful(level, cell, tangent);
 }
@@ -254,7 +254,7 @@ bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int
 }
 
 std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
-    constexpr int steps = 4; // as far as the second ring, with a bend
+    constexpr int steps = 4; // reaches the second ring, with a bend
     RiverCells const& rivers = level.rivers;
     std::vector<std::int64_t> numbers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
@@ -275,7 +275,7 @@ std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
 }
 
 void lower_perched(LandLevel& level, float tangent, float step) {
-    constexpr std::size_t passes = 2; // what is dug lowers the surroundings of others
+    constexpr std::size_t passes = 2; // digging lowers the surroundings of other cells
     RiverCells const& rivers = level.rivers;
     std::size_t const count = rivers.cell.size();
     for (std::size_t k = 0; k < passes * count; ++k) {
@@ -316,10 +316,10 @@ void raise_below_perched(LandLevel& level, float tangent) {
 
 namespace {
 
-constexpr std::int32_t longest_tip = 200;     // [cells]: more is no tip
-constexpr std::int32_t longest_touching = 32; // likewise, for what lies beside another river
+constexpr std::int32_t longest_tip = 200;     // [cells] more is not a tip
+constexpr std::int32_t longest_touching = 32; // [cells] the same beside another river
 
-/// By river cell how many drain through it, itself included.
+/// By river cell: number of river cells upstream, itself included.
 std::vector<std::int32_t> upstream_of(RiverCells const& rivers) {
     std::vector<std::int32_t> upstream(rivers.cell.size(), 1);
     for (std::size_t n = upstream.size(); n-- > 0;) {
@@ -330,7 +330,7 @@ std::vector<std::int32_t> upstream_of(RiverCells const& rivers) {
     return upstream;
 }
 
-/// Marks river cells of which something is true, with little upstream of them, and all that lies upstream.
+/// Marks river cells that satisfy a predicate and have few cells upstream, with everything upstream.
 template <class Is>
 std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::vector<std::int32_t> const& upstream,
                                       std::int32_t longest, Is is) {
@@ -346,7 +346,7 @@ std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::vector<std:
     return marked;
 }
 
-/// Whether two river cells come to one place within so many steps that their heights are alike.
+/// Whether two river cells join within so few steps that their heights are nearly equal.
 bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
     constexpr int most = 400;
     for (int step = 0; a != b; ++step) { // receivers have lower numbers
@@ -359,7 +359,7 @@ bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
     return true;
 }
 
-/// Marks the cells near heads that lie beside another river, which has more upstream, and all that lies upstream.
+/// Marks the cells near heads that lie beside another river with more cells upstream, with everything upstream.
 std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
     RiverCells const& rivers = level.rivers;
     constexpr std::int32_t nothing = -1;
@@ -391,7 +391,7 @@ void cover_again(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> co
     level.cover[i] = is_rim(level, i) ? (beside ? Cover::rim_bank : Cover::rim) : (beside ? Cover::bank : Cover::land);
 }
 
-/// Leaves out the marked ones; receivers of the others are never among them.
+/// Removes the marked cells; receivers of the others are never marked.
 void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
     std::vector<std::int32_t> place(gone.size(), -1);
     std::size_t kept = 0;
@@ -420,7 +420,7 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
 std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> const& marked, TipBanks banks) {
     RiverCells& rivers = level.rivers;
     std::vector<std::uint8_t> gone(marked.size());
-    std::vector<std::uint8_t> holds(marked.size()); // something that stays lies upstream
+    std::vector<std::uint8_t> holds(marked.size()); // an unmarked cell lies upstream
     std::vector<std::int64_t> numbers;
     auto const offsets = level.offsets();
     for (std::size_t n = marked.size(); n-- > 0;) {
@@ -428,7 +428,7 @@ std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> co
         if (marked[n] != 0 && holds[n] == 0) {
             gone[n] = banks == TipBanks::rise || highest_river(level, i, offsets) < level.z[i]
                           ? 1
-                          : 0; // what it drained is gone already
+                          : 0; // everything it drained has been removed
         }
         if (gone[n] == 0) {
             if (rivers.receiver[n] >= 0) {
@@ -462,7 +462,7 @@ std::vector<std::int64_t> give_up_touching_tips(LandLevel& level) {
 namespace {
 
 constexpr int passes = 4;
-constexpr float margin = 0.02F; // of a fall, above what floats may lose
+constexpr float margin = 0.02F; // relative to a fall, above float rounding
 
 class Keeper {
 public:
@@ -497,7 +497,7 @@ public:
         }
     }
 
-    /// Above what may have been raised below it.
+    /// Keeps a cell above cells that may have been raised downstream.
     void keep_above(std::size_t n) {
         if (rivers_.receiver[n] < 0) {
             return;
@@ -523,7 +523,7 @@ private:
         return false;
     }
 
-    /// Water of cell number n shall not go to q beside it.
+    /// Keeps the water of cell n from flowing to its neighbour q.
     void keep_off(std::size_t n, std::size_t q, float length) {
         float& z = level_.z[rivers_.cell[n]];
         float const below = level_.z[rivers_.cell[receiver(n)]];
@@ -555,7 +555,7 @@ void keep_to_receivers(LandLevel& level, float least) {
     for (int pass = 0; pass < passes; ++pass) {
         keeper.pass();
     }
-    // The last word has the law: above the receiver, lakes level with it.
+    // The law takes precedence: above the receiver, lakes level with it.
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         keeper.keep_above(n);
     }

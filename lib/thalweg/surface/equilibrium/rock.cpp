@@ -9,12 +9,12 @@ namespace {
 
 constexpr std::uint64_t rock_stage = 0x726f636b; // "rock"
 constexpr double shortest_wave = 2.0;
-// Eased between four uniform numbers, the variance is about that of one, a twelfth, times a half.
+// Smooth interpolation of four uniform numbers has about half the variance of one, which is a twelfth.
 constexpr double to_unit_variance = 5.0;
-constexpr double stronger = 1.1; // from octave to octave: gullies want more than the long waves leave them
+constexpr double stronger = 1.1; // from octave to octave: gullies need more amplitude than the long waves leave them
 constexpr int counted_octaves = 8;
 
-/// One octave: its lattice turned and moved against the grid, and the numbers at the nodes that the grid needs.
+/// One octave: its lattice, rotated and shifted against the grid, and the random numbers at the nodes in use.
 class Octave {
 public:
     Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
@@ -56,13 +56,13 @@ public:
     }
 
 private:
-    /// lattice: cells of the level in a cell's width
+    /// lattice: cells of the level per lattice width
     Octave(double angle, double stretch, double per_cell)
         : x_per_col_(portable::cos(angle) * per_cell / stretch), x_per_row_(portable::sin(angle) * per_cell / stretch),
           y_per_col_(portable::sin(angle) * per_cell * stretch), y_per_row_(portable::cos(angle) * per_cell * stretch) {
     }
 
-    /// All ways where rock has no grain; else up to 17 degrees to either side of the strike.
+    /// A random angle without grain; otherwise up to 17 degrees on either side of the strike.
     static double turn(std::uint64_t number, double stretch) {
         return stretch > 1.0 ? 0.15 * (static_cast<double>(number * 7919 % 5) - 2.0)
                              : 0.7 * static_cast<double>(number);
@@ -77,7 +77,7 @@ private:
                 std::array<std::uint64_t, 4> words{};
                 std::int64_t held = -1;
                 for (std::int64_t col = 0; col < width_; ++col) {
-                    // Counted from far to the left, so that blocks lie where they lie for any grid.
+                    // Counted from far to the left, so that the position of blocks does not depend on the grid.
                     std::int64_t const at = left + col + (std::int64_t{1} << 40);
                     if (at / a_block != held) {
                         held = at / a_block;
@@ -103,10 +103,9 @@ private:
     Cells<float> nodes_;
 };
 
-// Smooth noise of mean 0: value noise on lattices from the longest wave down to two cells, each half as wide as the one
-// before, a little stronger and turned against it, all stretched along the strike; without the waves that a level's
-// cells cannot show. The variance of the first eight lattices is about 1. Gives: a number a cell, by place and seed
-// alone.
+// Smooth noise of mean 0: value noise on lattices from the longest wave down to two cells, each half as wide as the
+// previous one, slightly stronger and rotated against it, all stretched along the strike; without waves that a level's
+// cells cannot resolve. The variance of the first eight lattices is about 1. Depends on position and seed alone.
 Cells<float> rock_noise(LandLevel const& level, RockNoise const& params, Run const& run) {
     Cells<float> noise(static_cast<std::size_t>(level.cells()));
     double variance = 0.0;
@@ -128,7 +127,7 @@ Cells<float> rock_noise(LandLevel const& level, RockNoise const& params, Run con
     return noise;
 }
 
-/// Mean of a field over some finest cells, without those that have none.
+/// Mean of a field over a block of finest cells, without cells that have no value.
 float mean_over(Raster<float> const& field, Cell from, std::int64_t side) {
     double sum = 0.0;
     double count = 0.0;
@@ -183,14 +182,15 @@ void set_rock(LandLevel& level, RockFields const& fields, RockParams const& para
 
 namespace {
 
-constexpr float tolerated = 0.2F;     // [cells of the level] that the land beside a river may lack
-constexpr float rate = 0.5F;          // most that one call adds
-constexpr float firmest = 2.0F;       // [log]
-constexpr float of_cap = 0.4F;        // as much firmer, slopes stand up: steeper than rock of the fields, but no walls
+constexpr float tolerated = 0.2F; // [cells of the level] tolerated deficit of the terrain beside a river
+constexpr float rate = 0.5F;      // largest change per call
+constexpr float firmest = 2.0F;   // [log]
+// share of the decrease by which the cap increases: slopes steeper than at the fields' erodibility, but not walls
+constexpr float of_cap = 0.4F;
 constexpr float reach_cells = 4.0F;   // [finest cells] beside a flow path
 constexpr std::size_t longest = 4096; // [cells] of a flow path
 
-/// The lowest cell of land in the second ring of a river cell, banks aside.
+/// The lowest land cell in the second ring of a river cell, without banks.
 std::optional<std::size_t> lowest_beside(LandLevel const& level, std::uint32_t cell) {
     std::optional<std::size_t> lowest;
     each_of_second_ring(level, cell, [&](std::size_t n) {
@@ -202,7 +202,7 @@ std::optional<std::size_t> lowest_beside(LandLevel const& level, std::uint32_t c
     return lowest;
 }
 
-/// The height that a river cell has by its grade or its file, whatever the land allows.
+/// The graded or prescribed height of a river cell, regardless of the terrain.
 float wanted_height(LandLevel const& level, EquilibriumLaw const& law, std::size_t n) {
     RiverCells const& rivers = level.rivers;
     if (!rivers.asked.empty() && !std::isnan(rivers.asked[n])) {
@@ -213,7 +213,7 @@ float wanted_height(LandLevel const& level, EquilibriumLaw const& law, std::size
     return below + graded_tangent(level, law, rivers.cell[n]) * length;
 }
 
-/// Marks the flow path from beside a river cell by as much as the land there lacks.
+/// Marks the flow path beside a river cell with the deficit of the terrain there.
 void mark_lack(LandLevel const& level, EquilibriumLaw const& law, std::size_t n, Cells<float>& marks) {
     RiverCells const& rivers = level.rivers;
     auto const lowest = lowest_beside(level, rivers.cell[n]);
@@ -229,7 +229,7 @@ void mark_lack(LandLevel const& level, EquilibriumLaw const& law, std::size_t n,
         at = moved(at, offsets[static_cast<std::size_t>(level.way[at])]);
     }
     constexpr int steps = 12;
-    if (runs_through(rivers, n, at, steps)) { // which falls as its own river does
+    if (runs_through(rivers, n, at, steps)) { // it falls as its own river does
         return;
     }
     constexpr float least = 1e-3F; // [cells of the level]

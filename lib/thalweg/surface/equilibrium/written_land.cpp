@@ -12,10 +12,10 @@ namespace {
 
 struct Rise {
     double factor;
-    double mean_tangent; // of the mean slope of the land that is raised by it
+    double mean_tangent; // mean slope of the terrain after scaling
 };
 
-/// Counts of tangents by their leading nine binary digits.
+/// Histogram of tangents by their leading nine binary digits.
 class Tangents {
 public:
     void add(float tangent) { ++counts_[std::bit_cast<std::uint32_t>(tangent) >> dropped]; }
@@ -24,7 +24,7 @@ public:
         return std::all_of(counts_.begin() + 1, counts_.end(), [](std::uint64_t n) { return n == 0; });
     }
 
-    /// [degrees] mean slope when heights are multiplied.
+    /// [degrees] mean slope when heights are multiplied by this.
     double mean_slope(double rise) const {
         double sum = 0.0;
         double count = 0.0;
@@ -45,7 +45,7 @@ private:
     std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(std::size_t{1} << (31 - dropped));
 };
 
-/// Horn's slope of the cells that have all their neighbours.
+/// Horn's slopes of the cells that have all their neighbours.
 Tangents horn_tangents(Raster<float> const& land) {
     Tangents tangents;
     for (std::int64_t row = 1; row + 1 < land.height(); ++row) {
@@ -64,12 +64,12 @@ Tangents horn_tangents(Raster<float> const& land) {
     return tangents;
 }
 
-/// Where no cell has all its neighbours: the steepest descents.
+/// The steepest descents, if no cell has all its neighbours.
 Tangents descents(Raster<float> const& land) {
     Tangents tangents;
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         double const steepest = flow::steepest_descent(land, land.grid().at(i)).slope;
-        if (steepest > 0.0) { // what has nowhere to go says nothing
+        if (steepest > 0.0) { // cells without a lower neighbour do not count
             tangents.add(static_cast<float>(steepest));
         }
     }
@@ -100,7 +100,7 @@ double rise_for_slope(Tangents const& tangents, double mean_slope_deg) {
     return 0.5 * (low + high);
 }
 
-/// [m] from the lowest to the highest cell, of heights in cells.
+/// [m] difference between the highest and the lowest cell, for heights in cells.
 double range_of(Raster<float> const& land) {
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
@@ -121,9 +121,9 @@ Tangents tangents_of(Raster<float> const& land) {
     return tangents.empty() ? descents(land) : tangents;
 }
 
-// The factor by which a land in units of its cells must be raised to have the relief or the mean slope that is asked.
-// Takes: heights in cells, NaN for none. Gives: 1 for a level land. Throws: BadParameter naming the steepest mean slope
-// that can be reached, where too much of the land is level.
+// Computes the factor that scales heights to the target relief or mean slope. land: heights in cells; NaN: none.
+// Returns 1 for level terrain. Throws BadParameter naming the steepest mean slope that can be reached when too much of
+// the terrain is level.
 Rise rise_of(Raster<float> const& land, EquilibriumParams const& params) {
     Tangents const tangents = tangents_of(land);
     double const factor =
@@ -147,9 +147,9 @@ double share_of_target(Raster<float> const& land, double factor, EquilibriumPara
 
 namespace {
 
-// Keeps the law in the very floats that will be written: raises heights by the least that makes every cell stand a step
-// above its receiver and banks above the rivers beside them; lakes stand as high as their receivers. Heights of rivers
-// that are given are raised by the least a float knows, where they must.
+// Enforces the law in the floats that will be written: raises heights by the least that puts every cell a step above
+// its receiver and banks above the rivers beside them; lakes have the height of their receivers. Prescribed heights of
+// rivers are raised by one ulp where necessary.
 void settle_land(LandLevel& level, float step, RiverHeights heights) {
     auto const above = [step](float z) {
         return std::max(z + step, std::nextafter(z, std::numeric_limits<float>::infinity()));
@@ -166,7 +166,7 @@ void settle_land(LandLevel& level, float step, RiverHeights heights) {
             z = below;
         } else if (heights == RiverHeights::graded) {
             z = std::max(z, above(below));
-        } else if (rivers.number[r] >= 0) { // what lies beyond the caller's grid shall not lift what is given
+        } else if (rivers.number[r] >= 0) { // cells beyond the caller's grid must not raise prescribed heights
             z = std::max(z, std::nextafter(below, std::numeric_limits<float>::infinity()));
         }
     }
@@ -254,13 +254,13 @@ void to_metres(LandLevel& level, Raise const& raise) {
     }
 }
 
-/// Less than the solver keeps, so that nothing is touched but what floats have lost.
+/// Less than the solver's own step, so that only float rounding is corrected.
 float settled_step(Raise const& raise) {
     return static_cast<float>(0.25 * static_cast<double>(least_tangent) * raise.metres);
 }
 
-/// Cells without an asked height stand no higher than what is asked upstream: in the solver floats of what lies beyond
-/// the caller's grid, a step up each, may have lifted them.
+/// Lowers free cells to at most the prescribed height upstream: the solver's floats of cells beyond the caller's grid,
+/// each a step higher, may have raised them.
 void keep_below_asked(LandLevel& level, Channels const& rivers) {
     RiverCells const& cells = level.rivers;
     for (std::size_t n = cells.cell.size(); n-- > 0;) {
@@ -275,7 +275,7 @@ void keep_below_asked(LandLevel& level, Channels const& rivers) {
     }
 }
 
-/// Puts the lowest end of a river at 0, where all ends have risen.
+/// Shifts heights so that the lowest river end is at 0, if all ends have risen.
 void lower_to_ends(LandLevel& level, Channels const& rivers) {
     RiverCells const& cells = level.rivers;
     float low = std::numeric_limits<float>::infinity();
@@ -322,7 +322,7 @@ EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window 
     EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
-    // A little lower than what counts as perched, for what is settled afterwards.
+    // Slightly lower than what counts as perched, as a margin for the settling that follows.
     lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
     if (heads == Heads::kept) {
         keep_to_receivers(level, settled_step(raise));
@@ -359,7 +359,7 @@ EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, W
         }
     }
     keep_below_asked(level, rivers);
-    if (heights != RiverHeights::fixed) { // as graded rivers are
+    if (heights != RiverHeights::fixed) { // as for graded rivers
         lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }

@@ -72,7 +72,7 @@ struct Box {
     }
 };
 
-// A tree of boxes over the edges, halved by their middles along the longer side.
+// A tree of boxes over the edges, split at the median along the longer side.
 class Nearest {
 public:
     explicit Nearest(std::vector<OuterEdge> edges) : edges_(std::move(edges)), order_(edges_.size()) {
@@ -163,9 +163,9 @@ private:
     std::vector<Branch> tree_;
 };
 
-// Gives every NaN cell the height at the nearest point of the TIN's edge: of the sides that one triangle has alone.
-// Takes: a TIN, and a raster it was drawn on. Of points equally near that of the lowest triangle counts. Gives: no NaN
-// is left, unless the TIN has no triangle.
+// Sets every NaN cell to the height at the nearest point of the TIN's boundary (sides of a single triangle); of points
+// equally near that of the lowest triangle counts. dem: a raster of this TIN. No NaN remains unless the TIN has no
+// triangle.
 void extend_tin(Tin const& tin, Raster<float>& dem, Run const& run = {}) {
     if (tin.triangles.empty()) {
         return;
@@ -184,10 +184,10 @@ void extend_tin(Tin const& tin, Raster<float>& dem, Run const& run = {}) {
     });
 }
 
-// Few enough that a band of a wide raster stays in the cache, enough that few triangles lie in two.
+// Few enough that a band of a wide raster fits the cache, enough that few triangles lie in two bands.
 constexpr std::int64_t band_rows = 32;
 
-// The grid's centres as doubles, which the tests below take for exact.
+// The grid's centres as doubles, which the tests below treat as exact.
 struct Centres {
     explicit Centres(Grid const& frame) : grid(frame) {
         for (std::int64_t c = 0; c < grid.width; ++c) {
@@ -202,12 +202,12 @@ struct Centres {
     std::vector<double> y;
 };
 
-// A whole number near v, within [low, high]; v may be anything. (std::floor is a call where SSE4 is not asked for.)
+// A whole number near v, clamped to [low, high]; v may be anything. (std::floor is a function call without SSE4.)
 std::int64_t clamped(double v, std::int64_t low, std::int64_t high) {
     return v >= static_cast<double>(high) ? high : v <= static_cast<double>(low) ? low : static_cast<std::int64_t>(v);
 }
 
-// Bands of rows a triangle may touch: a row more than rounding could miss.
+// Bands of rows that a triangle may touch, with one row of margin for rounding.
 struct Bands {
     std::int32_t first = 0;
     std::int32_t last = -1;
@@ -243,7 +243,7 @@ void require_sound(Tin const& tin, Run const& run) {
     });
 }
 
-// Vertices may lie anywhere in memory: to ask for them some triangles ahead hides most of the wait.
+// Vertices are scattered in memory: prefetching some triangles ahead hides most of the latency.
 constexpr std::size_t ahead = 12;
 
 void fetch(Tin const& tin, std::size_t triangle) {
@@ -298,11 +298,11 @@ struct Side {
 };
 
 struct Column {
-    std::int64_t first = 0; // whose centre lies on the side or east of it
+    std::int64_t first = 0; // first column whose centre lies on the side or east of it
     bool is_on = false;     // its centre lies on the side
 };
 
-// The heights of one band, and the centres on sides that nobody may own: those of the TIN's own edge.
+// The heights of one band, and the centres on sides that no triangle may own: those of the TIN's boundary.
 class Band {
 public:
     Band(Tin const& tin, Centres const& centres, double reach_columns, std::int64_t first_row, std::int64_t end_row,
@@ -318,7 +318,7 @@ public:
         double const forward = (b.x - a.x) * (c.y - a.y);
         double const back = (c.x - a.x) * (b.y - a.y);
         double const area = forward - back;
-        // Where so little is left of the products, rounding has its share in it.
+        // With so much cancellation in the products, rounding matters.
         bool const is_sliver = !(area > 1e-9 * (std::fabs(forward) + std::fabs(back)));
         refuse_if<BadInput>(is_sliver && geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0,
                             "surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
@@ -328,7 +328,7 @@ public:
         plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) * by_area,
                   ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) * by_area, std::min({a.z, b.z, c.z}),
                   std::max({a.z, b.z, c.z})};
-        // From south to north, b in the middle: west of the long side a-c after an odd number of swaps.
+        // Sorted from south to north, b in the middle: west of the long side a-c after an odd number of swaps.
         bool b_is_west = false;
         auto const order = [&](Vec3& p, Vec3& q) {
             if (p.y > q.y) {
@@ -361,7 +361,7 @@ public:
         }
     }
 
-    // The edge of the TIN belongs to it.
+    // Assigns centres on the TIN's boundary to it.
     void settle() {
         for (auto const& [cell, z] : claims_) {
             if (std::isnan(dem_[cell])) {
@@ -409,7 +409,7 @@ private:
         return exact_column(side, c, y);
     }
 
-    // From a guess.
+    // Finds the exact column, starting from a guess.
     Column exact_column(Side const& side, std::int64_t c, double y) const {
         std::int64_t const width = centres_.grid.width;
         auto const turn = [&](std::int64_t col) {
@@ -481,11 +481,11 @@ private:
     std::int64_t end_row_;
     Raster<float>& dem_;
     Plane plane_;
-    std::array<std::uint32_t, 3> const* sliver_ = nullptr; // the triangle in hand, where it is one
+    std::array<std::uint32_t, 3> const* sliver_ = nullptr; // the current triangle, if it is a sliver
     std::vector<std::pair<std::int64_t, float>> claims_;
 };
 
-// How far [columns] rounding can carry the crossing of a row and a side from its true place.
+// The largest error [columns] of the crossing of a row and a side due to rounding.
 double reach_of(Tin const& tin, Grid const& grid) {
     double greatest =
         std::max({std::fabs(grid.west), std::fabs(grid.east()), std::fabs(grid.north), std::fabs(grid.south())});
@@ -506,7 +506,7 @@ Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams
     Centres const centres(grid);
     double const reach = reach_of(tin, grid);
     Binned const binned = bin(tin, grid, run);
-    // One band a call: what a band holds must not depend on how they are shared out.
+    // One band per call: its content must not depend on how bands are distributed.
     parallel_ranges(run, static_cast<std::int64_t>(binned.begin.size()) - 1, 1, [&](std::int64_t b, std::int64_t e) {
         for (std::int64_t k = b; k < e; ++k) {
             run.check();

@@ -18,9 +18,9 @@ constexpr std::uint64_t strike_stage = 0x737472696b65; // "strike"
 constexpr std::uint64_t uplift_stage = 0x75706c696674; // "uplift"
 constexpr double radians = portable::pi / 180.0;
 
-/// A place in wavelengths from the grid's centre.
+/// A position in wavelengths from the grid's centre.
 struct Place {
-    double along; ///< the strike
+    double along; ///< along the strike
     double across;
 };
 
@@ -69,7 +69,7 @@ double fold(std::uint64_t seed, Place p) {
     return 0.5 + 0.5 * plunge * portable::cos(2.0 * portable::pi * bent);
 }
 
-/// What share of the way from the least uplift to the greatest a place has.
+/// The share of the range from the least to the largest uplift at a position.
 double share_at(UpliftPatternParams const& params, Place p, double half_width) {
     switch (params.pattern) {
     case UpliftPattern::tilt: return 0.5 + 0.5 * p.across / half_width;

@@ -12,29 +12,29 @@ namespace thalweg::surface {
 /// How uplift varies over tens of kilometres.
 enum class UpliftPattern : std::uint8_t {
     tilt,   ///< it grows across the strike, from one side of the grid to the other
-    domes,  ///< round uplifts at random places
+    domes,  ///< domes at random positions
     blocks, ///< blocks between faults along the strike, each tilted across it
-    folds   ///< upfolds and downfolds along the strike
+    folds   ///< anticlines and synclines along the strike
 };
 
 /// Options of uplift_pattern().
 struct UpliftPatternParams {
     UpliftPattern pattern = UpliftPattern::tilt;
-    double contrast = 4.0;    ///< [1, 100] greatest over least uplift
+    double contrast = 4.0;    ///< [1, 100] largest over least uplift
     double wave_m = 12'000.0; ///< [m] > 0, distance of domes, width of blocks or wavelength of folds
     double strike_deg = 0.0;  ///< [degrees] clockwise from north; domes have none
     std::uint64_t seed = 7;
 };
 
-/// The strike of a seed, for those who name none.
+/// The random strike of a seed, used if none is given.
 /// \param seed random seed
 /// \return [degrees] (-90, 90] clockwise from north
 double random_strike_deg(std::uint64_t seed);
 
 /// Draws uplift that varies over long distances.
 /// \param grid cells
-/// \return [1 / sqrt(contrast), sqrt(contrast)] by cell, relative to the common uplift. The same bytes for any number
-/// of threads; by place in metres from the grid's centre.
+/// \return [1 / sqrt(contrast), sqrt(contrast)] by cell, relative to the mean uplift. The same bytes for any number of
+/// threads; depends on positions in metres from the grid's centre.
 /// \throws BadParameter when a parameter is outside its range
 Raster<float> uplift_pattern(Grid const& grid, UpliftPatternParams const& params, Run const& run = {});
 

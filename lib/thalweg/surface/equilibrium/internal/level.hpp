@@ -18,8 +18,8 @@
 
 namespace thalweg::surface {
 
-/// factor area ^ exponent from a table: exact for whole numbers below 512, beyond for areas rounded down to nine binary
-/// digits. bend_area: area below which the power hardly falls any more, to that of the bend; 0: none.
+/// factor area ^ exponent from a table: exact for whole numbers below 512, above that for areas rounded down to nine
+/// binary digits. bend_area: the area below which the power approaches a constant; 0: none.
 class AreaPower {
 public:
     explicit AreaPower(double exponent, double bend_area = 0.0, double factor = 1.0) {
@@ -34,7 +34,7 @@ public:
         }
     }
 
-    /// Takes: 1 <= area < 2^64.
+    /// area: 1 <= area < 2^64.
     float operator()(float area) const { return table_[(std::bit_cast<std::uint32_t>(area) >> dropped) - first]; }
 
 private:
@@ -44,18 +44,18 @@ private:
     std::vector<float> table_ = std::vector<float>(std::size_t{64} << 8);
 };
 
-/// U + D lap z = K A^theta S in the solver's units: lengths, heights and areas in cells of the finest level, U 1 where
-/// nothing is said, and K such that slopes where hardly anything drains are the same at any cell size: far from what
-/// floats can lose.
+/// U + D lap z = K A^theta S in the solver's units: lengths, heights and areas in cells of the finest level, U = 1 by
+/// default, and K such that slopes at small areas are the same at any cell size and stay well within float precision.
 struct EquilibriumLaw {
     EquilibriumLaw(EquilibriumParams const& params, double cell_m)
         : EquilibriumLaw(params, cell_m, incision(params, cell_m)) {}
 
-    AreaPower power;      ///< K A^theta, of the given rivers
-    AreaPower land_power; ///< of the land: below the area of debris flows these cut as well, and slopes hardly change
-                          ///< with it any more (Stock and Dietrich 2003)
-    float creep;          ///< D, by the length below which creep wins (Perron 2009)
-    float source_area;    ///< [finest cells] that a drawn source drains already
+    AreaPower power; ///< K A^theta, of the input rivers
+    /// of the terrain: below the area of debris flows these cut as well, and slopes become nearly constant (Stock and
+    /// Dietrich 2003)
+    AreaPower land_power;
+    float creep;       ///< D, from the length below which creep dominates (Perron 2009)
+    float source_area; ///< [finest cells] contributing area at a drawn source
 
 private:
     EquilibriumLaw(EquilibriumParams const& params, double cell_m, double k)
@@ -68,15 +68,15 @@ private:
         return params.debris_area_m2 / (cell_m * cell_m);
     }
     static double incision(EquilibriumParams const& params, double cell_m) {
-        constexpr double of_one_cell = 4.7; // times less than uplift: slopes of heads are a good half of the cap
+        constexpr double of_one_cell = 4.7; // fraction of uplift: slopes of heads are a good half of the cap
         return of_one_cell / static_cast<double>(AreaPower(params.theta, debris_cells(params, cell_m))(1.0F));
     }
 
-    static constexpr double most_creep = 100.0; // [finest cells]: beyond, rounds do not suffice
+    static constexpr double most_creep = 100.0; // [finest cells] limit above which the rounds do not converge
     static constexpr double source_area_m2 = 90'000.0;
 };
 
-/// The direction from a cell to its neighbour, as d8_steps, or -1 when it is none. Takes: cells inside a frame.
+/// The direction from a cell to its neighbour, as in d8_steps; -1: not neighbours. Both cells are inside a frame.
 inline std::int8_t way_between(std::size_t from, std::size_t to, std::int64_t width) {
     std::int64_t const step = static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from);
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
@@ -87,33 +87,33 @@ inline std::int8_t way_between(std::size_t from, std::size_t to, std::int64_t wi
     return -1;
 }
 
-/// Channels in the frame of a level, downstream first. The vectors are parallel.
+/// Channel cells in the frame of a level, downstream first. The vectors are parallel.
 struct RiverCells {
     std::vector<std::uint32_t> cell;    ///< index in the level
-    std::vector<std::int32_t> receiver; ///< number in these lists, -1 for none
-    std::vector<std::int8_t> way;       ///< to the receiver, as d8_steps
+    std::vector<std::int32_t> receiver; ///< position in these vectors; -1: none
+    std::vector<std::int8_t> way;       ///< towards the receiver, as in d8_steps
     std::vector<std::uint8_t> level;    ///< 1: as high as its receiver
-    std::vector<float> asked;           ///< height, NaN for none; empty: none at all
-    std::vector<std::int64_t> number;   ///< in the caller's Channels, -1: beyond its grid
+    std::vector<float> asked;           ///< prescribed height; NaN: free; empty: all free
+    std::vector<std::int64_t> number;   ///< in the caller's Channels; -1: beyond its grid
 };
 
-/// The rivers on a grid of half as many cells a side: a coarse cell takes over the river cell in it that has the
-/// fewest steps to its end (ties: the first), so that rivers stay trees. Widths are those of framed levels.
+/// Coarsens rivers to half as many cells a side: a coarse cell takes its river cell with the fewest steps to the
+/// river's end (ties: the first), so that rivers stay trees. Widths include the frames.
 RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64_t coarse_width,
                      std::int64_t coarse_height);
 
 template <class T> using Cells = std::vector<T, LargePages<T>>;
 
-/// What a cell is to the solver.
+/// Cell types of the solver.
 enum class Cover : std::uint8_t {
     land,
-    rim,      ///< land beside outside: creep goes to fewer neighbours
-    bank,     ///< land beside a river, at the finest level
-    rim_bank, ///< both
+    rim,      ///< land beside outside: creep has fewer neighbours
+    bank,     ///< land beside a river; finest level only
+    rim_bank, ///< both rim and bank
     river,
-    edge,   ///< water leaves, at a height that is set
-    sea,    ///< water leaves, at 0
-    outside ///< nothing is there: infinitely high
+    edge,   ///< boundary cell: water leaves at a prescribed height
+    sea,    ///< water leaves at height 0
+    outside ///< not part of the terrain: infinitely high
 };
 
 inline bool is_land(Cover c) {
@@ -129,16 +129,16 @@ inline constexpr std::int8_t no_way = -1;
 inline constexpr std::array<float, 8> step_lengths = {1.0F, 1.41421356F, 1.0F, 1.41421356F,
                                                       1.0F, 1.41421356F, 1.0F, 1.41421356F};
 
-/// The least tangent of a cell towards its receiver: far above what a float can lose, far below what is seen.
+/// The least tangent from a cell to its receiver: far above float precision, far below what is visible.
 inline constexpr float least_tangent = 0.002F;
-/// The steepest slope that uplift keeps up in rock of the common erodibility.
+/// The steepest slope that uplift maintains at mean erodibility.
 inline constexpr float steepest_tangent = 0.3F;
 inline constexpr float bank_step = least_tangent;
 
 /// Water that enters a level.
 struct Inflow {
     std::uint32_t cell;
-    std::uint32_t area; ///< [cells of the level] that it drains
+    std::uint32_t area; ///< [cells of the level] contributing area
 };
 
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
@@ -146,20 +146,20 @@ struct Inflow {
 struct LandLevel {
     std::int64_t width = 0;  ///< with the frame
     std::int64_t height = 0; ///< with the frame
-    float side = 1.0F;       ///< of a cell
-    Cell corner;             ///< [finest cells] where the first inner cell begins, from the caller's grid
+    float side = 1.0F;       ///< size of a cell
+    Cell corner;             ///< [finest cells] offset of the first inner cell from the caller's grid
     RiverCells rivers;
     Cells<Cover> cover;
     Cells<float> z;
     Cells<float> erodibility;
-    Cells<float> cap;           ///< greatest tangent towards the receiver
+    Cells<float> cap;           ///< largest tangent towards the receiver
     Cells<float> uplift;        ///< empty: 1 everywhere
-    Cells<std::int8_t> way;     ///< to the receiver, as d8_steps, or no_way
-    Cells<std::uint8_t> shift;  ///< where in its cell a node lies: code of jitter()
+    Cells<std::int8_t> way;     ///< towards the receiver, as in d8_steps, or no_way
+    Cells<std::uint8_t> shift;  ///< position of the node in its cell: code of jitter()
     Cells<std::uint32_t> area;  ///< [cells of this level]
     Cells<std::uint32_t> order; ///< land cells, receivers last
     std::vector<Inflow> inflow; ///< water from beyond the frame
-    Cells<float> firmness;      ///< [log] by how much rock is firmer than the fields say; empty: nowhere
+    Cells<float> firmness;      ///< [log] decrease of erodibility below the fields' values; empty: none
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {
@@ -174,7 +174,7 @@ struct LandLevel {
     }
 };
 
-/// Where a level's cell lies among those of a coarser one, counted from the centres of its cells.
+/// Position of a level's cell in a coarser level, in cells from the centres.
 struct LevelPlace {
     double col;
     double row;
@@ -188,7 +188,7 @@ inline LevelPlace place_in(LandLevel const& coarse, LandLevel const& level, std:
     return {east / static_cast<double>(coarse.side) + 0.5, south / static_cast<double>(coarse.side) + 0.5};
 }
 
-/// The value there of a field on the level's cells, between those inside its frame.
+/// Interpolates a field of the level, between cells inside its frame.
 inline float value_at(LandLevel const& level, Cells<float> const& field, LevelPlace p) {
     double const left = std::floor(p.col);
     double const top = std::floor(p.row);
@@ -217,7 +217,7 @@ inline std::size_t moved(std::size_t cell, std::int64_t offset) {
     return static_cast<std::size_t>(static_cast<std::int64_t>(cell) + offset);
 }
 
-/// Calls visit(cell) for the sixteen cells two columns or rows away from one, unless it is too near the frame.
+/// Calls visit(cell) for the sixteen cells two columns or rows away, unless the cell is too close to the frame.
 template <class Visit> void each_of_second_ring(LandLevel const& level, std::uint32_t cell, Visit visit) {
     std::int64_t const col = cell % level.width;
     std::int64_t const row = cell / level.width;
@@ -234,7 +234,7 @@ template <class Visit> void each_of_second_ring(LandLevel const& level, std::uin
     }
 }
 
-/// Height of the highest river cell beside an inner cell, minus infinity without one.
+/// Height of the highest river cell beside an inner cell; minus infinity: none.
 inline float highest_river(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float highest = -std::numeric_limits<float>::infinity();
     for (std::int64_t const offset : offsets) {
@@ -247,12 +247,12 @@ inline float highest_river(LandLevel const& level, std::size_t i, std::array<std
 
 struct NearestRiver {
     static constexpr std::uint32_t none = 0xffffffff;
-    Cells<float> distance;       ///< [cells of the level] less the head start of the river cell
-    Cells<std::uint32_t> number; ///< of the river cell in the level's rivers
+    Cells<float> distance;       ///< [cells of the level] minus the head start of the river cell
+    Cells<std::uint32_t> number; ///< number of the river cell in the level's rivers
 };
 
-/// The river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell begins
-/// with a head start (by number; empty: none). The frame has none. Memory: what the numbers are kept in.
+/// Finds the river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell has
+/// a head start (by number; empty: none). The frame has none. Memory: that of the numbers.
 NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start = {},
                            Cells<std::uint32_t> memory = {});
 

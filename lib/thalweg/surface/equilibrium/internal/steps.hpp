@@ -13,20 +13,20 @@
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 
-/// The steps of equilibrium(), by the sources that hold them.
+/// The steps of equilibrium(), by source file.
 namespace thalweg::surface {
 
-// rock.cpp: what uplift and erodibility a level's cells have
+// rock.cpp: uplift and erodibility of a level's cells
 
 struct RockNoise {
     double longest_wave = 360.0; ///< [finest cells]
-    double stretch = 1.0;        ///< along the strike over across it
+    double stretch = 1.0;        ///< ratio of lengths along and across the strike
     double strike = 0.0;         ///< [radians] anticlockwise from east
     std::uint64_t seed = 0;
 };
 
-/// Fields on the caller's grid, each divided by its mean over the land; without cells for none. Beyond the grid they
-/// are as at its border.
+/// Fields on the caller's grid, each divided by its mean over land; without cells: none. Values at the border continue
+/// beyond the grid.
 struct RockFields {
     Raster<float> uplift;
     Raster<float> erodibility;
@@ -37,102 +37,104 @@ struct RockParams {
     RockNoise noise;        ///< in finest cells
 };
 
-/// Sets erodibility, the cap on slopes and uplift of a level's cells: the given fields' means over each cell, and noise
-/// on land (rivers go their even way). The less erodible, the steeper rock may stand.
+/// in finest cells
 void set_rock(LandLevel& level, RockFields const& fields, RockParams const& params, Run const& run);
 
-/// Makes rock firmer along the flow paths from beside rivers whose heights the land there lacks, so that the land comes
-/// up to them and they need no walls: the divide between a long river and a short one lies beside the long one's head.
+/// Lowers erodibility along flow paths beside rivers whose heights the terrain there does not reach, so that the
+/// terrain rises to them and they need no walls: the divide between a long and a short river lies close to the head of
+/// the long one.
 void firm_rock(LandLevel& level, EquilibriumLaw const& law);
 
-/// Rock as firm as on the coarser level, before the first round.
+/// Copies the reduced erodibility of the coarser level, before the first round.
 void take_firmness(LandLevel& level, LandLevel const& coarser);
 
 // level.cpp: a level before its first round
 
-/// Whether the land goes on beyond the grid.
+/// Whether the terrain continues beyond the grid.
 inline bool goes_on(Edge edge) {
     return edge == Edge::open || edge == Edge::mainland;
 }
 
-/// What the solver works on: the caller's grid with a margin around it, in which land may go on.
+/// The solver's domain: the caller's grid plus a margin into which the terrain may continue.
 struct WidenedLand {
     Grid grid;           ///< without the frame
     std::int64_t margin; ///< [cells] on each side
-    RiverCells rivers; ///< in the frame of that grid; those that leave by the border go straight on through the margin
+    RiverCells rivers; ///< in the frame of that grid; rivers that cross the border continue straight through the margin
     Mask land;         ///< without cells: all
     RockFields fields;
 };
 WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
 
-/// Land of a level inside its frame, 1 where at least half of the cells it stands for are land; without cells: all.
+/// Coarsens a land mask inside a level's frame: 1 if at least half of a cell's finer cells are land; without cells:
+/// all.
 Mask coarsened(Mask const& land);
 
-/// Says what each cell of a level is, from its rivers, the land (inside the frame; without cells: all) and the edge.
-/// With banks: cells beside rivers are banks.
+/// Sets the type of each cell of a level, from its rivers, the land mask (inside the frame; without cells: all land)
+/// and the boundary. kept: cells beside rivers are banks.
 enum class RiverBanks : std::uint8_t { none, kept };
 void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks);
 
-/// Nodes lie up to a quarter of a cell from the centres of their cells, at one of eight places each way, so that ways
-/// of water do not cling to the lattice. A code is eastward * jitter_stride + southward: the difference of two codes
-/// names the vector between two places.
+/// Nodes lie up to a quarter of a cell from the centres of their cells, at one of eight positions along each axis, so
+/// that flow directions do not follow the lattice. A code is eastward * jitter_stride + southward: the difference of
+/// two codes identifies the vector between two positions.
 inline constexpr int jitter_places = 8;
 inline constexpr int jitter_stride = 2 * jitter_places - 1;
 inline constexpr int jitter_codes = (jitter_places - 1) * (jitter_stride + 1);
 
-/// Reciprocal distance of two neighbouring nodes [1/cell] in directions 0..3 of d8_steps, by the code of the one there
-/// minus that of the one here, plus jitter_codes.
+/// Reciprocal distance of two neighbouring nodes [1/cell] in directions 0..3 of d8_steps, by the difference of their
+/// codes (there minus here) plus jitter_codes.
 using JitteredPerLength = std::array<std::array<float, 2 * jitter_codes + 1>, 4>;
 JitteredPerLength jittered_per_length();
 
-/// Gives every node of a level its place, at random.
+/// Places every node of a level at random.
 void jitter(LandLevel& level, std::uint64_t seed, Run const& run);
 
-/// What lies beyond an open edge.
+/// What lies beyond an open boundary.
 enum class Beyond : std::uint8_t {
-    rivers, ///< at each place one as high as the nearest inside
-    valleys ///< of basins with rivers of their own, which fall away from the heads inside
+    rivers, ///< a river at every place, as high as the nearest one inside
+    valleys ///< basins with rivers of their own, lower than the heads inside
 };
 
-/// The cells at which an open land ends: the frame, once round, and land beside what is masked out.
+/// The boundary cells of open terrain: the frame in order, and land beside masked-out cells.
 struct EdgeCells {
-    /// By cell: where it is, and the river nearest to it.
+    /// By boundary cell: its index and the river nearest to it.
     struct Part {
         std::vector<std::uint32_t> cell;
-        std::vector<std::uint32_t> river; ///< its cell; of the sea the sea's own
-        std::vector<std::uint32_t> inner; ///< the cell itself, or the one beside it inside the frame
+        std::vector<std::uint32_t> river; ///< its cell; of the sea the sea cell itself
+        std::vector<std::uint32_t> inner; ///< the cell itself, or its neighbour inside the frame
         std::vector<float> far;           ///< [finest cells] from the river; of the sea 0
     };
-    Part ring; ///< clockwise from the north-west corner, the sea's cells among them
+    Part ring; ///< clockwise from the north-west corner, sea cells included
     Part inside;
     Beyond beyond = Beyond::rivers;
 };
 EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond beyond);
 
-/// Sets their heights, along the frame as the mean over a stretch, and above the rivers that they touch. Rivers: as
-/// high as the nearest. Valleys: lower by the fall of a river's first reaches, the farther the lower, but nowhere so
-/// low that a large river could not flow from there to one of the grid.
+/// Sets their heights: smoothed along the frame, and above the rivers that they touch. Rivers: as high as the nearest.
+/// Valleys: lower by the fall of a river's first reaches, more with distance, but nowhere so low that a large river
+/// could not flow from there to one of the grid.
 void set_edge_heights(LandLevel& level, EdgeCells const& edge);
 
-/// First heights of the coarsest level: a gentle rise away from where water leaves, and chance.
+/// Initialises the coarsest level: a gentle rise away from where water leaves, plus random noise.
 void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run);
 
-/// First heights of a level: between those of the coarser one, and chance.
+/// Initialises a level: interpolated heights of the coarser one, plus random noise.
 void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, Run const& run);
 
-/// Sets the heights that are not free: sea, what is outside, and rivers that rise from their ends by little. end_z: by
-/// river cell, of those that end; empty: 0.
+/// Sets the heights that are not free: sea, outside, and rivers that rise slightly from their ends. end_z: by river
+/// cell, for those that end; empty: 0.
 void start_rivers(LandLevel& level, std::vector<float> const& end_z = {});
 
-// region.cpp: the land around the caller's grid
+// region.cpp: terrain around the caller's grid
 
-/// The land of which the caller's grid is a window. Coarse levels are solved on all of it.
+/// The region of which the caller's grid is a window. Coarse levels are solved on all of it.
 struct Region {
-    std::size_t level = 0;   ///< number of the finest level that is; 0: there is no region
-    std::int64_t margin = 0; ///< [finest cells] beyond the grid on each side, whole cells of that level
+    std::size_t level = 0;   ///< number of its finest level; 0: there is no region
+    std::int64_t margin = 0; ///< [finest cells] beyond the grid on each side, in whole cells of that level
 };
 
-/// None where the land ends at the grid or the sea, rivers end inside, heights are given, or the grid is small.
+/// Chooses the region; none if the terrain ends at the grid or the sea, rivers end inside, heights are prescribed, or
+/// the grid is small.
 Region region_around(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
 
 /// A level without its frame.
@@ -145,127 +147,126 @@ struct LevelExtent {
 /// The extent of the region on its finest level.
 LevelExtent extent_of(Region const& region, Grid const& grid);
 
-/// Rivers of a window's level in the frame of the region's. Those that leave the window go on, away from it, with
-/// chance in their ways, until they meet another or the region's border.
+/// Converts rivers of a window's level to the region's frame. Rivers that leave the window continue away from it, with
+/// random bends, until they meet another or the region's border.
 RiverCells rivers_of_region(RiverCells const& rivers, LevelExtent const& window, LevelExtent const& region,
                             std::int64_t side, std::uint64_t seed);
 
-/// How the frame of a window's level and the land in it stand to the region.
+/// Relates the frame of a window's level and its terrain to the region.
 struct RegionFrame {
     struct Cell {
         std::uint32_t cell;
         float z;     ///< of the region's valleys
-        float share; ///< [0, 2] of the height of land over those valleys: 0 where a valley leaves, 1 in the mean
+        float share; ///< [0, 2] of the height of terrain above those valleys: 0 where a valley leaves, 1 on average
     };
     struct Sample {
         std::uint32_t cell;
         float z; ///< of the region's valleys
     };
     std::vector<Cell> cells;
-    std::vector<Sample> land; ///< well inside
+    std::vector<Sample> land; ///< samples well inside
 };
 
-/// Sets what lies around a window's level as the region has it. The frame is closed where water flows in, which is
-/// given to the lowest cell beside it, and is open elsewhere.
+/// Sets the boundary conditions of a window's level from the region. The frame is closed where water flows in, which
+/// enters at the lowest cell beside it, and open elsewhere.
 RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed);
 
-/// Sets the heights of an open frame: the region's, and as much as land inside stands higher than the region, whose
-/// cells know no hillslopes.
+/// Sets the heights of an open frame: the region's, plus the excess of the terrain inside over the region, whose cells
+/// resolve no hillslopes.
 void lift_frame(LandLevel& level, RegionFrame const& frame);
 
-/// By river cell of a window's level the height of the region there, of those that end at the frame.
+/// By river cell of a window's level that ends at the frame: the height of the region there.
 std::vector<float> end_heights(LandLevel const& level, LandLevel const& region);
 
-/// Where 1000 cells or more drain into the caller's grid, margin cells inside the finest level's frame.
+/// Lists where 1000 cells or more drain into the caller's grid, margin cells inside the finest level's frame.
 std::vector<RegionInflow> inflows_of(LandLevel const& level, Grid const& grid, std::int64_t margin);
 
-// land.cpp: the land between rivers
+// land.cpp: the terrain between rivers
 
-/// Finds every cell a receiver, raising it where it must: banks to the river cell beside them down the steepest slope,
-/// other land by a flood from where water leaves. Gives: each land cell above its receiver by least_tangent at least,
-/// banks above all river cells beside them. Cells that no water can leave become outside. Source: Barnes 2014, with
-/// buckets instead of a heap: heights in one bucket are taken in any order, which costs the order of cells, not the
-/// law.
+/// Finds a receiver for every cell and raises cells where necessary: banks drain to the steepest river cell beside
+/// them, other land by a flood from the outlets. Each land cell ends up at least least_tangent above its receiver,
+/// banks above all river cells beside them. Cells that cannot drain become outside. Source: Barnes 2014, with buckets
+/// instead of a heap: cells of one bucket are taken in any order, which changes the order of cells but not the law.
 void flood_land(LandLevel& level);
 
-/// Turns land cells to their steepest neighbour, by the distances of jittered nodes, banks to their steepest river
-/// cell. A cell without a lower neighbour keeps its way: since no cell lies below its receiver, ways never close to a
-/// circle.
+/// Directs land cells to their steepest neighbour, by the distances of jittered nodes, banks to their steepest river
+/// cell. A cell without a lower neighbour keeps its direction: no cell is below its receiver, so that directions never
+/// form a cycle.
 void steepest_ways(LandLevel& level, JitteredPerLength const& per_length, Run const& run);
 
-/// Orders the land cells so that each stands before its receiver, and counts the cells that drain through every cell.
-/// Leaves are peeled off: from each cell without donors water is followed as far as all donors have arrived.
+/// Computes the stack order of the land cells (donors before receivers) and the contributing area of every cell:
+/// follows water from each cell without donors as long as all donors have arrived.
 void order_cells(LandLevel& level);
 
-/// One sweep of Gauss and Seidel over the land, receivers first: each cell to the height at which what is lifted equals
-/// what water and creep take away.
-/// Gives: each cell above its receiver by least_tangent at least and its cap at most (banks may have to stand higher:
-/// above every river cell beside them).
+/// One Gauss-Seidel sweep over the terrain, receivers first: sets each cell to the height at which uplift balances
+/// incision and creep. Each cell ends up at least least_tangent above its receiver and at most its cap (banks may have
+/// to be higher: above every river cell beside them).
 void relax_land(LandLevel& level, EquilibriumLaw const& law);
 
-/// Lowers land that stands far steeper above any of its neighbours than its cap allows: cliffs that a river leaves
-/// where it is given up, which would else come down by one row of cells a round. Banks and rivers stay.
-/// Gives: the greatest heights that fulfil this; every cell that had a lower neighbour has one.
+/// Lowers terrain that is far steeper above one of its neighbours than its cap allows: cliffs left by a removed river,
+/// which would otherwise retreat by one row of cells a round. Banks and rivers are unchanged. The result is the largest
+/// heights that satisfy this; every cell that had a lower neighbour still has one.
 void slide_land(LandLevel& level);
 
 struct FloorParams {
-    double width_km = 0.0; ///< half width of a floor where 1 km² drains
+    double width_km = 0.0; ///< half width of a valley floor where 1 km² drains
     double cell_m = 1.0;
     std::uint64_t seed = 0;
 };
 
-/// Lowers the cap on slopes beside rivers, so that floors form that widen downstream: flat, with a concave foot as wide
-/// again. The order of cells is lost: its memory is wanted.
+/// Lowers the cap on slopes beside rivers to form valley floors that widen downstream: flat, with a concave foot as
+/// wide again. Frees the stack order for its memory.
 void valley_floors(LandLevel& level, FloorParams const& params);
 
-// rivers.cpp: heights of rivers, and rivers that are shortened
+// rivers.cpp: heights of rivers, and shortened rivers
 
-/// Tangent of a graded river cell by the area that drains into it, not more than a share of the cap.
+/// Tangent of a graded river cell by its contributing area, at most a share of the cap.
 float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uint32_t i);
 
-/// Sets rivers to their graded heights for the areas that drain into them: not steeper than a share of what hillslopes
-/// may be, and not above the land two cells away, which would leave them perched. Lakes are level.
+/// Sets rivers to their graded heights for their contributing areas: at most a share of the hillslope cap, and not
+/// above the terrain two cells away, so that they are not perched. Lakes are level.
 void relax_rivers(LandLevel& level, EquilibriumLaw const& law);
 
-/// Sets rivers to the heights that are asked; between them they are graded, as steep as it takes; above the highest as
-/// the rest of the land. Fixed: kept, but for the least rise that a float knows. Soft: lowered where the land beside is
-/// lower, or where it takes that for water to run.
+/// Sets rivers to prescribed heights; between these they are graded as steeply as necessary, above the highest like the
+/// other terrain. Fixed: kept, except for a rise of one ulp where necessary. Soft: lowered where the terrain beside is
+/// lower, or where water would not run otherwise.
 void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeights heights);
 
-/// Whether water leaves the caller's grid from river cell number n of a level.
+/// Whether water leaves the caller's grid at river cell n of a level.
 bool leaves_grid(RiverCells const& rivers, std::size_t n);
 
-/// Whether a river runs through a cell at its cell number n or within so many steps below.
+/// Whether a river runs through a cell at its river cell n or within a number of steps downstream.
 bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps);
 
-/// Numbers in the caller's Channels of river cells that stand perched above what they do not run through themselves, in
-/// order.
+/// Lists river cells, by number in the caller's Channels and in order, that are perched above cells other than their
+/// own river's.
 std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent);
 
-/// Lowers such cells as far as they stay a step above their receivers, which are lowered with them for a short way.
+/// Lowers such cells as long as they stay a step above their receivers, which are lowered with them over a short
+/// distance.
 void lower_perched(LandLevel& level, float tangent, float step);
 
-/// Raises the land two to four cells from a perched river cell until that stands perched no more, on a slope.
+/// Raises the terrain two to four cells from a perched river cell, as a slope, until it is no longer perched.
 void raise_below_perched(LandLevel& level, float tangent);
 
-/// Shortens rivers by the cells that stand perched near their heads, and what lies upstream of these. What is given up
-/// becomes land; where banks stay, none that would lie below a river beside it. Gives: numbers in the caller's
-/// Channels.
+/// Shortens rivers: removes perched cells near heads and everything upstream of them. Removed cells become land; under
+/// `stay`, a bank does not become lower than a river beside it. Returns numbers in the caller's Channels.
 enum class TipBanks : std::uint8_t { stay, rise };
 std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks);
 
-/// The same for the cells near heads that lie beside cells of another river: there no land between them fits.
+/// Removes likewise the cells near heads that lie beside another river's cells, where no terrain fits between them.
 std::vector<std::int64_t> give_up_touching_tips(LandLevel& level);
 
-/// Where rivers lie side by side, sets their heights so that the steepest descent of each cell leads to its receiver,
-/// and that of a cell at which a river leaves the caller's grid to none in it: the cell is lowered or its neighbour is
-/// raised. A few passes; what cannot be kept (a receiver's receiver beside the cell) stays.
-/// Takes: the least tangent towards a receiver.
+/// Where rivers lie side by side, adjusts heights so that each river cell's steepest descent leads to its receiver, and
+/// a cell at which a river leaves the caller's grid has none in it: lowers the cell or raises its neighbour, in a few
+/// passes. Conflicts that cannot be resolved (a receiver's receiver beside the cell) remain. least: the least tangent
+/// towards a receiver.
 void keep_to_receivers(LandLevel& level, float least = least_tangent);
 
 // written_land.cpp: from the solver's heights to metres
 
-/// What a land has of the relief or the mean slope that is asked, when heights in cells are multiplied: 1 is all of it.
+/// The ratio of the terrain's relief or mean slope to its target when heights in cells are multiplied by a factor; 1:
+/// reached.
 double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params);
 
 /// The caller's grid within the finest level.
@@ -275,25 +276,26 @@ struct Window {
     std::int64_t margin; ///< [cells] without the frame
 };
 
-/// From the solver's heights to metres: base_m + metres * z.
+/// Conversion from the solver's heights to metres: base_m + metres * z.
 struct Raise {
     double metres;
     double base_m;
-    double mean_tangent; ///< of the mean slope of the land in metres
+    double mean_tangent; ///< mean slope of the terrain in metres
 };
 
-/// What gives the land in a window the relief or the mean slope that is asked, the lowest river end at 0.
+/// Chooses the conversion that gives the terrain in a window the target relief or mean slope, with the lowest river end
+/// at 0.
 Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& window, EquilibriumParams const& params);
 
-/// What the land in a window has of the relief or the mean slope that is asked, with heights of so many metres.
+/// The ratio of the relief or mean slope in a window to its target, for this number of metres per unit.
 double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
 
-/// The caller's grid out of a solved finest level, in metres, with the ways of its water. Tips that are still perched
-/// are given up besides those that are shortened already, unless heads are kept.
+/// Extracts the caller's grid from a solved finest level, in metres, with its flow directions. Tips that are still
+/// perched are removed too, unless heads are kept.
 EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
                                 std::vector<std::int64_t> shortened, Heads heads, Run const& run);
 
-/// The same with rivers at the heights that are given, or below them; tells which stand on walls and what was lowered.
+/// The same with rivers at or below their prescribed heights; reports walls and lowered cells.
 EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
                                       RiverHeights heights, Run const& run);
 
