@@ -43,7 +43,7 @@ void add(std::array<Sum, lags>& to, std::array<Sum, lags> const& from) {
     }
 }
 
-/// Pairs whose northern or western cell lies in one row of the window.
+/// Sums over pairs whose northern or western cell lies in one row of the window.
 Sums sums_of_row(Raster<float> const& dem, CellWindow const& window, std::int64_t row, Differences differences) {
     Sums sums;
     std::int64_t const end_col = window.col + window.width;
@@ -63,7 +63,7 @@ Sums sums_of_row(Raster<float> const& dem, CellWindow const& window, std::int64_
     return sums;
 }
 
-/// ln of the root mean square difference at one lag; empty where there is none or all are 0.
+/// ln of the root mean square difference at one lag; empty: no pairs, or all differences are 0.
 std::optional<double> log_difference(Sum const& rows, Sum const& cols, Differences differences) {
     double mean = 0.0;
     double directions = 0.0;
@@ -142,7 +142,7 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params,
         }
     });
     Sums sums;
-    for (Sums const& row : rows) { // in one order, whatever the threads
+    for (Sums const& row : rows) { // in row order, for any number of threads
         add(sums.along_rows, row.along_rows);
         add(sums.along_cols, row.along_cols);
     }

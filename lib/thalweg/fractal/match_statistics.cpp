@@ -76,7 +76,7 @@ void check_targets(Raster<float> const& dem, Targets const& targets) {
     if (!targets.max || !targets.min) {
         return;
     }
-    double const mean = targets.mean.value_or((max + min) / 2.0); // where the bound is widest
+    double const mean = targets.mean.value_or((max + min) / 2.0); // the bound is widest there
     double const most = std::sqrt((max - mean) * (mean - min));
     if (targets.std && *targets.std > most) {
         throw BadParameter(fmt::format(
@@ -121,12 +121,12 @@ namespace {
 
 using solver::Quantity;
 
-// One statistic on its way to its target.
+// One statistic and its target.
 struct Goal {
     char const* name;
     solver::Quantity quantity;
     double asked;
-    double longest_step; // in the units in which it is derived
+    double longest_step; // in the units of its derivative
 };
 
 using solver::FieldStatistics;
@@ -147,16 +147,16 @@ bool by_logarithm(Quantity quantity) {
     return quantity == Quantity::ln_lx || quantity == Quantity::ln_ly;
 }
 
-/// The error of a projection: what its caller reads.
+/// The error as reported to the caller.
 double error_of(Goal const& goal, FieldStatistics const& is, double deviation) {
     double const off = std::fabs(figure(is, goal.quantity) - goal.asked);
     double const error = off / (goal.quantity == Quantity::mean ? deviation : goal.asked);
     return std::isnan(error) ? std::numeric_limits<double>::infinity() : error;
 }
 
-// The statistics that have a target. deviation: [m] of the heights, by which steps of mean and deviation are measured.
-/// Steps as long as those by which table 4 of paper 001 is met, whose deviation is 131.6 m: there 100 m, 30 m, 0.3,
-/// 0.3, 0.05, 0.1.
+// The statistics that have a target. deviation: [m] of the heights, the unit of steps of mean and deviation.
+/// The longest steps are those that meet table 4 of Zhang, Liu and Li, whose deviation is 131.6 m: 100 m, 30 m, 0.3,
+/// 0.3, 0.05, 0.1 there.
 std::vector<Goal> goals_of(Targets const& targets, double deviation) {
     std::vector<Goal> goals;
     auto const add = [&](char const* name, Quantity quantity, std::optional<double> const& asked, double longest_step) {
@@ -173,13 +173,13 @@ std::vector<Goal> goals_of(Targets const& targets, double deviation) {
     return goals;
 }
 
-// What is still missing, in the units in which the statistic is derived; not finite where the heights do not tell it.
+// The remaining difference in the units of the statistic's derivative; not finite: the statistic is undefined.
 double missing(Goal const& goal, FieldStatistics const& is) {
     double const got = figure(is, goal.quantity);
     return by_logarithm(goal.quantity) ? portable::log(goal.asked / got) : goal.asked - got;
 }
 
-// The greatest of the goals' errors, as their residuals tell them; infinite where the heights do not tell one.
+// The largest error of all goals, from their residuals; infinite: a statistic is undefined.
 double largest_error(std::vector<Goal> const& goals, FieldStatistics const& is, double deviation) {
     double largest = 0.0;
     for (Goal const& goal : goals) {
@@ -188,7 +188,7 @@ double largest_error(std::vector<Goal> const& goals, FieldStatistics const& is, 
     return largest;
 }
 
-// How many of its longest steps the goal that is farthest away takes; infinite where the heights do not tell one.
+// The largest remaining difference in longest steps; infinite: a statistic is undefined.
 double longest_way(std::vector<Goal> const& goals, FieldStatistics const& is) {
     double longest = 0.0;
     for (Goal const& goal : goals) {
@@ -198,7 +198,7 @@ double longest_way(std::vector<Goal> const& goals, FieldStatistics const& is) {
     return longest;
 }
 
-// Of every goal what was asked for, what was got and the error.
+// For every goal the target, the value reached and the error.
 std::vector<Residual> residuals_of(std::vector<Goal> const& goals, FieldStatistics const& is, double deviation) {
     std::vector<Residual> residuals;
     for (Goal const& goal : goals) {
@@ -207,11 +207,11 @@ std::vector<Residual> residuals_of(std::vector<Goal> const& goals, FieldStatisti
     return residuals;
 }
 
-// So close to singular a matrix may be: below it two statistics, or two fixed heights, cannot be told apart.
+// Smallest relative ridge of a matrix: below it two statistics, or two fixed heights, are indistinguishable.
 constexpr double least_ridge = 1e-10;
 constexpr double most_ridge = 1e-2;
 
-// Factor of a symmetric matrix with the least ridge that makes it positive definite.
+// Factors a symmetric matrix with the least ridge that makes it positive definite.
 solver::Cholesky factor_safely(std::vector<double> const& matrix, std::size_t size, Run const& run) {
     for (double ridge = least_ridge; ridge < most_ridge; ridge *= 100.0) {
         try {
@@ -222,7 +222,7 @@ solver::Cholesky factor_safely(std::vector<double> const& matrix, std::size_t si
     return solver::factor(matrix, size, most_ridge, run);
 }
 
-// The prior's covariance, and that part of it which the fixed heights leave.
+// The prior's covariance, and the covariance conditional on the fixed heights.
 class Prior {
 public:
     Prior(Grid const& grid, std::vector<FixedHeight> const& kept, solver::StableCovariance const& covariance,
@@ -258,8 +258,8 @@ public:
     }
 
 private:
-    /// Where heights three correlation lengths apart hardly know of one another, a torus may be that much wider than
-    /// the grid.
+    /// Heights three correlation lengths apart are nearly uncorrelated, so that the torus need be only that much wider
+    /// than the grid.
     static std::int64_t around(std::int64_t cells, double length_cells) {
         auto const margin =
             static_cast<std::int64_t>(std::ceil(std::min(3.0 * length_cells, static_cast<double>(cells))));
@@ -294,26 +294,27 @@ private:
 };
 
 constexpr std::int64_t grain_cells = 32768;
-// A step that leaves more missing than that many times the least so far is taken back, and the next is half as long.
+// A step after which the remaining difference exceeds this factor times the least so far is undone, and the next is
+// half as long.
 constexpr double worse = 1.5;
-constexpr double least_reach = 1.0 / 64.0; ///< below it the search ends: no step in this direction helps
+constexpr double least_reach = 1.0 / 64.0; ///< the search ends below: no step in this direction helps
 constexpr double least_fine_share = 0.3;
 constexpr double longest_fine_cells = 12.0;
 
-/// What heights may not do: pass the extremes, and move in fixed cells.
+/// Constraints on heights: stay between the extremes, and unchanged in fixed cells.
 struct Bounds {
     Limiter const& limiter;
     std::vector<FixedHeight> const& kept;
 };
 
-/// A land, as the heights that are changed freely and as those they are bent to.
+/// A DEM as unconstrained heights and as the limited heights derived from them.
 struct Land {
     Raster<double> free;
     Raster<float> dem;
 };
 
-/// The covariance that steps are taken in: the prior's with a good part of fine forms. In a smooth prior alone slope
-/// and dimension answer to little but changes of the whole land, which throw the lengths over.
+/// The covariance of the steps: the prior's with a large share of fine forms. With a smooth prior alone, slope and
+/// dimension respond mainly to changes of the whole terrain, which disturb the correlation lengths.
 solver::StableCovariance of_steps(solver::StableCovariance covariance) {
     if (covariance.fine_share == 0.0) {
         covariance.fine_cells =
@@ -343,7 +344,7 @@ double product(Raster<double> const& a, Raster<double> const& b, Run const& run)
     });
 }
 
-/// Bends the free heights and puts in the fixed ones.
+/// Limits the free heights and inserts the fixed ones.
 void shape(Land& land, Bounds const& bounds, Run const& run) {
     parallel_ranges(run, land.dem.cells(), grain_cells, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t i = begin; i < end; ++i) {
@@ -357,7 +358,7 @@ void shape(Land& land, Bounds const& bounds, Run const& run) {
     }
 }
 
-/// How the goals' statistics answer to the free heights; the fixed ones do not move.
+/// Derivatives of the goals' statistics by the free heights; fixed heights do not change.
 std::vector<Raster<double>> derivatives(Land const& land, FieldStatistics const& is, std::vector<Goal> const& goals,
                                         Bounds const& bounds, Run const& run) {
     std::vector<Raster<double>> fields;
@@ -378,15 +379,17 @@ std::vector<Raster<double>> derivatives(Land const& land, FieldStatistics const&
     return fields;
 }
 
-/// How statistics answer to the fields that move them: by goal the field C' g, C' the prior's covariance conditioned on
-/// the fixed heights and g the statistic's derivatives, as C g less what the fixed heights draw back; and g' C' g.
+/// Responses of statistics to the fields that change them: by goal the field C' g, where C' is the prior's covariance
+/// conditioned on the fixed heights and g the statistic's derivative, stored as C g minus the part due to the fixed
+/// heights; and g' C' g.
 struct Answers {
     std::vector<Raster<double>> fields;       ///< C g
     std::vector<std::vector<double>> weights; ///< of the fixed heights, by goal
     std::vector<double> products;             ///< g' C' g, lower triangle
 };
 
-/// Multiplies the fields by the covariance, two at a time, and gives g' C g.
+/// Multiplies the fields by the covariance, two at a time.
+/// \return g' C g
 std::vector<double> multiply_fields(std::vector<Raster<double>>& fields, Prior const& prior, Run const& run) {
     std::size_t const n = fields.size();
     std::vector<double> products(n * n);
@@ -401,7 +404,7 @@ std::vector<double> multiply_fields(std::vector<Raster<double>>& fields, Prior c
                 products[j * n + i + 1] = product(fields[j], second, run);
             }
         }
-        // From here on only the products are needed.
+        // Only the products are needed from here on.
         fields[i] = std::move(first);
         if (two) {
             fields[i + 1] = std::move(second);
@@ -428,9 +431,9 @@ Answers answers_of(std::vector<Raster<double>> derivatives, Prior const& prior, 
     return answers;
 }
 
-/// How far to go along each field: c such that g' C' g c = missing, at most reach times the longest steps.
-/// Metres, cells and radians: every statistic is scaled by its own deviation. One that answers to no height, or whose
-/// answer is not known, as on a plain, is left out: 0.
+/// Solves for the coefficients c of the fields: g' C' g c = missing, at most reach times the longest steps. Because
+/// units differ (metres, cells, radians), every statistic is scaled by its own deviation. A statistic that responds to
+/// no height, or whose response is undefined, as on a plain, is left out: 0.
 std::vector<double> amounts(std::vector<double> const& products, std::vector<Goal> const& goals,
                             FieldStatistics const& is, double reach, Run const& run) {
     std::size_t const n = goals.size();
@@ -457,7 +460,7 @@ std::vector<double> amounts(std::vector<double> const& products, std::vector<Goa
     return c;
 }
 
-/// The step of least energy that makes up for what is missing, to first order: free heights move by C' g c.
+/// Takes the step of least energy that removes the remaining differences to first order: free heights change by C' g c.
 void step(Land& land, FieldStatistics const& is, std::vector<Goal> const& goals, double reach, Bounds const& bounds,
           Prior const& prior, Run const& run) {
     Answers answers = answers_of(derivatives(land, is, goals, bounds, run), prior, run);
@@ -490,7 +493,7 @@ void check(Raster<float> const& dem, MatchParams const& params) {
     }
 }
 
-/// The extreme itself, or what lies beyond it.
+/// The extreme itself, or a cell beyond it.
 Residual residual_of_extreme(char const* name, FixedHeight const& asked, Raster<float> const& dem, double sign,
                              double deviation) {
     auto const wanted = static_cast<double>(static_cast<float>(asked.z));
@@ -504,11 +507,11 @@ Residual residual_of_extreme(char const* name, FixedHeight const& asked, Raster<
     if (beyond < 0.0) {
         return {name, asked.z, asked.z, 0.0};
     }
-    // A second cell as high is an error too, however small.
+    // A second cell of equal height is an error too, however small.
     return {name, asked.z, sign * furthest, std::max(beyond / deviation, std::numeric_limits<double>::min())};
 }
 
-/// The land that runs through the fixed heights and is nearest to the one handed in, by the prior.
+/// Conditions a DEM on the fixed heights with the least change, by the prior.
 Land through_fixed(Raster<float> const& dem, Bounds const& bounds, solver::StableCovariance const& covariance,
                    Run const& run) {
     Land land{Raster<double>(dem.grid()), dem};
@@ -527,7 +530,7 @@ Land through_fixed(Raster<float> const& dem, Bounds const& bounds, solver::Stabl
     return land;
 }
 
-/// The land nearest to the goals so far.
+/// The DEM closest to the goals so far.
 struct Nearest {
     MatchedDem found;
     FieldStatistics is;
@@ -546,7 +549,7 @@ void keep(Nearest& nearest, Land const& land, FieldStatistics const& is, double 
         std::count_if(land.free.values().begin(), land.free.values().end(), [&](double w) { return limiter.bends(w); });
 }
 
-/// Steps until the error is within the tolerance, no step helps or there have been enough.
+/// Takes steps until the error is within the tolerance, no step helps, or the number of iterations is reached.
 Nearest approach(Land land, FieldStatistics is, std::vector<Goal> const& goals, double deviation, Bounds const& bounds,
                  Prior const& prior, MatchParams const& params, Run const& run) {
     Nearest nearest;
@@ -570,7 +573,7 @@ Nearest approach(Land land, FieldStatistics is, std::vector<Goal> const& goals, 
         } else if (way == nearest.way) {
             reach = std::min(1.0, 2.0 * reach);
         }
-        // What the heights do not tell cannot be derived; the others may bring it back.
+        // Undefined statistics have no derivative; the others may make them defined again.
         std::vector<Goal> known;
         std::copy_if(goals.begin(), goals.end(), std::back_inserter(known),
                      [&](Goal const& goal) { return std::isfinite(missing(goal, is)); });
@@ -587,7 +590,7 @@ bool is_extreme(Residual const& one) {
     return one.name == "max" || one.name == "min";
 }
 
-/// Adds the residuals of the extremes, and says whether all are met.
+/// Adds the residuals of the extremes, and returns whether all are met.
 void add_extremes(MatchedDem& projection, Targets const& targets, double deviation, double tolerance) {
     for (auto const& [name, extreme, sign] :
          {std::tuple{"max", targets.max, 1.0}, std::tuple{"min", targets.min, -1.0}}) {
@@ -627,7 +630,7 @@ namespace {
 
 constexpr std::int64_t rows_a_range = 16;
 
-/// The window from -reach to reach, its sum 1.
+/// Weights of the window from -reach to reach, with sum 1.
 std::vector<double> window(double cells) {
     auto const reach = static_cast<std::int64_t>(std::ceil(3.0 * cells));
     std::vector<double> weights;
@@ -649,7 +652,7 @@ std::int64_t mirrored(std::int64_t i, std::int64_t side) {
     return i < side ? i : around - 1 - i;
 }
 
-/// Means of the one less means of the other: as means are linear, one pass serves both.
+/// The first DEM's means minus the second's: means are linear, so that one pass suffices.
 Raster<double> difference_of_means(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
     Indexed<std::int64_t, double> const weights = window(cells);
     auto const reach = static_cast<std::int64_t>(weights.size() / 2);

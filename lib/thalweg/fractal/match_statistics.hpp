@@ -53,7 +53,7 @@ struct MatchedDem {
     std::vector<Residual> residuals; ///< one per target
     bool converged = false;          ///< every error is within the tolerance
     int iterations = 0;
-    std::int64_t limited_cells = 0; ///< bent back because they would be near or beyond an extreme
+    std::int64_t limited_cells = 0; ///< limited because they would be near or beyond an extreme
     double largest_error = 0.0;     ///< of all residuals
 };
 

@@ -27,7 +27,8 @@ public:
     explicit Variogram(double hurst) {
         for (int col = 0; col <= longest; ++col) {
             for (int row = col % 2; row <= col;
-                 row += 2) { // of one parity: so the neighbours lie to one another and to the point
+                 // only offsets of one parity: as the neighbours lie relative to one another and to the point
+                 row += 2) {
                 int const square = col * col + row * row;
                 of_square_[static_cast<std::size_t>(square)] = portable::pow(0.5 * static_cast<double>(square), hurst);
             }
@@ -44,7 +45,7 @@ private:
     std::array<double, 2 * longest * longest + 1> of_square_{};
 };
 
-/// Solves the square system whose rows end in their right side, by elimination with the greatest pivots.
+/// Solves a square system, whose rows end with their right-hand side, by elimination with partial pivoting.
 std::vector<double> solve(std::vector<std::vector<double>> rows) {
     std::size_t const n = rows.size();
     for (std::size_t step = 0; step < n; ++step) {
@@ -86,7 +87,7 @@ std::vector<double> kriged(std::vector<Offset> const& points, Variogram const& v
     return weights;
 }
 
-/// Conditional deviation of the new point under any weights whose sum is 1.
+/// Conditional deviation of the new point for any weights with sum 1.
 double exact_deviation(std::vector<Offset> const& points, std::vector<double> const& weights,
                        Variogram const& variogram) {
     double variance = 0.0;
@@ -100,7 +101,7 @@ double exact_deviation(std::vector<Offset> const& points, std::vector<double> co
     return std::sqrt(variance > 0.0 ? variance : 0.0);
 }
 
-/// Means over neighbours that lie alike, of which elimination makes slightly different numbers.
+/// Averages the weights of symmetric neighbours, for which elimination gives slightly different numbers.
 void even_out(std::array<double, 16>& weight) {
     using Places = std::pair<std::size_t, std::size_t>;
     for (auto const& [first, last] : {Places{0, 4}, Places{4, 12}, Places{12, 16}}) {
@@ -144,12 +145,12 @@ StencilWeights stencil_weights(Stencil stencil, std::uint32_t known, double hurs
 
 namespace {
 
-// What a fractional Brownian surface through coarse heights is made with.
+// Parameters of a fractional Brownian surface through coarse heights.
 struct Conditioning {
     Raster<float> const* coarse = nullptr; // finite heights and NaN
-    int levels = 1;                        // [1, ...] times each cell is halved
+    int levels = 1;                        // [1, ...] number of halvings of a cell
     double hurst = 0.5;                    // H
-    double sigma = 0.0;                    // [m] a coarse cell apart
+    double sigma = 0.0;                    // [m] one coarse cell apart
     std::uint64_t seed = 0;
 };
 
@@ -170,7 +171,7 @@ std::vector<Cell> cells_with_heights(Raster<float> const& coarse) {
     return cells;
 }
 
-/// E (z(p) - z(q))^2 of coarse cells a column and a row distance apart, in units of sigma^2.
+/// E (z(p) - z(q))^2 of coarse cells at a distance in columns and rows, in units of sigma^2.
 class CoarseVariogram {
 public:
     CoarseVariogram(Grid const& grid, double hurst) : width_(grid.width) {
@@ -189,14 +190,14 @@ private:
     Indexed<CellIndex, double> of_distance_;
 };
 
-/// An interpolation: level less the sum of weights times variograms around the cells with heights.
+/// An interpolation: level minus the sum of weights times variograms around the cells with heights.
 struct Kriged {
     double level = 0.0;          ///< [m]
-    std::vector<double> weights; ///< sum 0, one a cell
+    std::vector<double> weights; ///< sum 0, one per cell
 };
 
-/// Ordinary kriging of values at cells. Heights relative to the first cell have a covariance, with which the unknown
-/// mean leaves the system.
+/// Ordinary kriging of values at cells. Heights relative to the first cell have a covariance, which eliminates the
+/// unknown mean from the system.
 Kriged krige(std::vector<Cell> const& cells, std::vector<double> const& values, CoarseVariogram const& variogram,
              Run const& run) {
     std::size_t const n = cells.size() - 1;
@@ -224,7 +225,7 @@ Kriged krige(std::vector<Cell> const& cells, std::vector<double> const& values, 
     return kriged;
 }
 
-/// Whether the coarse cells nearest to a place of the lattice (one, two or four) are all holes.
+/// Whether all coarse cells nearest to a lattice position (one, two or four) are holes.
 bool is_hole(Raster<float> const& coarse, std::int64_t col, std::int64_t row, int levels) {
     std::int64_t const half = (std::int64_t{1} << levels) / 2;
     std::int64_t const west = (col + half - 1) >> levels;
@@ -235,11 +236,11 @@ bool is_hole(Raster<float> const& coarse, std::int64_t col, std::int64_t row, in
            std::isnan(coarse[Cell{west, south}]) && std::isnan(coarse[Cell{east, south}]);
 }
 
-/// A conditioned surface in two terms, on the whole lattice.
+/// A conditioned surface as two terms, on the whole lattice.
 struct Terms {
-    Raster<double> random;     ///< [] of variance 1 a lattice cell apart; empty where sigma is 0
-    double scale = 0.0;        ///< [m] of the random one
-    Raster<double> variograms; ///< [m] empty where the kriged term is level
+    Raster<double> random;     ///< [-] of variance 1 one lattice cell apart; empty: sigma is 0
+    double scale = 0.0;        ///< [m] of the random term
+    Raster<double> variograms; ///< [m] empty: the kriged term is constant
     double level = 0.0;        ///< [m]
     double at(std::int64_t i) const {
         return level + (random.cells() > 0 ? scale * random[i] : 0.0) - (variograms.cells() > 0 ? variograms[i] : 0.0);
@@ -278,13 +279,12 @@ Terms terms_of(Conditioning const& c, std::vector<Cell> const& cells, Run const&
 }
 
 // Writes a lattice 2^levels finer than the coarse raster, from its north-western corner: a random fractional Brownian
-// surface plus what ordinary kriging, with its variogram, makes of the differences to the coarse heights. Takes: dem:
-// no more columns and rows than (coarse columns - 1) 2^levels + 1, any content. Gives: every cell of dem: the bits of
-// the coarse heights where they lie, NaN where all the nearest coarse cells are holes, and between them the surface
-// under the condition that it passes through the heights. A smaller dem is part of a larger one bit for bit; the same
-// bytes for any number of threads. Throws: BadParameter: more than most_conditioning_cells heights, or a lattice too
-// large for the solver. Source: Stein 2002 (the surface); conditioning by kriging as in Journel and Huijbregts 1978;
-// specification 1.6.
+// surface plus the kriged differences to the coarse heights (ordinary kriging with its variogram). dem: at most (coarse
+// columns - 1) 2^levels + 1 columns, rows likewise; every cell is written: the coarse heights bit for bit at their
+// positions, NaN where all nearest coarse cells are holes, elsewhere the surface conditioned on the heights. A smaller
+// dem is part of a larger one bit for bit; the same bytes for any number of threads. Throws BadParameter for more than
+// most_conditioning_cells heights, or a lattice too large for the solver. Source: Stein 2002 (the surface);
+// conditioning by kriging as in Journel and Huijbregts 1978; specification 1.6.
 void condition_surface(Conditioning const& conditioning, Raster<float>& dem, Run const& run) {
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
     Raster<float> const& coarse = *conditioning.coarse;
@@ -312,7 +312,7 @@ void condition_surface(Conditioning const& conditioning, Raster<float>& dem, Run
 }
 
 constexpr int most_levels = 30;
-constexpr double greatest_height_m = 1e30; // sums of sixteen such heights are floats still
+constexpr double greatest_height_m = 1e30; // sums of sixteen such heights still fit float
 constexpr std::int64_t longest_side = std::int64_t{1} << 40;
 
 void check_params(MidpointParams const& params) {
@@ -335,7 +335,7 @@ void check_params(MidpointParams const& params) {
         "fractal.midpoint: the exact surface has one H and one sigma; choose global adaptation, or a stencil of 16");
 }
 
-/// Throws where there is no height to use. Gives whether there are holes.
+/// Throws if there is no height; returns whether there are holes.
 bool check_heights(Raster<float> const& coarse) {
     refuse_if<BadInput>(coarse.cells() == 0, "fractal.midpoint: the coarse raster has no cells; give one at least");
     bool holes = false;
@@ -376,7 +376,7 @@ Grid result_grid(Grid const& coarse, MidpointParams const& params) {
                                        coarse_cells(grid.height, params.levels)));
     }
     grid.cell_m = coarse.cell_m / static_cast<double>(std::int64_t{1} << params.levels);
-    grid.west = coarse.west + 0.5 * (coarse.cell_m - grid.cell_m); // so that centres stay where they are
+    grid.west = coarse.west + 0.5 * (coarse.cell_m - grid.cell_m); // so that cell centres keep their positions
     grid.north = coarse.north - 0.5 * (coarse.cell_m - grid.cell_m);
     return grid;
 }
@@ -394,7 +394,8 @@ Character global_character(Raster<float> const& coarse, MidpointParams const& pa
     return character;
 }
 
-/// Gives every coarse cell its own H and sigma where they are others than those of all. Gives how many those are.
+/// Sets local H and sigma of coarse cells where they differ from the global ones.
+/// \return number of these cells
 std::int64_t adapt(Character& character, Raster<float> const& coarse, Run const& run) {
     constexpr std::int64_t half = 3; // of 7 x 7 cells
     Indexed<CellIndex, float> steps(coarse.cells());

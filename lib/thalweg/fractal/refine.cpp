@@ -13,7 +13,7 @@
 namespace thalweg::fractal {
 namespace {
 
-// Weights and deviations of one level, as its points want them.
+// Weights and deviations of one level, in the form that its points need.
 class LevelWeights {
 public:
     LevelWeights(Refinement const& refinement, int level) : refinement_(refinement), side_(std::ldexp(1.0, -level)) {
@@ -22,19 +22,19 @@ public:
             return;
         }
         for (int step = 0; step <= static_cast<int>(Character::steps_of_hurst); ++step) {
-            // No estimate comes near 0 or 1, where there is nothing to solve.
+            // Estimates never approach 0 or 1, where the system is degenerate.
             bool const useful = step > 0 && step < static_cast<int>(Character::steps_of_hurst);
             by_step_.push_back(useful ? at_hurst(step / Character::steps_of_hurst) : Simple{});
         }
     }
 
-    // For points with all their neighbours.
+    // For points that have all their neighbours.
     struct Simple {
         float middle = 0.0F;
         float farthest = 0.0F;
-        std::array<double, 2> deviation{}; // in units of sigma, of centres and of edges
+        std::array<double, 2> deviation{}; // in units of sigma, for centres and edges
     };
-    // Where H is the same everywhere.
+    // For a uniform H.
     Simple const& simple() const { return simple_; }
     // step: H in steps of Character::steps_of_hurst.
     Simple const& simple(float step) const { return by_step_[static_cast<std::size_t>(step)]; }
@@ -61,7 +61,7 @@ struct LocalCharacter {
     float sigma; // [m] a coarse cell apart
 };
 
-// Bilinear between the coarse points; for a character that varies.
+// Bilinear between the coarse points; for local H and sigma.
 LocalCharacter character_at(Refinement const& refinement, int level, std::int64_t col, std::int64_t row) {
     Character const& character = refinement.character;
     std::int64_t const width = refinement.coarse->width();
@@ -79,7 +79,7 @@ LocalCharacter character_at(Refinement const& refinement, int level, std::int64_
     return {std::floor(between(character.steps) + 0.5F), between(character.sigmas)};
 }
 
-// Whether all the coarse cells nearest to a point are holes.
+// Whether all coarse cells nearest to a point are holes.
 bool in_hole(Refinement const& refinement, int level, std::int64_t col, std::int64_t row) {
     std::int64_t const side = std::int64_t{1} << level;
     for (std::int64_t const r : {(row + side / 2 - 1) / side, (row + side / 2) / side}) {
@@ -94,7 +94,7 @@ bool in_hole(Refinement const& refinement, int level, std::int64_t col, std::int
 
 constexpr float no_height = std::numeric_limits<float>::quiet_NaN();
 
-/// New points of a row that lie alike: neighbour k of point i is neighbours[k][i].
+/// New points of a row with the same arrangement of neighbours: neighbour k of point i is neighbours[k][i].
 struct Points {
     float const* neighbours[16] = {};
     float const* noise = nullptr;
@@ -102,9 +102,9 @@ struct Points {
     float const* weight_farthest = nullptr;
     float const* deviation = nullptr; ///< [m]
     float* out = nullptr;
-    float const* others = nullptr; ///< in a woven row: what stands between the points
-    std::int64_t odd = 0;          ///< in a woven row: 1 where the points have the odd columns
-    bool stream = false;           ///< in a woven row: whether it is stored past the cache
+    float const* others = nullptr; ///< in a woven row: the points between the new ones
+    std::int64_t odd = 0;          ///< in a woven row: 1: the points have the odd columns
+    bool stream = false;           ///< in a woven row: whether stores bypass the cache
 };
 
 #define THALWEG_KERNELS <thalweg/fractal/internal/refine_lanes.inc>
@@ -132,7 +132,7 @@ template <bool varied> Makers makers(Stencil stencil, Lanes lanes) {
     }
 }
 
-/// A level: the points kept of it, and how many it has in all.
+/// A level: the points stored of it, and their total number.
 struct Lattice {
     float* z = nullptr;
     std::int64_t stride = 0;
@@ -143,12 +143,12 @@ struct Lattice {
     float const* row(std::int64_t r) const { return z + r * stride; }
 };
 
-/// Points of the level above under which a stencil of sixteen for the first `kept` points stays.
+/// Number of points of the coarser level that a stencil of sixteen needs for the first `kept` points.
 std::int64_t kept_above(std::int64_t kept, std::int64_t all) {
     return std::min(all, (kept - 1) / 2 + 4);
 }
 
-/// The points of one level that one worker makes: a band of rows, with a window of four rows of centres.
+/// The points of one level made by one worker: a band of rows, with a window of four rows of centres.
 class Band {
 public:
     Band(Refinement const& refinement, LevelWeights const& weights, Lattice const& from, Lattice const& to, int level)
@@ -169,7 +169,7 @@ public:
         rim_ = used_ == used_neighbours(Stencil::four) ? 0 : 1;
     }
 
-    /// Makes the rows 2 i and 2 i + 1 for i in [first, last).
+    /// Makes rows 2 i and 2 i + 1 for i in [first, last).
     void make_rows(std::int64_t first, std::int64_t last) {
         for (std::int64_t k = first - 2; k <= first; ++k) {
             make_centres(k);
@@ -182,7 +182,7 @@ public:
             }
         }
 #ifdef __x86_64__
-        __builtin_ia32_sfence(); // other threads shall see what was stored past the cache
+        __builtin_ia32_sfence(); // makes stores that bypass the cache visible to other threads
 #endif
     }
 
@@ -202,7 +202,7 @@ private:
     float const* window(std::int64_t k) const { return window_[k & 3].data(); }
     bool has_centres(std::int64_t k) const { return k >= 0 && k < from_.all_rows - 1; }
 
-    /// Where points go: to a row of their own, or between others.
+    /// Destination of points: a row of their own, or between others.
     struct Target {
         float* out;
         float const* others; ///< null: a row of their own
@@ -228,8 +228,8 @@ private:
                   {to_.z + (2 * i + 1) * to_.stride, window(i), to_.cols});
     }
 
-    /// Makes `count` points of a row. Those of an inner row from the column west on, but for the last ones of the
-    /// lattice, have all their neighbours.
+    /// Makes `count` points of a row. In an inner row the points from column west on, except the lattice's last ones,
+    /// have all their neighbours.
     void make_kind(Kind const& kind, bool inner, std::int64_t west, std::int64_t count, Target const& target) {
         NoisePlace const place{refinement_.seed, level_, kind.row, kind.odd};
         bool const woven = target.others != nullptr;
@@ -255,7 +255,7 @@ private:
                 make_rest(kind, target, begin, whole_begin, whole_end, true);
             }
         }
-        if (woven && count < (target.length + 1) / 2) { // the last column is one of the others
+        if (woven && count < (target.length + 1) / 2) { // the last column is one of the existing ones
             target.out[target.length - 1] = target.others[count];
         }
     }
@@ -277,7 +277,7 @@ private:
             points.others = target.others + begin;
             points.odd = odd;
             points.stream = stream_;
-            // The last point of an odd row has no other half: the same arithmetic, apart.
+            // The last point of an odd row has no partner: the same arithmetic, separately.
             std::int64_t const pairs = std::min(last, target.length / 2);
             make_.woven(points, first - begin, pairs - begin);
             if (pairs < last) {
@@ -288,7 +288,7 @@ private:
         }
     }
 
-    /// Makes the points [first, last) that lack neighbours; only_holes: those of them that came out as NaN.
+    /// Makes the points [first, last) that lack neighbours; only_holes: only those of them that are NaN.
     void make_rest(Kind const& kind, Target const& target, std::int64_t begin, std::int64_t first, std::int64_t last,
                    bool only_holes) {
         for (std::int64_t i = first; i < last; ++i) {
@@ -324,7 +324,7 @@ private:
             return;
         }
         for (std::int64_t i = begin; i < end; ++i) {
-            // A centre may stand for its east and south, past the result: the coarse raster goes on there.
+            // A centre may represent its east and south beyond the result: the coarse raster continues there.
             LocalCharacter const here = character_at(refinement_, level_, 2 * i + kind.odd, kind.row);
             LevelWeights::Simple const& simple = weights_.simple(here.step);
             std::int64_t const at = i - begin;
@@ -334,7 +334,7 @@ private:
         }
     }
 
-    /// Height of a neighbour, NaN where the lattice ends.
+    /// Height of a neighbour; NaN: beyond the lattice.
     float height_at(std::int64_t col, std::int64_t row) const {
         if (col < 0 || row < 0 || col > 2 * (from_.all_cols - 1) || row > 2 * (from_.all_rows - 1)) {
             return no_height;
@@ -342,7 +342,7 @@ private:
         return row % 2 == 0 ? from_.row(row / 2)[col / 2] : window(row / 2)[col / 2];
     }
 
-    /// A point some of whose neighbours are missing.
+    /// A point with missing neighbours.
     float make_one(Kind const& kind, std::int64_t i, float noise) {
         std::int64_t const col = 2 * i + kind.odd;
         if (refinement_.holes && in_hole(refinement_, level_, col, kind.row)) {
@@ -400,11 +400,11 @@ private:
     Indexed<std::int64_t, float> spare_;
     std::array<Indexed<std::int64_t, float>, 3> factors_;
     std::uint32_t used_;
-    std::int64_t rim_ = 0; ///< rows and columns of points at each border that lack neighbours
+    std::int64_t rim_ = 0; ///< rows and columns at each border whose points lack neighbours
     Makers make_{};
     bool varies_ = false;
     bool stream_ = false;
-    std::array<double, 2> reach_{}; ///< of centres and of edges, where H is the same everywhere
+    std::array<double, 2> reach_{}; ///< of centres and of edges, for a uniform H
     std::unordered_map<std::uint32_t, StencilWeights> solved_;
 };
 
@@ -419,7 +419,8 @@ void make_level(Refinement const& refinement, Lattice const& from, Lattice const
     });
 }
 
-/// The lattices of all levels, each as far as the next one needs it, in the result, the floors and the coarse raster.
+/// The lattices of all levels, each as far as the next finer one needs it, in the result, the floors and the coarse
+/// raster.
 Indexed<int, Lattice> plan_lattices(Refinement const& refinement, Raster<float>& dem, Floors& floors) {
     Raster<float> const& coarse = *refinement.coarse;
     Indexed<int, Lattice> lattices(refinement.levels + 1);
@@ -442,12 +443,12 @@ Indexed<int, Lattice> plan_lattices(Refinement const& refinement, Raster<float>&
             floor.resize(std::max(floor.size(), static_cast<std::size_t>(cols * rows)));
         }
     }
-    // Only now, since of a small result an upper level may be the larger one.
+    // At the end, since for a small result a coarser level may be the larger one.
     for (int level = 1; level < refinement.levels; ++level) {
         lattices[level].z = floor_of(level).data();
     }
     lattices.back().z = dem.values().data();
-    lattices.front().z = const_cast<float*>(coarse.values().data()); // only read
+    lattices.front().z = const_cast<float*>(coarse.values().data()); // only read, never written
     lattices.front().stride = coarse.width();
     return lattices;
 }

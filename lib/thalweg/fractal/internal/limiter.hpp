@@ -10,8 +10,8 @@
 
 namespace thalweg::fractal {
 
-/// Bends heights near the extremes so that none reaches them: the identity between two knees, beyond which the rest
-/// falls off exponentially, once continuously differentiable. Clipping would make plains there.
+/// Compresses heights near the extremes so that none reaches them: the identity between two knees, with an exponential
+/// tail beyond, continuously differentiable. Clipping would create plains.
 class Limiter {
 public:
     Limiter(Targets const& targets, double gap_m) {

@@ -11,7 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/fractal/midpoint.hpp>
 
-/// Implementation of midpoint: one dense lattice per level, each streamed row by row from the one above.
+/// Implementation of midpoint: one dense lattice per level, each streamed row by row from the coarser one.
 namespace thalweg::fractal {
 
 /// H and sigma at the coarse points, bilinear between them; without `steps` uniform.
