@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::uint8_t far_away = 3;
 
-/// Calls visit(index, ring) for the 5 x 5 cells around one, ring 0, 1 or 2.
+/// Calls visit(index, ring) for the 5 x 5 cells around a cell, ring 0, 1 or 2.
 template <class Visit> void around(std::int64_t centre, Grid const& grid, Visit visit) {
     Cell const at = grid.at(centre);
     for (std::int64_t dr = -2; dr <= 2; ++dr) {
@@ -32,7 +32,7 @@ template <class Visit> void around(std::int64_t centre, Grid const& grid, Visit 
     }
 }
 
-/// By cell the ring of the nearest of some cells: 0, 1, 2 or far_away.
+/// By cell: the ring of the nearest of some cells: 0, 1, 2 or far_away.
 Raster<std::uint8_t> rings(std::vector<std::int64_t> const& cells, Grid const& grid) {
     Raster<std::uint8_t> near(grid, far_away);
     for (std::int64_t const i : cells) {
@@ -94,7 +94,7 @@ std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& a
     if (thresholds.empty()) {
         return {0, {}};
     }
-    // How many thresholds an area reaches; counted there, and added up from above.
+    // Counts thresholds up to an area; counts are stored there and accumulated from above.
     auto const reached = [&](std::int64_t area) {
         return static_cast<std::size_t>(std::upper_bound(thresholds.begin(), thresholds.end(), area) -
                                         thresholds.begin());
@@ -145,13 +145,13 @@ std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& a
 namespace {
 
 constexpr std::int32_t no_reach = -1;
-constexpr std::int64_t listed = 1000; ///< findings of a kind
+constexpr std::int64_t listed = 1000; ///< most findings of a kind that are listed
 
 bool are_neighbours(Cell a, Cell b) {
     return std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) <= 1;
 }
 
-/// Adds the cells of a line to a mask, without corners: those between two that are neighbours.
+/// Adds the cells of a line to a mask, without corners: cells between two neighbours of each other.
 void mark_without_corners(std::vector<Vec2> const& line, Mask& marked) {
     std::vector<Cell> const cells = cells_along(line, marked.grid());
     Cell last{};
@@ -201,11 +201,11 @@ public:
     }
 
 private:
-    /// Cells where a reach begins to be honoured and ends, -1 when no part of it lies in the grid.
+    /// First and last cell where a reach is honoured; -1: no part of it lies in the grid.
     struct Ends {
         std::int64_t first = -1;
         std::int64_t last = -1;
-        bool waived = false; ///< it begins lower than it is drawn
+        bool waived = false; ///< its upper part is waived
     };
 
     bool is_honoured(std::int64_t cell) const { return claims_.honoured.cells() == 0 || claims_.honoured[cell] != 0; }
@@ -227,7 +227,7 @@ private:
         return line.empty() ? std::vector<Cell>{} : cells_of_vertices({line.front(), line.back()}, grid_);
     }
 
-    /// Not of what a reach has waived down to its last cell, which is the next one's first.
+    /// False for a reach that is waived up to its last cell, the next one's first.
     static bool brings_water(Ends const& ends) { return !ends.waived || (ends.first >= 0 && ends.first != ends.last); }
 
     void find_corners() {
@@ -275,7 +275,7 @@ private:
         });
     }
 
-    /// Marks the level cells around rivers that stand.
+    /// Marks the level cells around rivers in still water.
     void find_lakes() {
         lake_ = Mask(grid_);
         if (claims_.still.cells() == 0) {
@@ -304,7 +304,7 @@ private:
         }
     }
 
-    /// Without cells of which it is open whether water passes them.
+    /// Removes cells where it is undetermined whether water passes.
     std::vector<std::int64_t> plain(std::vector<std::int64_t> cells) const {
         std::erase_if(cells, [this](std::int64_t cell) { return lake_[cell] != 0 || corner_[cell] != 0; });
         return cells;
@@ -322,7 +322,7 @@ private:
         }
     }
 
-    /// Whether a reach is another, or lies downstream of it.
+    /// Whether a reach is another one, or lies downstream of it.
     bool leads_to(std::size_t from, flow::ReachId to) const {
         for (auto at = static_cast<flow::ReachId>(from); at >= 0; at = reaches_[at].ds) {
             if (at == to) {
@@ -374,7 +374,7 @@ private:
         }
     }
 
-    /// Where the network lets the water of a reach out: the last cell of the last reach that lies in the grid.
+    /// The outlet of a reach's water according to the network: the last cell of the last reach inside the grid.
     std::int64_t outlet_of(std::size_t reach) const {
         std::int64_t outlet = -1;
         for (auto at = static_cast<flow::ReachId>(reach); at >= 0; at = reaches_[at].ds) {
@@ -423,7 +423,7 @@ private:
         std::vector<std::int64_t> const rivers = with_data();
         std::vector<std::int64_t> const running = plain(rivers);
         if (running.empty() && !rivers.empty()) {
-            out_.traced.fill({1.0, 1.0}); // they are all lake: there is nothing to follow
+            out_.traced.fill({1.0, 1.0}); // all river cells lie in lakes: nothing to trace
         } else {
             out_.traced = agreement(plain(traced), running, grid_);
             if (claims_.drawn.cells() > 0) {
@@ -470,7 +470,7 @@ private:
     Mask corner_; ///< 1: only corners of reaches
     std::vector<flow::RiverCell> rivers_;
     Indexed<flow::ReachId, Ends> ends_;
-    Indexed<flow::ReachId, std::uint8_t> fed_; ///< another runs into it
+    Indexed<flow::ReachId, std::uint8_t> fed_; ///< another reach flows into it
     std::map<std::string, std::int64_t> told_;
     Certificate out_;
 };
@@ -513,7 +513,7 @@ Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, f
 
 namespace {
 
-/// The cells under ridges where the DEM has heights, ascending, none twice.
+/// The cells with data under ridges, ascending, without duplicates.
 std::vector<std::int64_t> cells_under(RidgeLines const& ridges, Raster<float> const& dem) {
     std::vector<std::int64_t> cells;
     for (RidgeLine const& ridge : ridges.lines) {

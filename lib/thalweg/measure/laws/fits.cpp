@@ -57,7 +57,7 @@ std::optional<LineFit> fit_line(std::vector<Vec2> const& points, std::vector<dou
         double const by = (points[i].y - mean.y) - fit.slope * (points[i].x - mean.x);
         missed.add(weight(i) * by * by);
     }
-    if (points.size() > 2) { // two say nothing of how well a line fits
+    if (points.size() > 2) { // a line through two points fits exactly
         if (yy.value() > 0.0) {
             fit.r2 = std::max(0.0, 1.0 - missed.value() / yy.value());
         }

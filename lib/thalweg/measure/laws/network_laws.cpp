@@ -99,10 +99,10 @@ namespace {
 
 struct MeanAndDeviation {
     double mean = 0.0;
-    double deviation = 0.0; // of all values, not of a sample
+    double deviation = 0.0; // of the population, not of a sample
 };
 
-// Takes: one value at least.
+// values: at least one.
 MeanAndDeviation mean_and_deviation(std::span<double const> values) {
     auto const n = static_cast<double>(values.size());
     CompensatedSum sum;
@@ -117,7 +117,7 @@ MeanAndDeviation mean_and_deviation(std::span<double const> values) {
     return {mean, std::sqrt(squares.value() / n)};
 }
 
-/// From the end of an arc to the place so far up its link; nothing where the link has not half of it.
+/// The position on a link at a distance upstream from the end of an arc; nothing: the link is shorter than half of it.
 std::optional<Vec2> chord_up(StreamNetwork const& network, std::size_t arc, double reach_m) {
     double left = reach_m;
     Vec2 const foot = network.node(network.to(arc)).at;
@@ -225,7 +225,7 @@ std::optional<PowerLaw> hack(StreamNetwork const& network, std::vector<double> c
     refuse_if<BadInput>(ds_area_m2.size() != network.arc_count() || (!head_m.empty() && head_m.size() != nodes),
                         "measure.hack: {} areas for {} arcs and {} heads for {} nodes; measure the network again",
                         ds_area_m2.size(), network.arc_count(), head_m.size(), nodes);
-    std::vector<double> longest(nodes, 0.0); // way of water above a node
+    std::vector<double> longest(nodes, 0.0); // longest flow path upstream of a node
     std::vector<AtArea> ends(network.arc_count());
     for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) {
         if (network.in(*n).empty() && !head_m.empty()) {

@@ -19,10 +19,10 @@ namespace {
 using PeakIndex = std::int32_t;
 constexpr PeakIndex no_peak = -1;
 
-/// Each cell with the peak that the highest neighbours lead to.
+/// Maps each cell to the peak reached by ascending to the highest neighbour.
 struct Summits {
     Raster<PeakIndex> of;
-    Indexed<PeakIndex, std::int64_t> cell; ///< of a peak
+    Indexed<PeakIndex, std::int64_t> cell; ///< cell of a peak
 };
 
 bool is_higher(Raster<float> const& dem, std::int64_t a, std::int64_t b) {
@@ -71,7 +71,7 @@ Summits climb(Raster<float> const& dem, Run const& run) {
     return found;
 }
 
-/// Where the lands of two peaks meet highest.
+/// The highest saddle between the areas of two peaks.
 struct Saddle {
     float z;
     PeakIndex a;
@@ -109,7 +109,7 @@ std::vector<Saddle> saddles(Raster<float> const& dem, Summits const& summits, Ru
     return found;
 }
 
-/// Joins the lands of peaks, from the highest saddle down; the lower peak of two gets its prominence.
+/// Joins the areas of peaks from the highest saddle down; the lower peak of two gets its prominence.
 class Joining {
 public:
     Joining(Raster<float> const& dem, Indexed<PeakIndex, std::int64_t> const& cell)
@@ -129,7 +129,7 @@ public:
         prominence_[lower] = static_cast<double>(dem_[cell_[lower]]) - static_cast<double>(saddle.z);
         highest_[lower] = lower == a ? b : a;
     }
-    /// The highest peak of what is joined so far; the way to it is halved for the next who asks.
+    /// The highest peak of the joined area, with path halving.
     PeakIndex highest_peak(PeakIndex peak) {
         while (highest_[peak] != peak) {
             highest_[peak] = highest_[highest_[peak]];
@@ -146,7 +146,7 @@ private:
     Indexed<PeakIndex, double> prominence_;
 };
 
-/// The highest peak of each connected land stands above its lowest cell.
+/// The highest peak of each connected area gets its height above the lowest cell as prominence.
 void finish(Raster<float> const& dem, Summits const& summits, Joining& joining) {
     Indexed<PeakIndex, float> lowest(summits.cell.count(), std::numeric_limits<float>::infinity());
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -195,7 +195,7 @@ namespace {
 
 constexpr std::int64_t none_yet = std::numeric_limits<std::int64_t>::max();
 
-/// The least square of a distance to a higher cell among those of the ring, in cells.
+/// The least squared distance [cells^2] to a higher cell of the ring.
 std::int64_t nearest_of_ring(Raster<float> const& dem, Cell at, std::int64_t ring) {
     std::int64_t nearest = none_yet;
     auto const look = [&](Cell there) {
@@ -231,7 +231,7 @@ namespace {
 
 constexpr double square_metres_a_km2 = 1e6;
 
-/// The middle one, or the mean of the middle two; NaN of nothing.
+/// The median, or the mean of the middle two; NaN: no values.
 double median(std::vector<double> values) {
     if (values.empty()) {
         return std::numeric_limits<double>::quiet_NaN();

@@ -23,7 +23,7 @@ constexpr std::int64_t rows_a_range = 16;
 using enum Form;
 using FormsOfRise = std::array<Form, 9>;
 
-/// By directions that fall, then by those that rise; no more than eight are there.
+/// By number of falling directions, then of rising ones; at most eight in all.
 constexpr std::array<FormsOfRise, 9> forms = {{
     {flat, flat, flat, footslope, footslope, valley, valley, valley, pit},
     {flat, flat, footslope, footslope, footslope, valley, valley, valley, none},
@@ -38,8 +38,8 @@ constexpr std::array<FormsOfRise, 9> forms = {{
 
 struct Sight {
     Cell step;
-    std::int64_t cells; ///< the farthest one is so many steps away
-    double level;       ///< [m] a step: what is less steep is level
+    std::int64_t cells; ///< number of steps to the farthest cell
+    double level;       ///< [m] per step: gentler slopes are level
 };
 
 std::array<Sight, 8> sights(GeomorphonParams const& params, double cell_m) {
@@ -59,7 +59,7 @@ std::array<Sight, 8> sights(GeomorphonParams const& params, double cell_m) {
     return all;
 }
 
-/// What one row of cells sees.
+/// The lines of sight from one row of cells.
 class RowOfLookers {
 public:
     RowOfLookers(Raster<float> const& dem, GeomorphonParams const& params)
@@ -81,8 +81,8 @@ public:
     }
 
 private:
-    /// Metres a step; the length of a step is left for the comparison with what is level, so that sights as steep as
-    /// one another are so in numbers too.
+    /// Slopes in metres per step; the length of a step enters only the comparison with the flatness threshold, so that
+    /// equally steep lines of sight have equal numbers.
     void steepest(std::int64_t row, Sight const& sight) {
         constexpr double unseen = std::numeric_limits<double>::infinity();
         std::fill(up_.begin(), up_.end(), -unseen);

@@ -25,7 +25,7 @@ namespace {
 constexpr std::int64_t cells_a_range = 1 << 20;
 constexpr std::int64_t shares = 100;
 
-/// Order of floats as unsigned numbers; both zeros are one.
+/// Maps floats to unsigned numbers in the same order; both zeros are equal.
 std::uint32_t rank_of(float z) {
     auto const bits = std::bit_cast<std::uint32_t>(z + 0.0F);
     constexpr std::uint32_t sign = 0x80000000U;
@@ -37,7 +37,7 @@ float height_of(std::uint32_t rank) {
     return std::bit_cast<float>((rank & sign) != 0 ? rank & ~sign : ~rank);
 }
 
-/// A rank is read in three digits, the highest first.
+/// A rank has three digits, read from the highest.
 struct Digit {
     unsigned shift;
     unsigned bits;
@@ -46,18 +46,18 @@ struct Digit {
 };
 constexpr std::array<Digit, 3> digits{{{21, 11}, {10, 11}, {0, 10}}};
 
-/// The digits read so far of the cells that are sought: from each digit's value to the node for the next digit.
+/// The digits read so far of the wanted cells: maps each digit to the node for the next digit.
 using Nodes = std::vector<std::uint32_t>;
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
-/// A cell that is sought by its place from the top, among those that share its digits so far.
+/// A cell wanted by its position from the top, among those with the same digits so far.
 struct Sought {
     std::int64_t place = 0;
     std::size_t node = 0;
     std::uint32_t rank = 0; ///< its digits so far
 };
 
-/// Counts the cells of each node by their digit of this depth.
+/// Counts the cells of each node by their digit at this depth.
 std::vector<std::int64_t> count(Raster<float> const& dem, std::vector<Nodes> const& above, std::size_t nodes,
                                 std::size_t depth, Run const& run) {
     std::size_t const values = digits[depth].values();
@@ -85,7 +85,7 @@ std::vector<std::int64_t> count(Raster<float> const& dem, std::vector<Nodes> con
     return total;
 }
 
-/// The heights at these places from the top.
+/// The heights at these positions from the top.
 std::vector<double> heights_at(std::vector<std::int64_t> const& places, Raster<float> const& dem, Run const& run) {
     std::vector<Sought> sought;
     for (std::int64_t const place : places) {
@@ -119,7 +119,7 @@ std::vector<double> heights_at(std::vector<std::int64_t> const& places, Raster<f
     return heights;
 }
 
-/// Number of cells with a height. Throws where one is infinite or none is there.
+/// Number of cells with a height; throws if one is infinite or none has one.
 std::int64_t cells_with_height(Raster<float> const& dem) {
     std::int64_t cells = 0;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -137,7 +137,7 @@ std::int64_t cells_with_height(Raster<float> const& dem) {
     return cells;
 }
 
-/// Mean height above the lowest; rows are put together in their order.
+/// Mean height above the lowest, summed in row order.
 double mean_above(double lowest, Raster<float> const& dem, std::int64_t cells, Run const& run) {
     Indexed<RowIndex, CompensatedSum> rows(dem.height());
     parallel_ranges(run, dem.height(), 64, [&](std::int64_t begin, std::int64_t end) {
@@ -162,7 +162,7 @@ Hypsometry hypsometry(Raster<float> const& dem, Run const& run) {
     std::int64_t const cells = cells_with_height(dem);
     std::vector<std::int64_t> places;
     for (std::int64_t k = 0; k <= shares; ++k) {
-        // The product of a large DEM's cells and 100 stays far below 2^63.
+        // The product of a large DEM's cells and 100 is far below 2^63.
         places.push_back(k * (cells - 1) / shares);
     }
     std::vector<double> const heights = heights_at(places, dem, run);

@@ -16,7 +16,7 @@ double share(std::array<double, form_count> const& shares, Form form) {
     return shares[static_cast<std::size_t>(form) - 1];
 }
 
-/// Rivers' length over the area of all cells with data.
+/// Length of rivers over the area of all cells with data.
 double density(flow::FlowField const& drainage, std::int64_t cells, std::int64_t support_cells) {
     double const cell_m = drainage.direction.grid().cell_m;
     CompensatedSum length;
@@ -73,9 +73,9 @@ double total_variation(std::array<double, form_count> const& a, std::array<doubl
 
 namespace {
 
-constexpr double wide = 1.5;   // regions differ more than the two reference DEMs do
-constexpr double wider = 2.0;  // of land with finer texture there is more
-constexpr double widest = 5.0; // one plain makes the difference
+constexpr double wide = 1.5;   // regions differ more than the two reference DEMs
+constexpr double wider = 2.0;  // finer textures are common
+constexpr double widest = 5.0; // one plain is enough to change it
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
 double over(std::int64_t a, std::int64_t b) {

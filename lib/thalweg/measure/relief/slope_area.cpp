@@ -96,7 +96,7 @@ void check(ChiParams const& params, Raster<float> const& dem, flow::FlowField co
                         "measure.chi: the DEM and its drainage have different grids; drain this DEM");
 }
 
-/// Cells where rivers leave the DEM, those that drain most first.
+/// Cells where rivers leave the DEM, in descending order of contributing area.
 std::vector<std::int64_t> mouths(flow::FlowField const& drainage, ChiParams const& params) {
     std::vector<std::int64_t> all;
     for (std::int64_t i = 0; i < drainage.direction.cells(); ++i) {
@@ -111,7 +111,7 @@ std::vector<std::int64_t> mouths(flow::FlowField const& drainage, ChiParams cons
     return all;
 }
 
-/// The neighbour that brings most water to a cell, as a direction from there; -1 where none does.
+/// The direction to the neighbour with the largest contributing area among donors; -1: none.
 int main_donor(flow::FlowField const& drainage, Cell cell) {
     int best = -1;
     std::int64_t most = 0;
@@ -128,7 +128,7 @@ int main_donor(flow::FlowField const& drainage, Cell cell) {
     return best;
 }
 
-/// Chi and height along the stem above a mouth.
+/// Chi and height along the stem upstream of a mouth.
 std::vector<Vec2> stem_above(Raster<float> const& dem, flow::FlowField const& drainage, std::int64_t mouth,
                              ChiParams const& params) {
     Grid const& grid = dem.grid();
@@ -147,7 +147,7 @@ std::vector<Vec2> stem_above(Raster<float> const& dem, flow::FlowField const& dr
     return stem;
 }
 
-/// Squares of the heights' distances from their mean.
+/// Sum of squared deviations of heights from their mean.
 double spread(std::vector<Vec2> const& stem) {
     CompensatedSum sum;
     for (Vec2 const p : stem) {

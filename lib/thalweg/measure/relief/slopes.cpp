@@ -21,11 +21,11 @@ constexpr std::size_t classes_a_degree = 100;
 constexpr std::size_t classes = 90 * classes_a_degree;
 constexpr std::size_t degrees_a_share = 2;
 
-/// Tangents of half the sectors around the eight directions.
+/// Tangents of the half angle of sectors around the eight directions.
 struct Sector {
     double straight; ///< of the angle itself: beside an axis
-    double diagonal; ///< of 45 degrees less it: beside a diagonal
-    double even;     ///< share of all aspects that lies in the eight of them
+    double diagonal; ///< of 45 degrees minus the angle: beside a diagonal
+    double even;     ///< share of uniform aspects in the eight sectors
 };
 
 Sector sector(double half_deg) {
@@ -36,7 +36,7 @@ Sector sector(double half_deg) {
     return {tangent(half_deg), tangent(45.0 - half_deg), half_deg / 22.5};
 }
 
-/// What some rows add. The blocks are put together in their order, whichever thread made them.
+/// Sums over some rows. Blocks are combined in order, regardless of the thread that computed them.
 struct Block {
     std::vector<std::int64_t> counts; ///< by class of slope
     CompensatedSum degrees;
@@ -83,7 +83,7 @@ void add_row(Raster<float> const& dem, std::int64_t row, Sector const& wide, Sec
     }
 }
 
-/// The slope below which a share of the cells lies, those of a class spread evenly over it.
+/// The slope below which a share of the cells lies, with cells spread evenly within a class.
 double percentile(std::vector<std::int64_t> const& counts, std::int64_t cells, double share) {
     double const wanted = share * static_cast<double>(cells);
     double before = 0.0;
@@ -97,7 +97,7 @@ double percentile(std::vector<std::int64_t> const& counts, std::int64_t cells, d
     return std::numeric_limits<double>::quiet_NaN();
 }
 
-/// Deviation from the sums of values and of their squares.
+/// Standard deviation from the means of values and of their squares.
 double deviation(double mean, double mean_of_squares) {
     return std::sqrt(std::max(0.0, mean_of_squares - mean * mean));
 }
@@ -201,7 +201,8 @@ Raster<Ground> grounds(Raster<float> const& dem, double below_deg, Run const& ru
     return found;
 }
 
-/// Counts the patch of a cell and leaves it steep. The outermost cells are none: no neighbour is off the grid.
+/// Counts the patch of a cell and marks it as steep, so that it is counted once. Border cells are never in a patch: no
+/// neighbour is off the grid.
 std::int64_t take_patch(Raster<Ground>& ground, std::int64_t start, std::array<std::int64_t, 8> const& offsets,
                         std::vector<std::int64_t>& open) {
     std::int64_t cells = 0;

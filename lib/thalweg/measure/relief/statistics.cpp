@@ -20,7 +20,7 @@ namespace {
 
 constexpr std::int64_t rows_a_sum = 8;
 
-/// What one row adds. The rows are put together in their order, whichever thread made them.
+/// Sums over one row. Rows are combined in order, regardless of the thread that computed them.
 struct RowSums {
     std::int64_t cells = 0;
     Extreme min;
@@ -105,7 +105,7 @@ void add_powers(Raster<float> const& dem, std::int64_t row, double mean, RowSums
     }
 }
 
-/// The mean of two axes' means, or that of the one which has pairs.
+/// The mean of two axes' means, or of the only one with pairs.
 double mean_of_axes(double row_sum, std::int64_t row_pairs, double column_sum, std::int64_t column_pairs) {
     double const along_row = row_sum / static_cast<double>(row_pairs);
     double const along_column = column_sum / static_cast<double>(column_pairs);
@@ -115,7 +115,7 @@ double mean_of_axes(double row_sum, std::int64_t row_pairs, double column_sum, s
     return column_pairs == 0 ? along_row : (along_row + along_column) / 2.0;
 }
 
-/// First cell with a height, having seen that all heights are numbers.
+/// First cell with a height; checks that no height is infinite.
 double first_height(Raster<float> const& dem) {
     auto const values = dem.values();
     auto const infinite = std::find_if(values.begin(), values.end(), [](float z) { return std::isinf(z); });
@@ -141,7 +141,7 @@ double total(std::vector<RowSums> const& rows, CompensatedSum RowSums::*member) 
     return sum.value();
 }
 
-/// Extremes, counts, mean, slopes and roughness: what one walk over the cells gives.
+/// Extremes, counts, mean, slopes and roughness from one pass over the cells.
 Statistics first_figures(std::vector<RowSums> const& rows, std::int64_t cells, double datum) {
     Statistics result;
     std::int64_t row_pairs = 0;
@@ -176,7 +176,8 @@ void add_moments(Statistics& result, std::vector<RowSums> const& rows) {
 } // namespace
 
 Statistics statistics(Raster<float> const& dem, Run const& run) {
-    // Sums count from a height of the DEM: no digits go into an offset, and a plain has a deviation of exactly 0.
+    // Sums are relative to a height of the DEM: no digits are lost to an offset, and a plain has a deviation of exactly
+    // 0.
     double const datum = first_height(dem);
     refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
                         "measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",

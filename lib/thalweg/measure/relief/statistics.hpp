@@ -28,7 +28,7 @@ struct Statistics {
         0.0; ///< [rad] mean of arctan |grad z| with z in metres and a spacing of one cell (Zhang, Liu and Li)
     double slope_true_deg = 0.0; ///< [deg] mean slope with the true cell size
 
-    // NaN where the heights tell none: on a plain, or along an axis of fewer than four cells or so.
+    // NaN if undefined: on a plain, or along an axis of fewer than about four cells.
     double skew = 0.0;             ///< [-] population
     double kurtosis = 0.0;         ///< [-] population excess kurtosis
     double roughness_m = 0.0;      ///< [m] mean absolute difference of neighbours, averaged over rows and columns

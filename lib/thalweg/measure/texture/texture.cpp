@@ -16,7 +16,7 @@
 namespace thalweg::measure {
 namespace {
 
-// Structure tensor of unit gradients, and the share of cells with data that it comes from.
+// Structure tensor of unit gradients, and the share of cells with data that contribute.
 struct Tensor {
     double xx = 0.0;
     double yy = 0.0;
@@ -41,7 +41,7 @@ struct Tensor {
 
 constexpr double deviations = 4.0;
 
-/// Weights at 0, 1, 2 ... blocks from the middle; both sides together weigh 1.
+/// Weights at 0, 1, 2 ... blocks from the centre; both sides together sum to 1.
 std::vector<double> half_of_window(double window) {
     auto const reach = static_cast<std::size_t>(deviations * window + 0.5);
     std::vector<double> half(reach + 1);
@@ -57,13 +57,13 @@ std::vector<double> half_of_window(double window) {
     return half;
 }
 
-/// The place that a mirror at both ends of [0, count) shows at `place`.
+/// The index in [0, count) that reflection at both ends maps `place` to.
 std::int64_t mirrored(std::int64_t place, std::int64_t count) {
     std::int64_t const turn = ((place % (2 * count)) + 2 * count) % (2 * count);
     return turn < count ? turn : 2 * count - 1 - turn;
 }
 
-/// Along columns of a grid, into one with rows and columns exchanged.
+/// Smooths along columns into a transposed grid.
 Raster<Tensor> smooth_and_turn(Raster<Tensor> const& blocks, std::vector<double> const& half, Run const& run) {
     Grid turned = blocks.grid();
     std::swap(turned.width, turned.height);
@@ -85,20 +85,20 @@ Raster<Tensor> smooth_and_turn(Raster<Tensor> const& blocks, std::vector<double>
     return out;
 }
 
-// Averages tensors in a Gaussian window, cut at four deviations; the grid is mirrored at its edges. `blocks`: means
-// over blocks of cells. `window`: [blocks] > 0, standard deviation. Returns by block; the same bits for any number of
-// threads.
+// Averages tensors in a Gaussian window, truncated at four standard deviations; the grid is reflected at its edges.
+// `blocks`: means over blocks of cells. `window`: [blocks] > 0, standard deviation. Returns by block; the same bits for
+// any number of threads.
 Raster<Tensor> smooth_blocks(Raster<Tensor> const& blocks, double window, Run const& run) {
     std::vector<double> const half = half_of_window(window);
     return smooth_and_turn(smooth_and_turn(blocks, half, run), half, run);
 }
 
 constexpr double too_small = std::numeric_limits<double>::quiet_NaN();
-constexpr double blocks_a_window = 8.0; // the window's weights change little from one block to the next
-constexpr double least_weight = 0.98;   // of the window on cells with data
-constexpr double border_windows = 2.0;  // beyond it a window has 2 % of its weight
+constexpr double blocks_a_window = 8.0; // the window's weights change little between blocks
+constexpr double least_weight = 0.98;   // share of the window on cells with data
+constexpr double border_windows = 2.0;  // at this distance 2 % of a window's weight lie beyond the border
 
-/// Unit vectors uphill; 0 where the DEM is level, NaN where it has no data.
+/// Unit vectors uphill; 0: level, NaN: no data.
 struct UnitGradients {
     Raster<float> x;
     Raster<float> y;
@@ -148,7 +148,7 @@ struct Products {
     double mean() const { return pairs > 0 ? sum / static_cast<double>(pairs) : too_small; }
 };
 
-/// Over the pairs of cells that lie `lag` apart.
+/// Sums products over the pairs of cells `lag` apart.
 Products products(UnitGradients const& unit, Cell lag, Run const& run) {
     std::int64_t const offset = lag.row * unit.x.width() + lag.col;
     return sum_rows(run, unit.x.height() - lag.row, [&](std::int64_t r) {
@@ -186,7 +186,7 @@ Tensor tensor_of(UnitGradients const& unit, std::int64_t cell) {
     return std::isnan(x) ? Tensor{} : Tensor{x * x, y * y, x * y, 1.0};
 }
 
-/// Means of the tensor over square blocks of `side` cells.
+/// Mean tensors over square blocks of `side` cells.
 Raster<Tensor> blocks_of(UnitGradients const& unit, std::int64_t side, Run const& run) {
     Grid grid = unit.x.grid();
     grid.width = (grid.width + side - 1) / side;
@@ -266,7 +266,7 @@ struct Channels {
     }
 };
 
-/// Whether the channel cell that flows here does so in the same direction.
+/// Whether the upstream channel cell flows here in the same direction.
 bool run_goes_on_upstream(Channels const& channels, Cell at, flow::Direction direction) {
     Cell const step = d8_steps[index_of(direction)];
     Cell const above{at.col - step.col, at.row - step.row};
@@ -284,7 +284,7 @@ std::int64_t run_from(flow::FlowField const& drainage, std::int64_t cell) {
     return steps;
 }
 
-/// The cells of a reach; fewer than steps + 1 where the water ends.
+/// Collects the cells of a reach; fewer than steps + 1 if the water ends.
 void walk(flow::FlowField const& drainage, std::int64_t cell, std::int64_t steps, std::vector<Cell>& reach) {
     reach.clear();
     for (std::int64_t at = cell; at >= 0; at = drainage.receiver(at)) {

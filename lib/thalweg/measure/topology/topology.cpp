@@ -83,7 +83,7 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
         if (left_out[a] != 0) {
             plans[a].clear();
         } else if (plans[a].empty() && file.arcs[a].from_node == file.arcs[a].to_node) {
-            left_out[a] = 1; // it leads nowhere
+            left_out[a] = 1; // the link has no target
         }
     }
     double const near_m = params.near_m > 0.0 ? params.near_m : 1e-6 * diagonal_of(plans);
@@ -131,7 +131,7 @@ NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders)
         arc.id = static_cast<std::int64_t>(a) + 1;
         arc.from_node = static_cast<std::int64_t>(network.plan.from(a)) + 1;
         arc.to_node = static_cast<std::int64_t>(network.plan.to(a)) + 1;
-        arc.ds_arc = static_cast<std::int64_t>(network.plan.out(network.plan.to(a)) + 1); // 0 for none
+        arc.ds_arc = static_cast<std::int64_t>(network.plan.out(network.plan.to(a)) + 1); // 0: none
         arc.strahler = orders.strahler[a];
         arc.shreve = orders.shreve[a];
         arc.basin = orders.arc_basin[a];

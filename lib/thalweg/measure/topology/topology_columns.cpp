@@ -12,7 +12,7 @@
 namespace thalweg::measure::topology_steps {
 namespace {
 
-// The numbers that a file holds of its trees: downstream arcs, orders, basins.
+// The file's values of the trees: downstream arcs, orders, basins.
 
 void check_downstream(NetworkFile const& file, Graph const& g, std::vector<char> const& ambiguous, Findings& findings) {
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
@@ -23,7 +23,7 @@ void check_downstream(NetworkFile const& file, Graph const& g, std::vector<char>
         auto const next = g.out.at(g.ends[a][1]);
         std::int64_t const right = next.empty() ? 0 : file.arcs[next.front()].id;
         bool const agrees = next.empty() ? arc.ds_arc == 0 : std::any_of(next.begin(), next.end(), [&](std::size_t n) {
-            return file.arcs[n].id == arc.ds_arc || ambiguous[n] != 0; // whose id may be the wrong one of both
+            return file.arcs[n].id == arc.ds_arc || ambiguous[n] != 0; // its id may be the wrong one of the two
         });
         if (!agrees) {
             findings.push_back({"ds_arc_mismatch", number_of(file, arc), start_of(arc),
@@ -65,7 +65,7 @@ Orders orders_below(std::span<std::size_t const> in, std::vector<Orders> const& 
 }
 
 void check_orders(NetworkFile const& file, Graph const& g, std::size_t junctions, Findings& findings) {
-    std::vector<Orders> orders(file.arcs.size(), Orders{0, 0}); // 0 while unknown
+    std::vector<Orders> orders(file.arcs.size(), Orders{0, 0}); // 0: unknown
     std::vector<std::size_t> awaited;                           // by junction
     std::vector<std::size_t> ready;
     for (std::size_t j = 0; j < junctions; ++j) {
@@ -77,7 +77,7 @@ void check_orders(NetworkFile const& file, Graph const& g, std::size_t junctions
     for (std::size_t i = 0; i < ready.size(); ++i) {
         auto const out = g.out.at(ready[i]);
         if (out.size() != 1) {
-            continue; // an outlet, or a river that divides
+            continue; // an outlet, or a bifurcation
         }
         orders[out[0]] = orders_below(g.in.at(ready[i]), orders);
         if (std::size_t const to = g.ends[out[0]][1]; --awaited[to] == 0) {
@@ -97,7 +97,7 @@ void check_orders(NetworkFile const& file, Graph const& g, std::size_t junctions
     }
 }
 
-/// By arc: the junction of the outlet that its water reaches by ways that do not divide, none for no such.
+/// By arc: the junction of its outlet by paths without bifurcations, or none.
 std::vector<std::size_t> outlets_of(std::vector<Ends> const& ends, Graph const& g, std::size_t junctions) {
     std::vector<std::size_t> outlet(ends.size(), none);
     for (std::size_t j = 0; j < junctions; ++j) {
@@ -195,14 +195,14 @@ namespace {
 
 // The columns of the network schema that follow from lines and trees.
 
-constexpr double of_lengths = 1e-6; // [m] what files round coordinates to, a vertex
-constexpr double of_values = 1e-9;  // relative: what decimals of a column leave of a double
+constexpr double of_lengths = 1e-6; // [m] per vertex: files round coordinates to this
+constexpr double of_values = 1e-9;  // relative: precision of a column's decimals
 
 double tolerance(double right, double vertices) {
     return of_lengths * (1.0 + vertices) + of_values * std::fabs(right);
 }
 
-/// What follows from an arc's line.
+/// Values that follow from an arc's line.
 struct Measured {
     double length = 0.0;
     double length_3d = 0.0;
@@ -223,7 +223,7 @@ Measured measured(FileArc const& arc) {
     return of;
 }
 
-/// What follows from the tree of an arc's outlet.
+/// Values that follow from the tree of an arc's outlet.
 struct InTree {
     bool known = false;
     double steps = 0.0; ///< arcs to the outlet, itself included
@@ -259,7 +259,7 @@ public:
     }
 
 private:
-    /// From the outlets up, as far as rivers do not divide.
+    /// From the outlets upstream, as far as there are no bifurcations.
     void walk_trees() {
         for (std::size_t j = 0; j < joints_.junctions.ids.size(); ++j) {
             if (!g_.out.at(j).empty()) {
@@ -287,7 +287,7 @@ private:
         }
     }
 
-    /// By arc the longest way [m] from a source to its end, and Strahler's order.
+    /// By arc: the longest path [m] from a source to its end, and Strahler's order.
     void find_longest() {
         longest_.assign(file_.arcs.size(), 0.0);
         strahler_.assign(file_.arcs.size(), 1.0);
@@ -320,7 +320,7 @@ private:
         NetworkFile::ArcColumns const& told = arc.columns;
         Measured const& of = measured_[a];
         if (arc.line.size() < 2) {
-            return; // found elsewhere
+            return; // reported elsewhere
         }
         double const slack = tolerance(of.length, of.vertices);
         compare(a, "length", told.length_m, of.length, slack);
@@ -352,14 +352,14 @@ private:
         check_hack(a);
     }
 
-    /// What the Hack orders of a node's arcs are held against.
+    /// Reference values for the Hack orders of a node's arcs.
     struct AtNode {
         double below = 1.0;    ///< the order of the arc that leaves
-        double longest = 0.0;  ///< [m] of the ways that end here
-        std::size_t mains = 0; ///< arcs that end here with the order below
+        double longest = 0.0;  ///< [m] of the paths that end here
+        std::size_t mains = 0; ///< number of arcs that end here with the downstream order
     };
 
-    /// By node; once for all arcs of one, since a node may have any number of them.
+    /// Computed per node, since a node may have any number of arcs.
     void note_hack() {
         at_node_.resize(joints_.junctions.ids.size());
         for (std::size_t j = 0; j < at_node_.size(); ++j) {
@@ -373,7 +373,7 @@ private:
         }
     }
 
-    /// Of the arcs that end in one node one on the longest way goes on with the order below; the others have one more.
+    /// At a node one arc on the longest path keeps the downstream order; the others have one more.
     void check_hack(std::size_t a) {
         auto const [below, most, mains] = at_node_[g_.ends[a][1]];
         bool const may_be_main = longest_[a] >= most - tolerance(most, 2.0 * tree_[a].vertices + 1000.0);
@@ -385,7 +385,7 @@ private:
         compare(a, "hack", told, below + (may_be_main ? 0.0 : 1.0), 0.0);
     }
 
-    /// Areas never fall downstream.
+    /// Areas must not decrease downstream.
     void check_areas(std::size_t a) {
         FileArc const& arc = file_.arcs[a];
         if (!file_.says.areas || !file_.says.downstream || file_.schema != "native") {
@@ -399,7 +399,7 @@ private:
             }
         }
         auto const at_least = [&](char const* name, double told, double least) {
-            if (told >= 0.0 && told < least) { // -1 where nobody knows
+            if (told >= 0.0 && told < least) { // -1: unknown
                 compare(a, name, told, least, 1e-3 + of_values * least);
             }
         };
@@ -424,7 +424,7 @@ private:
         auto const in = g_.in.at(j);
         auto const out = g_.out.at(j);
         if (in.empty() && out.empty()) {
-            return; // found elsewhere
+            return; // reported elsewhere
         }
         compare_node(node, "deg_in", node.columns.deg_in, static_cast<double>(in.size()), 0.0);
         compare_node(node, "deg_out", node.columns.deg_out, static_cast<double>(out.size()), 0.0);
@@ -440,7 +440,7 @@ private:
         double const reach = out.empty() ? 0.0 : tree_[of].below + measured_[of].length;
         compare_node(node, "dist_out", node.columns.dist_out_m, reach,
                      tolerance(reach, tree_[of].vertices + measured_[of].vertices));
-        if (file_.says.basin) { // of any arc here: a wrong one among them is found elsewhere
+        if (file_.says.basin) { // of any arc here: a wrong one among them is reported elsewhere
             auto const has = [&](std::size_t b) {
                 return static_cast<double>(file_.arcs[b].basin) == node.columns.basin_id;
             };
@@ -483,11 +483,11 @@ private:
     Graph const& g_;
     Findings& findings_;
     std::vector<Measured> measured_; ///< by arc
-    std::vector<InTree> tree_;       ///< likewise
-    std::vector<double> longest_;    ///< likewise
-    std::vector<double> strahler_;   ///< likewise
+    std::vector<InTree> tree_;       ///< by arc
+    std::vector<double> longest_;    ///< by arc
+    std::vector<double> strahler_;   ///< by arc
     std::vector<AtNode> at_node_;    ///< by node
-    std::vector<std::size_t> order_; ///< arcs of trees, each after the one downstream
+    std::vector<std::size_t> order_; ///< arcs of trees in upstream order
 };
 
 } // namespace

@@ -19,7 +19,7 @@
 namespace thalweg::measure::topology_steps {
 namespace {
 
-// Arcs and their nodes: what the file says, what the places say, and which way the water runs.
+// Arcs and their nodes: the file's ids, the positions, and the direction of flow.
 
 Junctions junctions_of(NetworkFile const& file) {
     Junctions j;
@@ -44,12 +44,12 @@ Junctions junctions_of(NetworkFile const& file) {
     return j;
 }
 
-/// Nodes by where they lie: asked only where the file's word is at fault.
+/// Nodes by position; built only when the file's ids are wrong.
 class NodePlaces {
 public:
     NodePlaces(NetworkFile const& file, Junctions const& junctions) : file_(file), junctions_(junctions) {}
 
-    /// The junction of a node exactly there, none where no node lies; of several, preferred if it is one of them.
+    /// The junction of a node exactly there, or none; of several, `preferred` if it is one of them.
     std::size_t at(Vec2 p, std::size_t preferred) {
         if (by_place_.empty()) {
             for (FileNode const& node : file_.nodes) {
@@ -110,7 +110,7 @@ private:
                plan_of(arc.line.front()) == plan_of(to->at) && plan_of(arc.line.back()) == plan_of(from->at);
     }
 
-    /// The junction in which the end is meant to be.
+    /// The junction that the end most likely belongs to.
     std::size_t look(std::size_t a, std::size_t end, Vec3 place, bool has_line) {
         FileArc const& arc = file_.arcs[a];
         std::size_t const said = joints_.said[a][end];
@@ -122,7 +122,7 @@ private:
             bool const named_already = meant != none && joints_.junctions.repeated[meant] != 0;
             joints_.faulty[a][end] = 1;
             if (named_already) {
-                return said; // the arcs of a node that bears another's name still agree on its own
+                return said; // the arcs of a node with a wrong id still agree on it
             }
             findings_.push_back(
                 {"missing_node", number_of(file_, arc), plan_of(place), static_cast<double>(id),
@@ -154,7 +154,7 @@ private:
     NodePlaces places_;
 };
 
-/// By arc: whether the arcs that ds_arc links to it all say that it flows from its meant[1] to its meant[0].
+/// By arc: whether all arcs linked to it by ds_arc indicate flow from its meant[1] to its meant[0].
 std::vector<char> turned_by_links(NetworkFile const& file, std::vector<Ends> const& meant,
                                   std::vector<char> const& left_out, std::vector<char> const& ambiguous) {
     std::vector<char> turned(file.arcs.size(), 0);
@@ -168,7 +168,7 @@ std::vector<char> turned_by_links(NetworkFile const& file, std::vector<Ends> con
         }
     }
     std::sort(ids.begin(), ids.end());
-    std::vector<std::array<bool, 2>> votes(file.arcs.size(), {false, false}); // runs as said, against it
+    std::vector<std::array<bool, 2>> votes(file.arcs.size(), {false, false}); // as in the file, against it
     for (std::size_t up = 0; up < file.arcs.size(); ++up) {
         auto const next = std::lower_bound(ids.begin(), ids.end(), std::pair(file.arcs[up].ds_arc, std::size_t{0}));
         if (left_out[up] != 0 || next == ids.end() || next->first != file.arcs[up].ds_arc || next->second == up) {
@@ -272,7 +272,7 @@ struct LooseEnd {
     std::size_t end;
 };
 
-/// Sources and outlets whose arcs' ends have no fault yet.
+/// Sources and outlets whose arcs' ends have no reported fault.
 std::vector<LooseEnd> loose_ends(Joints const& joints, Plans const& plans, Graph const& graph) {
     std::vector<LooseEnd> loose;
     for (std::size_t j = 0; j < joints.junctions.ids.size(); ++j) {
@@ -289,14 +289,14 @@ std::vector<LooseEnd> loose_ends(Joints const& joints, Plans const& plans, Graph
     return loose;
 }
 
-/// What a loose end nearly meets.
+/// The feature that a loose end nearly meets.
 struct Near {
     double apart = 0.0;
     std::size_t arc = none;      ///< the nearest
-    std::size_t junction = none; ///< the nearest in which an arc ends, with its arc and distance
+    std::size_t junction = none; ///< the nearest junction where an arc ends, with its arc and distance
     std::size_t ending = none;
     double from_junction = 0.0;
-    bool touches = false; ///< lies on a segment, or on a vertex
+    bool touches = false; ///< lies on a segment or a vertex
 };
 
 Near nearest(LooseEnd const& end, std::vector<geometry::NearSegment> const& segments, Joints const& joints,
@@ -347,7 +347,8 @@ void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<ch
         places.push_back(joints.place(end.arc, end.end, plans));
     }
     auto const segments = geometry::segments_near(places, plans, near_m, run);
-    std::vector<std::size_t> same_as(junctions); // a forest: an end and what it nearly meets are one junction
+    // a union-find forest: an end and the junction it nearly meets become one
+    std::vector<std::size_t> same_as(junctions);
     std::iota(same_as.begin(), same_as.end(), std::size_t{0});
     auto const root = [&](std::size_t j) {
         while (same_as[j] != j) {
@@ -357,7 +358,7 @@ void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<ch
     };
     for (std::size_t i = 0; i < loose.size(); ++i) {
         if (segments[i].size() < 2) {
-            continue; // its own
+            continue; // its own junction
         }
         LooseEnd const& end = loose[i];
         Near const near = nearest(end, segments[i], joints, plans, near_m);
@@ -394,7 +395,7 @@ namespace {
 
 // Whether the network is a forest.
 
-/// One finding for each group of arcs: its first arc, and how many it has. part: by arc, the group or none.
+/// Reports one finding for each group of arcs: its first arc and its size. part: by arc, the group or none.
 void find_groups(NetworkFile const& file, std::vector<std::size_t> const& part, std::size_t parts, char const* kind,
                  char const* what, Findings& findings) {
     std::vector<std::int64_t> size(parts, 0);
@@ -415,7 +416,7 @@ void find_groups(NetworkFile const& file, std::vector<std::size_t> const& part, 
     }
 }
 
-/// Whether arcs remain when again and again the sources are taken away.
+/// Whether arcs remain after sources are removed repeatedly.
 bool has_cycle(Graph const& graph, std::size_t junctions) {
     std::vector<std::size_t> awaited(junctions);
     std::vector<std::size_t> ready;
@@ -437,7 +438,7 @@ bool has_cycle(Graph const& graph, std::size_t junctions) {
 
 void check_cycles(NetworkFile const& file, Graph const& graph, std::size_t junctions, Findings& findings) {
     if (!has_cycle(graph, junctions)) {
-        return; // and every way down ends in an outlet
+        return; // every path downstream ends at an outlet
     }
     boost::adjacency_list<boost::vecS, boost::vecS, boost::directedS> directed(junctions);
     boost::adjacency_list<boost::vecS, boost::vecS, boost::undirectedS> undirected(junctions);
@@ -451,7 +452,7 @@ void check_cycles(NetworkFile const& file, Graph const& graph, std::size_t junct
     auto const part_map = boost::make_iterator_property_map(part.begin(), boost::get(boost::vertex_index, directed));
     std::vector<std::size_t> arc_part(file.arcs.size(), none);
 
-    // Every arc inside a strong component lies on a cycle.
+    // Every arc inside a strongly connected component lies on a cycle.
     std::size_t const strong = boost::strong_components(directed, part_map);
     for (std::size_t a = 0; a < arc_part.size(); ++a) {
         auto const [from, to] = graph.ends[a];

@@ -14,11 +14,11 @@
 namespace thalweg::measure::topology_steps {
 namespace {
 
-// What can be said of an arc or node without following the rivers.
+// Checks of an arc or node that do not follow the rivers.
 
 using Id = std::pair<std::int64_t, std::size_t>; // and the number of its feature
 
-/// The ids that several features have, each with how many and the second of them.
+/// Calls visit for each repeated id, with its count and its second feature.
 template <class Visit> void each_repeated(std::vector<Id> ids, Visit const& visit) {
     std::sort(ids.begin(), ids.end());
     for (auto first = ids.begin(); first != ids.end();) {
@@ -30,7 +30,7 @@ template <class Visit> void each_repeated(std::vector<Id> ids, Visit const& visi
     }
 }
 
-// id: as the file itself has it.
+// id: the file's own number.
 Finding repeated_id(char const* kind, char const* noun, std::int64_t id, std::size_t count, Vec2 second) {
     return {
         kind, id, second, static_cast<double>(count),
@@ -48,7 +48,7 @@ std::vector<Vec2> without_repeats(std::vector<Vec3> const& vertices) {
     return line;
 }
 
-/// A line as it compares with others, whichever way it is drawn.
+/// A line for comparison in either direction.
 struct Undirected {
     std::vector<Vec2> const* line;
     bool back;
@@ -206,14 +206,14 @@ namespace {
 
 using geometry::Meeting;
 
-/// A line turns back on itself.
+/// A place where a line turns back on itself.
 struct Spike {
     Vec2 tip;
     Vec2 base;
     double length_m = 0.0;
 };
 
-/// Where the line turns back at its inner vertex i, and comes within near_m of where it was, or exactly onto it.
+/// Whether the line turns back at its inner vertex i and comes within near_m of itself, or exactly onto itself.
 bool turns_back(std::vector<Vec2> const& line, std::size_t i, double near_m, bool exactly, Spike& spike) {
     Vec2 const tip = line[i];
     Vec2 const base = distance(tip, line[i + 1]) < distance(tip, line[i - 1]) ? line[i + 1] : line[i - 1];
@@ -308,7 +308,7 @@ public:
             while (last < touches_.size() && touches_[last].at == touch.at && touches_[last].through == touch.through) {
                 ++last;
             }
-            // What one arc runs into is its end; what several run into is run through by another.
+            // If one arc runs into the place, it is that arc's end; if several do, another arc runs through it.
             bool const through = last - first > 1 && !ends_at(touch.through, touch.at);
             FileArc const& arc = file_.arcs[through ? touch.through : touch.ending];
             FileArc const& other = file_.arcs[through ? touch.ending : touch.through];
@@ -324,7 +324,7 @@ public:
     }
 
 private:
-    /// An end of an arc lies on another.
+    /// An end of an arc that lies on another arc.
     struct Touch {
         Vec2 at;
         std::size_t through;
@@ -349,7 +349,7 @@ private:
         return m.is_stretch() || near_spike(m.at) || ends_stretch(m.at);
     }
 
-    /// Whether two arcs of one junction meet beside it because an end there is off its place, which has been found.
+    /// Whether two arcs of one junction meet beside it because an end is off its node, which has been reported.
     bool is_fault_of_an_end(std::size_t a, std::size_t b, Vec2 at) const {
         for (std::size_t const end_a : {0U, 1U}) {
             for (std::size_t const end_b : {0U, 1U}) {

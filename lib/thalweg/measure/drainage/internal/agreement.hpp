@@ -12,11 +12,11 @@
 
 namespace thalweg::measure {
 
-/// How far cells found agree with a river's; both lists without repeats.
+/// Compares extracted cells with a river's; both lists have no duplicates.
 Agreements agreement(std::vector<std::int64_t> const& found, std::vector<std::int64_t> const& rivers, Grid const& grid);
 
-/// The area [cells] of 2^n and 3 * 2^n from 16 at which the cells with at least that much agree best with a river's
-/// within a cell (ties: the least), and how far they do. (0, nothing) when no cell has 16.
+/// Tries the contributing areas 2^n and 3 * 2^n [cells] from 16. Returns the one whose cells agree best with a river's
+/// within a cell (ties: the least), and the agreement; (0, nothing) if no cell has 16.
 std::pair<std::int64_t, Agreements> best_threshold(Raster<std::int64_t> const& area_cells,
                                                    std::vector<std::int64_t> const& rivers, Run const& run);
 

@@ -15,7 +15,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
-/// The steps of check_topology, in their order.
+/// The steps of check_topology, in order.
 namespace thalweg::measure::topology_steps {
 
 using FileArc = NetworkFile::FileArc;
@@ -32,43 +32,45 @@ inline Vec2 plan_of(Vec3 p) {
     return {p.x, p.y};
 }
 
-/// The number by which the file itself calls an arc.
+/// The file's own number of an arc.
 inline std::int64_t number_of(NetworkFile const& file, FileArc const& arc) {
     return arc.id - file.id_shift;
 }
 
-/// A place to point at: the first vertex that is one.
+/// A position for findings: the first vertex that is finite.
 Vec2 start_of(FileArc const& arc);
 
-/// Finds bad and repeated ids. Gives: by arc, whether its id does not tell it from others.
+/// Finds bad and repeated ids.
+/// \return by arc: whether its id is ambiguous
 std::vector<char> check_ids(NetworkFile const& file, Findings& findings);
 
-/// Lines in plan by arc, each vertex once in a row; empty where nothing can be said of the line.
+/// Lines in plan by arc, without repeated vertices; empty: the line cannot be checked.
 using Plans = std::vector<std::vector<Vec2>>;
 
-/// Finds lines of fewer than two vertices, of vertices that are no numbers, of no length, and repeated vertices.
+/// Finds lines with fewer than two vertices, with vertices that are not numbers, or of length 0, and repeated vertices.
 Plans check_shapes(NetworkFile const& file, Findings& findings);
 
-/// Finds arcs that run, either way, over the vertices of an earlier one. Gives: by arc, whether it does.
+/// Finds arcs with the vertices of an earlier one, in either direction.
+/// \return by arc: whether it is such a copy
 std::vector<char> check_copies(NetworkFile const& file, Plans const& plans, Findings& findings);
 
-/// Junctions: one for every node_id, whether a node, an arc or both name it.
+/// Junctions: one for every node_id that a node, an arc or both use.
 struct Junctions {
     std::vector<std::int64_t> ids; ///< ascending
-    std::vector<std::size_t> node; ///< number of the first node of that id, none where no node has it
+    std::vector<std::size_t> node; ///< number of the first node with that id; none: no node has it
     std::vector<char> repeated;    ///< several nodes have the id
     std::size_t of(std::int64_t id) const;
 };
 
-/// Where an arc begins and ends, as junctions.
+/// The junctions at an arc's ends.
 using Ends = std::array<std::size_t, 2>;
 
-/// What is known of the arcs' ends.
+/// The arcs' ends.
 struct Joints {
     Junctions junctions;
-    std::vector<Ends> said;                  ///< from_node and to_node, in the direction of flow
-    std::vector<Ends> meant;                 ///< the same where they are right, else where the line ends
-    std::vector<std::array<char, 2>> faulty; ///< from_node, to_node: a fault of this end has been found
+    std::vector<Ends> said;                  ///< from_node and to_node of the file, in the direction of flow
+    std::vector<Ends> meant;                 ///< the same if they are right, otherwise where the line ends
+    std::vector<std::array<char, 2>> faulty; ///< for from_node, to_node: a fault of this end has been reported
     std::vector<char> against;               ///< the line is drawn from meant[1] to meant[0]
 
     Vec2 place(std::size_t arc, std::size_t end, Plans const& plans) const {
@@ -77,8 +79,8 @@ struct Joints {
     }
 };
 
-/// Finds ends without a node or off their node, arcs of the wrong direction, and ends that dangle.
-/// Takes: left_out, by arc, whether nothing shall be said of its ends.
+/// Finds ends without a node or off their node, arcs in the wrong direction, and dangling ends.
+/// \param left_out by arc: whether its ends are not checked
 Joints check_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out,
                   std::vector<char> const& ambiguous, Findings& findings);
 void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out, double near_m,
@@ -113,17 +115,17 @@ struct Graph {
     Incidence out;
 };
 
-/// Finds nodes with several outflows, without arcs, cycles and parts without outlet.
+/// Finds nodes with several outflows or without arcs, cycles, and parts without an outlet.
 void check_trees(NetworkFile const& file, Joints const& joints, Graph const& said, Findings& findings);
 
 /// Finds wrong ds_arc, orders and basins.
 void check_numbers(NetworkFile const& file, Joints const& joints, Graph const& meant,
                    std::vector<char> const& ambiguous, Findings& findings);
 
-/// Finds columns of arcs and nodes that differ from what they are by the lines and the trees.
+/// Finds columns of arcs and nodes that contradict the lines and trees.
 void check_columns(NetworkFile const& file, Joints const& joints, Graph const& meant, Findings& findings);
 
-/// Finds spikes, arcs that touch themselves, and those that meet others but in common nodes.
+/// Finds spikes, arcs that touch themselves, and arcs that meet others away from common nodes.
 void check_meetings(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m,
                     Findings& findings, Run const& run);
 
