@@ -34,7 +34,7 @@ struct EndFontOptions {
 cairo_status_t append(void* bytes, unsigned char const* data, unsigned int length) {
     try {
         static_cast<std::string*>(bytes)->append(reinterpret_cast<char const*>(data), length);
-    } catch (std::exception const&) { // must not cross C frames
+    } catch (std::exception const&) { // exceptions must not cross C frames
         return CAIRO_STATUS_NO_MEMORY;
     }
     return CAIRO_STATUS_SUCCESS;
@@ -47,8 +47,8 @@ void demand(cairo_status_t status) {
     }
 }
 
-/// Reads the system's fonts. Cairo has them read at the first text, and where there is no memory for them Fontconfig
-/// then tries for ever.
+/// Loads the system's fonts early. Cairo loads them at the first text, and Fontconfig retries forever if there is no
+/// memory for them.
 void load_fonts() {
     [[maybe_unused]] static bool const is_loaded = [] {
         FcConfig* const fonts = FcInitLoadConfigAndFonts();
@@ -61,12 +61,11 @@ void load_fonts() {
     }();
 }
 
-/// While one lives, the C library hands out large blocks zeroed. Cairo (1.16), where memory is refused, jumps by a
-/// buffer that it never set: of arbitrary bytes it may block the very signal by which the program tells of such a
-/// fault.
+/// While an object lives, the C library returns large blocks zeroed. If memory is refused, Cairo (1.16) jumps through a
+/// buffer that it never initialised: with arbitrary bytes it may block the very signal that reports the fault.
 class ZeroedBlocks {
 public:
-    ZeroedBlocks() { fill_with(0xFF); } // the complement of what is handed out
+    ZeroedBlocks() { fill_with(0xFF); } // the complement of the fill byte
     ~ZeroedBlocks() { fill_with(0); }   // off
     ZeroedBlocks(ZeroedBlocks const&) = delete;
     ZeroedBlocks& operator=(ZeroedBlocks const&) = delete;
@@ -79,7 +78,7 @@ private:
     }
 };
 
-/// Cairo numbers surfaces and images by a counter of the process: they are renumbered by their place in the text.
+/// Cairo numbers surfaces and images by a process-wide counter: this renumbers them by their order in the text.
 std::string renumber_ids(std::string const& svg) {
     std::string out;
     out.reserve(svg.size());
@@ -108,7 +107,7 @@ std::string renumber_ids(std::string const& svg) {
     return out;
 }
 
-/// Code points of a text; what is not UTF-8 becomes U+FFFD.
+/// Code points of a text; invalid UTF-8 becomes U+FFFD.
 std::vector<char32_t> code_points(std::string_view text) {
     std::vector<char32_t> out;
     for (std::size_t i = 0; i < text.size();) {
@@ -153,7 +152,7 @@ std::string utf8(char32_t point) {
     return {static_cast<char>(0xF0U | (point >> 18U)), tail(12), tail(6), tail(0)};
 }
 
-/// Cairo's plain text takes one font for all and draws boxes for what it lacks: the fonts are asked here, in order.
+/// Cairo's plain text uses a single font and draws boxes for missing characters; this checks several fonts in order.
 constexpr std::array<char const*, 2> families = {"DejaVu Sans", "Noto Sans CJK SC"};
 
 void select_family(cairo_t* sheet, std::size_t family, TextStyle const& style) {
@@ -224,7 +223,7 @@ Vec2 towards(Vec2 from, Vec2 to, double by) {
     return {from.x + (to.x - from.x) * share, from.y + (to.y - from.y) * share};
 }
 
-/// The largest power of ten that is not above value.
+/// The largest power of ten that is at most value.
 double power_below(double value) {
     double power = 1.0;
     while (power > value) {
@@ -310,7 +309,7 @@ void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         Vec2 const p = near_sheet(line[i]);
         if (i + 1 == line.size() && kept.size() > 1 && distance(kept.back(), p) < 0.25) {
-            kept.back() = p; // the end itself is always kept
+            kept.back() = p; // the end is always kept
         } else if (kept.empty() || i + 1 == line.size() || distance(kept.back(), p) >= 0.25) {
             kept.push_back(p);
         }
@@ -326,7 +325,7 @@ void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px) {
         }
         Vec2 const in = towards(kept[i], kept[i - 1], corner_px);
         Vec2 const out = towards(kept[i], kept[i + 1], corner_px);
-        auto const control = [&](Vec2 end) { // a quadratic curve with its control point in the vertex
+        auto const control = [&](Vec2 end) { // a quadratic curve with its control point at the vertex
             return Vec2{end.x + (kept[i].x - end.x) * 2.0 / 3.0, end.y + (kept[i].y - end.y) * 2.0 / 3.0};
         };
         cairo_line_to(sheet, in.x, in.y);
@@ -426,7 +425,7 @@ int decimals_of(double step) {
 
 Ticks ticks_between(double low, double high, int most) {
     double const span = high - low;
-    // Below this the numbers themselves have no more digits to tell ticks apart.
+    // Below this, doubles cannot distinguish ticks.
     double const least = std::max({std::fabs(low) * 1e-12, std::fabs(high) * 1e-12, 1e-9});
     if (!(span > least) || !std::isfinite(span)) {
         return {{low}, 1.0, low == std::floor(low) ? 0 : 2};

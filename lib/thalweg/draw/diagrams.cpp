@@ -36,7 +36,7 @@ void draw_curve(Cairo* sheet, Box box, std::vector<Vec2> const& points, std::str
     std::vector<Vec2> line(points.size());
     std::transform(points.begin(), points.end(), line.begin(), [&](Vec2 p) { return plot.at(p.x, p.y); });
     draw_ground(sheet, line, plot.at(0.0, 0.0).y, fill, curve_colour, 0.15 * unit);
-    // Steps are whole numbers: dots while they can be told apart, and always where a line has no length.
+    // Steps are whole numbers: dots are drawn while they are distinguishable, and always for a line of length 0.
     if (box.width > 0.8 * unit * static_cast<double>(line.size()) || line.size() == 1) {
         for (Vec2 const p : line) {
             cairo_new_sub_path(sheet);
@@ -128,7 +128,7 @@ std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders cons
         }
         reaches.push_back(std::move(reach));
     }
-    // Main stems last: they lie on top.
+    // Main stems last, on top of the others.
     std::stable_sort(reaches.begin(), reaches.end(), [](Reach const& a, Reach const& b) { return a.hack > b.hack; });
     return reaches;
 }
@@ -223,7 +223,7 @@ void demand_curve(std::vector<Vec2> const& curve, double integral) {
                         "draw.hypsometry: the integral is {}, must lie in [0, 1]", integral);
 }
 
-/// A dashed line at the mean height: the integral is where that lies between the lowest and the highest.
+/// A dashed line at the mean height: the integral is its position between the lowest and the highest.
 void draw_mean(Cairo* sheet, Plot const& plot, double low, double high, double integral, double unit) {
     double const mean = low + integral * (high - low);
     Vec2 const right = plot.at(100.0, mean);

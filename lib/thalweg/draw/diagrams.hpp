@@ -19,8 +19,9 @@ struct CurveParams {
     Format format = Format::svg;
 };
 
-/// \param increments increments [m] of x = 1, 2, ...; none give empty axes that say so
-/// \return the increment dh(x) and its sum H(d), as in Table 1 of Cao, Long and Lü 2009, in two diagrams.
+/// Draws the increment dh(x) and its sum H(d) in two diagrams, as in Table 1 of Cao, Long and Lü 2009.
+/// \param increments increments [m] of x = 1, 2, ...; empty: empty axes that say so
+/// \return the picture
 /// \throws BadInput when an increment is not finite
 Picture curve(std::vector<double> const& increments, CurveParams const& params = {});
 
@@ -32,27 +33,28 @@ struct ProfileParams {
     std::string title; ///< "" for none
 };
 
-/// \pre a network and its orders; arcs that reach no outlet are left out. Without any, empty axes that say so.
-/// \param network the network
-/// \param orders the network's orders
-/// \return long profiles: height against distance from the outlet along the water of every arc, main stems (Hack 1)
+/// Draws long profiles: height against distance along the water from the outlet, of every arc, with main stems (Hack 1)
 /// emphasised.
+/// \param network arcs that reach no outlet are left out; without any, empty axes that say so
+/// \param orders the network's orders
+/// \return the picture
 /// \throws BadInput when orders or heights are not those of the network, or a number is not finite
 Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params = {});
 
 /// Options of hypsometry().
 struct HypsometryParams {
-    std::string title;   ///< what the land is, before the integral; "" for none
+    std::string title;   ///< description of the terrain, before the integral; "" for none
     int width_px = 1000; ///< [200, 8000]
     int height_px = 640; ///< [200, 8000]
     Format format = Format::svg;
 };
 
-/// \param curve x = share of the area above [0, 1], y = height [m], by rising or falling height; none gives empty axes
-/// that say so
-/// \param integral [0, 1], or NaN where it is not defined (one height)
-/// \return the hypsometric curve: height over the share of the area that lies above it, with its integral.
-/// \throws BadInput when a number is not finite or a share lies outside [0, 1]
+/// Draws the hypsometric curve: height over the share of the area above it, with its integral.
+/// \param curve x = share of the area above [0, 1], y = height [m], by ascending or descending height; empty: empty
+/// axes that say so
+/// \param integral [0, 1]; NaN: undefined (one height)
+/// \return the picture
+/// \throws BadInput when a number is not finite or a share is outside [0, 1]
 ///
 /// Source: \cite strahler1952.
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params = {});

@@ -11,10 +11,10 @@
 namespace thalweg::draw {
 namespace {
 
-// Ends of neighbouring sides agree bit for bit; what is cut between them need not.
+// Ends of neighbouring sides agree bit for bit; cuts between them need not.
 constexpr double rounding = 1e-7;
 
-// What shows where a line dips under another is a dot, not a line.
+// Shorter parts, where a line dips below another, would appear as dots.
 constexpr double shortest = 1e-3;
 
 Vec2 between(Vec2 a, Vec2 b, double share) {
@@ -27,10 +27,10 @@ struct Part {
     double to = 0.0;
 };
 
-/// What is highest so far in every column of the sheet: pieces of lines by x, nothing between them.
+/// The highest line so far in every column of the sheet: pieces of lines by x, with gaps.
 class Horizon {
 public:
-    /// The parts of a segment that lie above the horizon or within tolerance below it.
+    /// The parts of a segment above the horizon or within tolerance below it.
     std::vector<Part> above(Vec2 a, Vec2 b, double tolerance) const {
         bool const turned = b.x < a.x;
         Vec2 const left = turned ? b : a;
@@ -56,7 +56,7 @@ public:
                 }
                 double const over0 = height(left, right, x0) - piece.y(x0) + tolerance;
                 double const over1 = height(left, right, x1) - piece.y(x1) + tolerance;
-                double const cut = x0 + (x1 - x0) * over0 / (over0 - over1); // used where the signs differ
+                double const cut = x0 + (x1 - x0) * over0 / (over0 - over1); // used only if the signs differ
                 if (over0 >= 0.0 && over1 >= 0.0) {
                     keep(x0, x1);
                 } else if (over0 >= 0.0) {
@@ -79,17 +79,17 @@ public:
         return parts;
     }
 
-    /// Raises the horizon to a segment where that is higher.
+    /// Raises the horizon to a segment where the segment is higher.
     void raise(Vec2 a, Vec2 b) {
         Vec2 const left = b.x < a.x ? b : a;
         Vec2 const right = b.x < a.x ? a : b;
         if (!(right.x - left.x > 0.0)) {
-            return; // a column of no width hides nothing
+            return; // a column without width hides nothing
         }
         std::size_t const first = first_after(left.x);
         std::size_t last = first;
         std::vector<Piece> fresh;
-        double risen = left.x; // the segment is the highest from here on, but for what is stored in fresh
+        double risen = left.x; // the segment is the highest from here on, except for the pieces stored in fresh
         auto const add = [&](Vec2 from, Vec2 to) {
             if (to.x > from.x) {
                 fresh.push_back({from, to});
@@ -106,7 +106,7 @@ public:
             }
             double const over0 = height(left, right, x0) - piece.y(x0);
             double const over1 = height(left, right, x1) - piece.y(x1);
-            double stays_from = x0; // where the piece stays the horizon
+            double stays_from = x0; // from where the piece remains the horizon
             double stays_to = x1;
             if (over0 > 0.0 && over1 > 0.0) {
                 stays_to = x0;
@@ -152,14 +152,14 @@ private:
     std::vector<Piece> pieces_;
 };
 
-/// A straight stretch of a thread within one mesh.
+/// A straight part of a thread within one mesh.
 struct Stitch {
     std::size_t thread = 0;
     Vec2 from; ///< column and row
     Vec2 to;
 };
 
-/// Cuts threads where they pass from mesh to mesh.
+/// Cuts threads where they pass between meshes.
 std::vector<Stitch> stitches_of(std::vector<Thread> const& threads) {
     std::vector<Stitch> out;
     for (std::size_t t = 0; t < threads.size(); ++t) {
@@ -185,7 +185,7 @@ std::vector<Stitch> stitches_of(std::vector<Thread> const& threads) {
     return out;
 }
 
-/// The mesh that holds a point, by its knot of lowest column and row; -1 outside the net.
+/// The mesh that contains a point, by its knot of lowest column and row; -1: outside the net.
 std::int64_t mesh_of(Net const& net, Vec2 p) {
     auto const along = [](double where, std::int64_t knots) {
         bool const inside = where >= 0.0 && where <= static_cast<double>(knots - 1);
@@ -205,7 +205,7 @@ Vec2 on_mesh(Net const& net, std::int64_t mesh, Vec2 p) {
                    between(net.knot(col, row + 1), net.knot(col + 1, row + 1), x), y);
 }
 
-/// Walks the net front to back.
+/// Processes the net from front to back.
 class Weaver {
 public:
     Weaver(Net const& net, std::vector<Stitch> const& stitches, double tolerance)
@@ -220,7 +220,7 @@ public:
     }
 
     Seen weave() {
-        // A mesh is hidden only by meshes that come before it in both directions.
+        // A mesh can be hidden only by meshes before it in both directions.
         for (std::int64_t i = 0; i < net_.rows; ++i) {
             std::int64_t const row = net_.away_row > 0 ? i : net_.rows - 1 - i;
             for (std::int64_t k = 0; k < net_.columns; ++k) {
@@ -294,7 +294,7 @@ private:
     }
 
     void join(std::vector<std::vector<Vec2>>& lines, Place from, Place step) const {
-        bool open = false; // the last line ends in the knot at hand
+        bool open = false; // the last line ends at the current knot
         for (Place p = from; has_room(p, step); p = {p.col + step.col, p.row + step.row}) {
             Side const& side = (step.col > 0 ? along_row_ : along_col_)[p.row * net_.columns + p.col];
             bool reached = false;

@@ -14,7 +14,7 @@ namespace {
 constexpr double row_height = 92.0; ///< [units]
 constexpr double gap = 36.0;
 
-/// One part of the legend: its width [units] and what it draws from its upper left corner.
+/// One part of the legend: its width [units] and a function that draws it from its upper left corner.
 struct Block {
     double width = 0.0;
     std::function<void(Cairo*, Vec2)> draw;
@@ -86,7 +86,7 @@ Block height_ramp(LegendFacts const& facts, double unit) {
                 draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Height [m]", style.heading);
                 Box const ramp{at.x, at.y + 22.0 * unit, width * unit, 16.0 * unit};
                 double const span = facts.high_m - facts.low_m;
-                if (!(span > 0.0)) { // one height, or none: a swatch
+                if (!(span > 0.0)) { // one height or none: a swatch
                     Box const swatch{ramp.x, ramp.y, 34.0 * unit, ramp.height};
                     fill_box(sheet, swatch, span == 0.0 ? tint(0.4) : no_data);
                     frame_box(sheet, swatch, 0.8 * unit, ink);
@@ -102,7 +102,7 @@ Block height_ramp(LegendFacts const& facts, double unit) {
                     cairo_pattern_add_color_stop_rgb(colours, k / 32.0, colour.red, colour.green, colour.blue);
                 }
                 cairo_set_source(sheet, colours);
-                cairo_pattern_destroy(colours); // the sheet holds it now
+                cairo_pattern_destroy(colours); // the sheet owns it now
                 cairo_rectangle(sheet, ramp.x, ramp.y, ramp.width, ramp.height);
                 cairo_fill(sheet);
                 frame_box(sheet, ramp, 0.8 * unit, ink);
@@ -120,7 +120,7 @@ Block height_ramp(LegendFacts const& facts, double unit) {
             }};
 }
 
-/// Rivers of a style each, with what they stand for.
+/// Styles of rivers with their labels.
 using RiverSamples = std::vector<std::pair<LineStyle, std::string>>;
 
 RiverSamples rivers_by_order(RiverScale const& scale, double unit) {
@@ -205,7 +205,7 @@ Block no_data_sample(double unit) {
             }};
 }
 
-/// The blocks by rows.
+/// Arranges the blocks in rows.
 std::vector<std::vector<Block>> rows_of(LegendFacts const& facts, double width, double unit) {
     std::vector<Block> blocks{north_arrow(unit), scale_bar(facts, unit), height_ramp(facts, unit)};
     if (facts.rivers.highest_order > 0) {

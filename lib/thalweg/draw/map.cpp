@@ -22,8 +22,8 @@ struct Relief {
     std::vector<std::uint32_t> pixels; // premultiplied ARGB, row-major from the north-west
     int width = 0;                     // [px]
     int height = 0;                    // [px]
-    double cells_a_pixel = 1.0;        // side of a pixel [cells]; the last ones may reach beyond the grid
-    double low_m = 0.0;                // heights at the ends of the tint; low > high where there are none
+    double cells_a_pixel = 1.0;        // side of a pixel [cells]; the last pixels may extend beyond the grid
+    double low_m = 0.0;                // heights at the ends of the tint; low > high: none
     double high_m = 0.0;
     std::int64_t holes = 0; // cells without a height
 };
@@ -84,8 +84,8 @@ Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& pa
 
 namespace {
 
-/// Sage, straw, sand, clay, white: seven colours joined in OKLab and cut into equal lengths there, so that equal
-/// differences of height look equally large. Light enough to be shaded.
+/// Sage, straw, sand, clay, white: seven colours interpolated in OKLab and divided into equal lengths there, so that
+/// equal differences of height look equally large. Light enough for shading.
 constexpr std::array<std::array<double, 3>, 17> tints = {{{126, 166, 136},
                                                           {137, 173, 140},
                                                           {148, 181, 143},
@@ -111,7 +111,7 @@ Colour mix(Colour a, Colour b, double share) {
     return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue), 1.0};
 }
 
-/// Slopes turned from the light are multiplied by a cool grey, those turned to it lightened.
+/// Slopes turned away from the light are multiplied by a cool grey, those facing it are lightened.
 Colour shade(Colour ground, double light) {
     if (light <= 0.0) {
         return mix(ground, {ground.red * 0.30, ground.green * 0.33, ground.blue * 0.45}, -light);
@@ -119,7 +119,7 @@ Colour shade(Colour ground, double light) {
     return mix(ground, {1.0, 1.0, 0.96}, 0.55 * light);
 }
 
-/// Light of every hillshade value, [-1, 1], 0 on level ground; stretched where the relief is faint.
+/// Light for every hillshade value, [-1, 1], 0: level; stretched for faint relief.
 std::array<double, 256> lights(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade) {
     std::array<std::int64_t, 256> count{};
     std::int64_t all = 0;
@@ -129,7 +129,7 @@ std::array<double, 256> lights(Raster<float> const& dem, Raster<std::uint8_t> co
             ++all;
         }
     }
-    std::size_t darkest = 1; // but for one cell in fifty
+    std::size_t darkest = 1; // except for one cell in fifty
     for (std::int64_t below = count[1]; darkest < level_shade && below * 50 < all;) {
         below += count[++darkest];
     }
@@ -160,9 +160,9 @@ Colour tint(double share) {
 
 namespace {
 
-// Takes: heights, and their hillshade [1, 255] (0 = none) on the same grid. Gives: one pixel a cell, or one for the
-// mean colour of every k × k cells, with the largest k that leaves most_wide or more pixels in a row; more where the
-// picture could not be held otherwise (30 000 pixels a side).
+// Makes the background of a map. dem, hillshade: heights and their hillshade [1, 255] (0: none) on the same grid.
+// Returns one pixel per cell, or one for the mean colour of every k × k cells, with the largest k that leaves at least
+// most_wide pixels in a row; k is larger if the picture would exceed 30 000 pixels a side.
 Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade, double most_wide) {
     Relief relief;
     relief.low_m = std::numeric_limits<double>::infinity();
@@ -211,12 +211,12 @@ Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hills
     return relief;
 }
 
-// where: the grid's place on the sheet. px_per_cell: its scale.
+// where: position of the grid on the sheet. px_per_cell: scale.
 void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell) {
     struct End {
         void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
     };
-    auto* const pixels = const_cast<std::uint32_t*>(relief.pixels.data()); // a source is only read
+    auto* const pixels = const_cast<std::uint32_t*>(relief.pixels.data()); // Cairo only reads a source
     std::unique_ptr<cairo_surface_t, End> const image(cairo_image_surface_create_for_data(
         reinterpret_cast<unsigned char*>(pixels), CAIRO_FORMAT_ARGB32, relief.width, relief.height, 4 * relief.width));
     double const scale = relief.cells_a_pixel * px_per_cell;
@@ -228,7 +228,7 @@ void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_ce
     cairo_set_source_surface(sheet, image.get(), 0.0, 0.0);
     cairo_pattern_set_filter(cairo_get_source(sheet), CAIRO_FILTER_BEST);
     bool const is_svg = cairo_surface_get_type(cairo_get_target(sheet)) == CAIRO_SURFACE_TYPE_SVG;
-    if (!is_svg) { // which has no such extension: Cairo 1.18 writes every pixel instead
+    if (!is_svg) { // PNG has no such extension: Cairo 1.18 writes every pixel instead
         cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
     }
     cairo_paint(sheet);
@@ -250,7 +250,7 @@ std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window) 
     return out;
 }
 
-/// A stretch of a line that is straight enough to carry a label.
+/// A part of a line straight enough for a label.
 struct Seat {
     Vec2 from;
     Vec2 to;
@@ -286,10 +286,10 @@ std::vector<Seat> seats_on(std::vector<Vec2> const& line, double room, double ap
     return seats;
 }
 
-/// Channels are as wide as the square root of the discharge (Leopold and Maddock 1953), which grows with the area.
+/// Channel width grows with the square root of discharge (Leopold and Maddock 1953), which grows with area.
 constexpr double width_exponent = 0.5;
 
-/// An area, 0 where it is not known.
+/// The area; 0: unknown.
 double known(double area_m2) {
     return std::isfinite(area_m2) && area_m2 > 0.0 ? area_m2 : 0.0;
 }
@@ -376,7 +376,7 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
     if (scale.highest_order == 0) {
         return;
     }
-    std::vector<std::pair<double, ArcId>> arcs; // wide ones lie above
+    std::vector<std::pair<double, ArcId>> arcs; // wide ones on top
     for (ArcId a = 0; a < sheet.network->plan.arc_count(); ++a) {
         arcs.emplace_back(scale.largest_area_m2 > 0.0 ? known(sheet.areas_m2[a]) : sheet.orders->strahler[a], a);
     }
@@ -394,7 +394,7 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_BUTT);
 }
 
-// Heights on index contours, where these run straight and no other label is near.
+// Labels index contours with their heights where these run straight and no other label is near.
 void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit) {
     LineStyle const line_style = contour_style(ContourKind::index, unit);
     TextStyle const style{11.0 * unit, line_style.colour, Weight::normal, 2.0 * unit};
@@ -419,7 +419,7 @@ void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, 
             if (seat.to.x < seat.from.x) {
                 std::swap(seat.from, seat.to);
             }
-            // The base line lies below the contour, so that the figures sit astride it.
+            // The base line lies below the contour, so that the number is centred on it.
             double const length = distance(seat.from, seat.to);
             double const drop = 0.36 * style.size / length;
             draw_text(canvas, {at.x - (seat.to.y - seat.from.y) * drop, at.y + (seat.to.x - seat.from.x) * drop}, label,
@@ -472,7 +472,7 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
     }
 }
 
-/// "EPSG:…" as it is; of WKT the name.
+/// "EPSG:…" unchanged; of WKT the name.
 std::string name_of_crs(std::string const& crs) {
     std::size_t const open = crs.find('"');
     std::size_t const close = open == std::string::npos ? open : crs.find('"', open + 1);
@@ -481,7 +481,7 @@ std::string name_of_crs(std::string const& crs) {
 
 /// How the sheet is laid out [px].
 struct Layout {
-    double unit = 1.0; ///< what 1 px is on a sheet 1400 px wide
+    double unit = 1.0; ///< equivalent of 1 px on a sheet 1400 px wide
     double band = 0.0; ///< between the map and its outer frame: the coordinates
     Window window;
     Box ground; ///< of the DEM
@@ -506,7 +506,7 @@ Layout lay_out(MapSheet const& sheet, MapParams const& params) {
     out.window.px_per_m = std::min(room / ground_wide, 1.4 * room / ground_tall);
     out.ground.width = ground_wide * out.window.px_per_m;
     out.ground.height = ground_tall * out.window.px_per_m;
-    // A frame around a single row or column of cells still has to be seen.
+    // The frame around a single row or column of cells must remain visible.
     double const least = std::min(60.0 * out.unit, room);
     Box& frame = out.window.frame;
     frame.width = std::max(out.ground.width, least);
@@ -531,16 +531,16 @@ Layout lay_out(MapSheet const& sheet, MapParams const& params) {
     return out;
 }
 
-/// One side's coordinates in the band, and ticks from the inner frame.
+/// The coordinates of one side in the band, with ticks from the inner frame.
 struct Side {
-    Vec2 from; ///< [px] on the inner frame where the coordinate is low
-    Vec2 to;   ///< where it is high
+    Vec2 from; ///< [px] on the inner frame at the low end of the coordinates
+    Vec2 to;   ///< at the high end
     Vec2 outward;
 };
 
 void draw_side(Cairo* canvas, Side const& side, Ticks const& ticks, double low, double high, double unit) {
     TextStyle const style{12.0 * unit, ink};
-    bool const upright = side.outward.x != 0.0; // numbers beside the map read upward
+    bool const upright = side.outward.x != 0.0; // numbers beside the map read upwards
     double const length = distance(side.from, side.to);
     for (double const value : ticks.values) {
         double const share = (value - low) / (high - low);
@@ -549,10 +549,10 @@ void draw_side(Cairo* canvas, Side const& side, Ticks const& ticks, double low, 
         std::string const label = number(value, ticks.decimals);
         double const half = 0.5 * text_width(canvas, label, style);
         if (share * length < half || (1.0 - share) * length < half) {
-            continue; // it would stand in the corner
+            continue; // would be in the corner
         }
         double const middle = 14.0 * unit;
-        double const base = 4.3 * unit; // from the middle of a figure to its base line
+        double const base = 4.3 * unit; // from the middle of a digit to its base line
         Vec2 const place{at.x + side.outward.x * middle + (upright ? base : 0.0),
                          at.y + side.outward.y * middle + (upright ? 0.0 : base)};
         draw_text(canvas, place, label, style, Anchor::middle, upright ? Vec2{0.0, -1.0} : Vec2{1.0, 0.0});
@@ -568,7 +568,7 @@ void draw_frame(Cairo* canvas, Layout const& layout) {
     double const low_y = window.south() / 1000.0;
     double const high_y = window.north / 1000.0;
     auto const most = [&](double pixels) { return std::clamp(static_cast<int>(pixels / (130.0 * unit)), 1, 10); };
-    // One step for both ways: the crosses then stand in squares.
+    // One step for both axes: the crosses form squares.
     double const step = std::max(ticks_between(low_x, high_x, most(frame.width)).step,
                                  ticks_between(low_y, high_y, most(frame.height)).step);
     auto const by_step = [&](double low, double high, double pixels) {
@@ -606,7 +606,7 @@ void draw_frame(Cairo* canvas, Layout const& layout) {
 Picture map(MapSheet const& sheet, MapParams const& params) {
     demand_sheet(sheet, params);
     Layout layout = lay_out(sheet, params);
-    double const density = params.format == Format::png ? 1.0 : 2.0; // what can be scaled will be
+    double const density = params.format == Format::png ? 1.0 : 2.0; // vector output can be scaled
     Relief const relief = tinted_relief(sheet.dem, sheet.hillshade, density * layout.ground.width);
     layout.legend.low_m = relief.low_m;
     layout.legend.high_m = relief.high_m;

@@ -23,8 +23,9 @@ struct LinesParams {
     Format format = Format::svg;
 };
 
-/// \param lines lines; none give an empty sheet
-/// \return polylines in plan, as large as the sheet lets them be, north up.
+/// Draws polylines in plan, north up, as large as the sheet allows.
+/// \param lines empty: an empty sheet
+/// \return the picture
 /// \throws BadInput when a coordinate is not finite
 Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params = {});
 
@@ -32,28 +33,30 @@ Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& pa
 struct MapParams {
     std::string title;               ///< UTF-8; "" for none
     int width_px = 1400;             ///< [200, 8000] of the whole sheet; its height follows
-    double contour_interval_m = 0.0; ///< for the legend, every fifth is drawn heavier; 0 when there are no contours
+    double contour_interval_m = 0.0; ///< for the legend, every fifth is drawn heavier; 0: no contours
     Format format = Format::png;
 };
 
-/// What a map shows. hillshade has the DEM's grid, 0 = no data.
+/// The content of a map. hillshade has the DEM's grid, 0: no data.
 struct MapSheet {
     Raster<float> const& dem;
     Raster<std::uint8_t> const& hillshade;
     ElevatedNetwork const* network = nullptr;
-    NetworkOrders const* orders = nullptr;                      ///< of the network; needed where there is one
+    NetworkOrders const* orders = nullptr;                      ///< of the network; required with one
     std::vector<std::pair<double, std::vector<Vec2>>> contours; ///< height [m] and line
     RidgeLines const* ridges = nullptr;                         ///< null or empty: none
-    /// [m²] drained by each arc at its downstream end; not a number above 0: not known; empty: of none
+    /// [m²] by arc: contributing area at its downstream end; not above 0: unknown; empty: all unknown
     std::vector<double> areas_m2 = {};
 };
 
-/// \param sheet a DEM of one cell or more; cells without a height are light grey, cells without a shade lie level
-/// \return a map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and
-/// colour follow the area they drain, or Strahler order where no area is known, scale bar, legend, title, frame with
-/// coordinates
-/// \throws BadInput when hillshade, orders or areas are of another grid or network, or a line has a coordinate that is
-/// not finite
+/// Draws a map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and colour
+/// follow their contributing area (Strahler order if no area is known), scale bar, legend, title, and a frame with
+/// coordinates.
+/// \param sheet a DEM of at least one cell; cells without a height are light grey, cells without a shade are drawn as
+/// level
+/// \return the picture
+/// \throws BadInput when hillshade, orders or areas belong to another grid or network, or a coordinate of a line is not
+/// finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 
 } // namespace thalweg::draw

@@ -9,8 +9,8 @@ namespace thalweg::draw {
 
 enum class Format : std::uint8_t { png, svg, pdf };
 
-/// A finished picture, ready to be written to a file. The same input gives the same bytes on one machine: text is drawn
-/// with the fonts it has (DejaVu Sans, then Noto Sans CJK where that is installed).
+/// A finished picture, ready to be written to a file. The same input gives the same bytes on one machine: text uses its
+/// fonts (DejaVu Sans, then Noto Sans CJK if installed).
 struct Picture {
     std::string bytes;
     Format format = Format::png;

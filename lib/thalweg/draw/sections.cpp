@@ -60,7 +60,7 @@ Vec2 place_on(MainStem const& stem, double from_out_m) {
     return {a.x + (b.x - a.x) * share, a.y + (b.y - a.y) * share};
 }
 
-/// How far one may go from a place in a direction before leaving the grid.
+/// The distance from a position in a direction to the border of the grid.
 double room(Grid const& grid, Vec2 from, Vec2 along) {
     auto const until = [](double at, double step, double low, double high) {
         return step > 0.0   ? (high - at) / step
@@ -83,7 +83,7 @@ void sample(Section& section, Raster<float> const& dem, double first, double las
 
 std::vector<Section> through_the_middle(Raster<float> const& dem) {
     Grid const& grid = dem.grid();
-    // Through centres of cells, so that their heights are met.
+    // Through cell centres, so that their heights are sampled.
     Vec2 const middle = grid.centre({grid.width / 2, grid.height / 2});
     Section row{Section::Kind::row, 0.0, {grid.west, middle.y}, {grid.east(), middle.y}, {}};
     Section column{Section::Kind::column, 0.0, {middle.x, grid.south()}, {middle.x, grid.north}, {}};
@@ -96,7 +96,7 @@ std::vector<Section> through_the_middle(Raster<float> const& dem) {
 
 double height_at(Raster<float> const& dem, Vec2 position) {
     Grid const& grid = dem.grid();
-    // Ends of a cut lie on the edge but for rounding.
+    // Ends of a section lie on the border up to rounding.
     double const edge = 0.5 + 1e-6;
     double const col = (position.x - grid.west) / grid.cell_m - 0.5;
     double const row = (grid.north - position.y) / grid.cell_m - 0.5;
@@ -132,7 +132,7 @@ std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork cons
         return through_the_middle(dem);
     }
     double const length = stem.from_out_m.back();
-    // The course over a stretch of the river: a step from cell to cell says nothing of where the valley runs.
+    // The course over a stretch of the river: a single step between cells does not show the direction of the valley.
     double const stretch = std::max(0.06 * length, 4.0 * grid.cell_m);
     double const reach = std::max(0.18 * length, 12.0 * grid.cell_m);
     std::vector<Section> sections;
@@ -171,7 +171,7 @@ std::string letter_of(std::size_t k) {
     return {static_cast<char>('A' + k)};
 }
 
-/// Scales that all panels share: x, and the span of y.
+/// Scales common to all panels: x, and the span of y.
 struct Scales {
     double x_low = 0.0;
     double x_high = 1.0;
@@ -207,7 +207,7 @@ Scales scales_of(std::vector<Section> const& sections, int ticks) {
     double const fifth = 0.2 * marks.step;
     double highest_share = 0.0;
     for (Vec2 const range : ranges) {
-        // Some land below the lowest place, for a line on the axis would not be seen.
+        // Leave some space below the lowest position: a line on the axis would be invisible.
         double const low = range.x - (level ? 0.5 : 0.03) * greatest;
         scales.y_low.push_back(std::floor(low / fifth + 1e-9) * fifth);
         highest_share = std::max(highest_share, range.y - scales.y_low.back());
@@ -227,7 +227,7 @@ std::string place_of(Section const& section) {
                        : number(m, m < 10.0 ? 1 : 0) + " m from the outlet";
 }
 
-/// Two figures that count: "3.2", "48", "1300".
+/// Two significant digits: "3.2", "48", "1300".
 std::string two_figures(double value) {
     double unit = 0.1;
     while (unit * 100.0 <= value && unit < 1e9) {
@@ -236,7 +236,7 @@ std::string two_figures(double value) {
     return number(std::floor(value / unit + 0.5) * unit, unit < 1.0 ? 1 : 0);
 }
 
-/// The stretches of a line between its gaps, on the sheet.
+/// The parts of a line between its gaps, on the sheet.
 std::vector<std::vector<Vec2>> stretches_of(std::vector<Vec2> const& points, Plot const& plot) {
     std::vector<std::vector<Vec2>> out;
     bool open = false;
@@ -271,7 +271,7 @@ void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, Scales c
         draw_ground(sheet, line, box.bottom(), land, land_line, 0.13 * unit);
     }
     if (section.kind == Section::Kind::river) {
-        // A water mark over the river: a triangle that stands on the land.
+        // A mark at the river: a triangle on the terrain.
         auto const nearest = std::min_element(section.points.begin(), section.points.end(),
                                               [](Vec2 a, Vec2 b) { return std::fabs(a.x) < std::fabs(b.x); });
         if (nearest != section.points.end() && std::isfinite(nearest->y)) {
@@ -297,7 +297,7 @@ void draw_panel(Cairo* sheet, Plot const& plot, Section const& section, Scales c
     }
 }
 
-/// Where the sections lie: the DEM's frame, the main stem, and the lines with their letters.
+/// Draws the key map of the sections: the DEM's frame, the main stem, and the lines with their letters.
 void draw_key(Cairo* sheet, Box room, Grid const& grid, MainStem const& stem, std::vector<Section> const& sections,
               double unit) {
     double const wide = static_cast<double>(grid.width) * grid.cell_m;
@@ -364,14 +364,14 @@ void demand_sections(ElevatedNetwork const* network, NetworkOrders const* orders
     }
 }
 
-/// Where the panels and their key stand; lengths in pixels.
+/// Layout of the panels and their key; lengths in pixels.
 struct PanelSheet {
     double width;
     double unit; ///< the size of a small letter
     double height;
-    double pitch; ///< from panel to panel
-    double top;   ///< above the first panel's name
-    double below; ///< the last panel
+    double pitch; ///< distance between panels
+    double top;   ///< space above the first panel's name
+    double below; ///< space below the last panel
     Box first;
     Box key;
     Scales scales;
@@ -390,7 +390,7 @@ PanelSheet sheet_for_panels(std::vector<Section> const& cuts, double width) {
     sheet.below = 4.6 * unit;
     sheet.pitch = 12.8 * unit;
     sheet.height = std::ceil(sheet.top + static_cast<double>(cuts.size()) * sheet.pitch + sheet.below);
-    double const gap = 2.2 * unit; // above a panel: its name
+    double const gap = 2.2 * unit; // space above a panel for its name
     sheet.first = {left, sheet.top + gap, width - left - key_room - 4.5 * unit, sheet.pitch - gap};
     sheet.key = {width - key_room - 1.8 * unit, sheet.top + gap, key_room,
                  std::min(1.2 * key_room, sheet.height - sheet.top - gap - 8.0 * unit)};
@@ -432,7 +432,7 @@ void name_axes(Cairo* cairo, PanelSheet const& sheet, bool across) {
               Anchor::middle, Vec2{0.0, -1.0});
 }
 
-/// What all panels share, below the key.
+/// Writes the text common to all panels, below the key.
 void say_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
     Box const& key = sheet.key;
     double const high =

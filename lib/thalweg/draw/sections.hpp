@@ -11,35 +11,34 @@
 
 namespace thalweg::draw {
 
-/// A cut through the land. Heights are bilinear between the centres of cells, NaN where one of these has none.
+/// A section through the terrain. Heights are bilinear between cell centres; NaN: one of these has none.
 struct Section {
     enum class Kind { river, row, column }; ///< across a river; along the middle row or column
     Kind kind = Kind::river;
-    double from_outlet_m = 0.0; ///< of the place where it crosses the river, along the stream
+    double from_outlet_m = 0.0; ///< position of the crossing with the river, along the stream
     Vec2 begin;                 ///< [m] ends in plan; looking downstream, begin is on the left
     Vec2 end;
     std::vector<Vec2> points; ///< x [m] from the river to the right (row: from the west end; column: from the south
                               ///< end), y height [m] or NaN
 };
 
-/// Cuts across the main stem, square to it at evenly spaced places between a tenth and nine tenths of its length, from
-/// the upper to the lower; each reaches to the DEM's edge, but no further than a quarter of the stem's length or 12
-/// cells.
-/// \pre a network and its orders, or none: then the middle row and column are cut. count >= 1.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param network the network
-/// \param orders the network's orders
-/// \param count how many
-/// \return nothing for places off the DEM.
+/// Makes sections across the main stem, perpendicular to it, at evenly spaced positions between a tenth and nine tenths
+/// of its length, from the upper to the lower; each extends to the DEM's border, but at most a quarter of the stem's
+/// length or 12 cells.
+/// \param dem [m] by cell; NaN: no data
+/// \param network null: sections along the middle row and column
+/// \param orders the network's orders; null without a network
+/// \param count >= 1, number of sections
+/// \return none for positions off the DEM
 /// \throws BadInput when the DEM has no cells
 std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                                   int count);
 
-/// Height at a position [m], bilinear between the four centres of cells around it, level beyond the outermost; NaN off
-/// the grid or where a cell that counts has no height.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param position [m] the position
-/// \return the height
+/// Interpolates the height at a position: bilinear between the four cell centres around it, constant beyond the
+/// outermost.
+/// \param dem [m] by cell; NaN: no data
+/// \param position [m] any
+/// \return [m] NaN: off the grid, or a contributing cell has no height
 double height_at(Raster<float> const& dem, Vec2 position);
 
 /// Options of sections().
@@ -50,14 +49,13 @@ struct SectionsParams {
     Format format = Format::svg;
 };
 
-/// \pre a DEM, and its network with orders or nullptr for both: then the middle row and column are cut. Where heights
-/// are missing the line is broken.
-/// \param dem [m] heights by cell; NaN: no data
-/// \param network the network
-/// \param orders the network's orders
-/// \return Cross-sections of the valley, one below the other from the upper to the lower, all on the same scales, with
-/// a key map that shows where each lies.
-/// \throws BadInput when the DEM has no cells or orders are of another network
+/// Draws cross-sections of the valley, one below the other from the upper to the lower, all on the same scales, with a
+/// key map of their positions. Lines are interrupted where heights are missing.
+/// \param dem [m] by cell; NaN: no data
+/// \param network null: sections along the middle row and column
+/// \param orders the network's orders; null without a network
+/// \return the picture
+/// \throws BadInput when the DEM has no cells or the orders belong to another network
 Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params = {});
 

@@ -19,7 +19,7 @@
 namespace thalweg::draw {
 namespace {
 
-/// The columns and rows that hold heights; all of them where none does.
+/// The columns and rows with heights; all of them if there are none.
 struct Extent {
     std::int64_t west = 0;
     std::int64_t east = 0;
@@ -39,7 +39,7 @@ Extent extent_of(Raster<float> const& dem) {
     return box.east < 0 ? Extent{0, dem.width() - 1, 0, dem.height() - 1} : box;
 }
 
-/// Where the lines across one direction lie [cells].
+/// Positions of the lines across one direction [cells].
 std::vector<double> spread(std::int64_t first, std::int64_t last, double apart) {
     auto const start = static_cast<double>(first);
     if (first == last) {
@@ -54,7 +54,7 @@ std::vector<double> spread(std::int64_t first, std::int64_t last, double apart) 
     return at;
 }
 
-/// Mean of the cells around a place; NaN where fewer than half of them have a height.
+/// Mean of the cells around a position; NaN: fewer than half of them have heights.
 double mean_around(Raster<float> const& dem, double col, double row, double reach) {
     auto const clamped = [](double v, std::int64_t cells) {
         return std::clamp(static_cast<std::int64_t>(std::floor(v + 0.5)), std::int64_t{0}, cells - 1);
@@ -91,7 +91,7 @@ Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
     net.rows = net.row_at.count();
     net.low_m = std::numeric_limits<double>::infinity();
     net.high_m = -net.low_m;
-    // A third of a mesh each way: less, and single cells make the net restless; more, and valleys fill up.
+    // A third of a mesh each way: with less, single cells make the net noisy; with more, valleys fill up.
     double const reach = apart > 1.0 ? apart / 3.0 : 0.0;
     for (double const row : net.row_at) {
         for (double const col : net.col_at) {
@@ -114,12 +114,13 @@ constexpr double degree = 3.14159265358979323846 / 180.0;
 struct View {
     double sine = 0.0; // of the bearing
     double cosine = 1.0;
-    double tilt = 0.5;    // what depth adds to y
-    double upright = 1.0; // what height adds to y
+    double tilt = 0.5;    // share of depth in y
+    double upright = 1.0; // share of height in y
 
     View(double azimuth_deg, double elevation_deg, double exaggeration) {
         double bearing = azimuth_deg - 90.0 * std::floor(azimuth_deg / 90.0);
-        // Seen end on a line would be a point: a twentieth of a degree shows no difference but to the arithmetic.
+        // Seen exactly along its direction a line would be a point: a twentieth of a degree is invisible but avoids
+        // this.
         double const turned = std::clamp(bearing, 0.05, 89.95) - bearing;
         bearing = (azimuth_deg + turned) * degree;
         sine = std::sin(bearing);
@@ -133,20 +134,20 @@ struct View {
     }
 };
 
-// The net over the ground with what stands around it, projected.
+// The net over the terrain with its surroundings, projected.
 struct Model {
     Fishnet knots;
     Net net;
     double exaggeration = 1.0;
-    std::vector<std::array<Vec2, 2>> skirt;  // from knots on front edges down to the base, where seen
+    std::vector<std::array<Vec2, 2>> skirt;  // visible parts between knots on front edges and the base
     std::vector<std::array<Vec2, 2>> bottom; // the base between them
     Vec2 base_corner;                        // the nearest corner, on the base
     Vec2 base_col_end;                       // the far end of the front edge along columns
     Vec2 base_row_end;
-    Box box; // of all that, y up: x, y are its lower left corner
+    Box box; // of everything, y up: x, y are its lower left corner
 };
 
-// A place on the base below a knot.
+// A position on the base below a knot.
 struct Foot {
     Vec2 at;
     double depth = 0.0; // [m] of the knot, growing away from the viewer
@@ -154,14 +155,14 @@ struct Foot {
 
 using Feet = Indexed<KnotId, Foot>;
 
-/// How high the land nearer to the viewer than a place stands in its column of the sheet.
+/// Height of the terrain in front of a position, in its column of the sheet.
 double cover_before(Net const& net, Feet const& feet, Foot const& place) {
     double cover = -std::numeric_limits<double>::infinity();
     auto const ask = [&](KnotId a, KnotId b) {
         Vec2 const from = net.at[a];
         Vec2 const to = net.at[b];
         double const share = (place.at.x - from.x) / (to.x - from.x);
-        // Sides that end in the knot above cover nothing; between two knots the share is never a hair from the ends.
+        // Sides that end at the knot above hide nothing; between two knots the share is clearly inside.
         if (share > 1e-9 && share < 1.0 - 1e-9 && std::isfinite(from.y) && std::isfinite(to.y) &&
             feet[a].depth + (feet[b].depth - feet[a].depth) * share < place.depth - 1e-9 * std::fabs(place.depth)) {
             cover = std::max(cover, from.y + (to.y - from.y) * share);
@@ -178,7 +179,7 @@ double cover_before(Net const& net, Feet const& feet, Foot const& place) {
     return cover;
 }
 
-// Hangs a skirt on every side of a mesh that has land behind it and none before it.
+// Adds a skirt to every side of a mesh with terrain behind it and none in front.
 void hang_skirt(Model& model, Feet const& feet) {
     Net const& net = model.net;
     auto const has = [&](std::int64_t col, std::int64_t row) {
@@ -187,7 +188,7 @@ void hang_skirt(Model& model, Feet const& feet) {
     auto const has_mesh = [&](std::int64_t col, std::int64_t row) { // by its knot of lowest column and row
         return has(col, row) && has(col + 1, row) && has(col, row + 1) && has(col + 1, row + 1);
     };
-    Indexed<KnotId, std::int8_t> hung(net.at.size(), 0); // 1: seen down to the base, 2: covered there
+    Indexed<KnotId, std::int8_t> hung(net.at.size(), 0); // 1: visible down to the base, 2: hidden there
     auto const hang = [&](std::int64_t col, std::int64_t row) {
         KnotId const knot = row * net.columns + col;
         if (hung[knot] == 0) {
@@ -209,7 +210,7 @@ void hang_skirt(Model& model, Feet const& feet) {
             model.bottom.push_back({from.at, to.at});
             return;
         }
-        constexpr int parts = 12; // of a line that is partly covered
+        constexpr int parts = 12; // of a line that is partly hidden
         auto const at = [&](double share) {
             return Foot{{from.at.x + (to.at.x - from.at.x) * share, from.at.y + (to.at.y - from.at.y) * share},
                         from.depth + (to.depth - from.depth) * share};
@@ -237,12 +238,12 @@ void hang_skirt(Model& model, Feet const& feet) {
     }
 }
 
-// The base lies below the lowest knot by the larger of these.
+// The base is below the lowest knot by the larger of these.
 constexpr double base_of_relief = 0.06;
 constexpr double base_of_side = 0.015; ///< as drawn
 
-/// Relief of about a fifth of the land's greater side: 1, 2, 3, 5 times a power of ten, not below 1 unless the land is
-/// steeper than that altogether.
+/// Chooses an exaggeration that makes the relief about a fifth of the terrain's longer side: 1, 2, 3, 5 times a power
+/// of ten, at least 1 unless the terrain is steeper than that.
 double choose_exaggeration(double relief_m, double side_m) {
     if (!(relief_m > 0.0)) {
         return 1.0;
@@ -284,7 +285,7 @@ Box box_around(std::vector<Vec2> const& places) {
     return {least.x, least.y, most.x - least.x, most.y - least.y};
 }
 
-// The net, its skirt and their box, with the exaggeration of the params or one that reads well.
+// Builds the net, its skirt and their box, with the exaggeration of the params or a chosen one.
 Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     Model model;
     model.knots = fishnet(dem, params.lines);
@@ -301,7 +302,7 @@ Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     auto const place = [&](std::int64_t col, std::int64_t row) {
         return ground_of(dem.grid(), knots.col_at[col], knots.row_at[row]);
     };
-    // Heights from the lowest: with those of a plateau the sheet would be far from the numbers' origin.
+    // Heights relative to the lowest: on a plateau the sheet would otherwise be far from the origin.
     double const base = -std::max(base_of_relief * relief, base_of_side * side / model.exaggeration);
     Feet feet;
     for (std::int64_t row = 0; row < net.rows; ++row) {
@@ -328,7 +329,7 @@ Model model_of(Raster<float> const& dem, WireframeParams const& params) {
     return model;
 }
 
-constexpr int orders_shown = 3; // the smaller streams would only hide the net
+constexpr int orders_shown = 3; // smaller streams would only hide the net
 constexpr Colour skirt_line{0.55, 0.55, 0.57};
 constexpr Colour river_line{0.08, 0.36, 0.72};
 
@@ -359,7 +360,7 @@ struct Rivers {
     int highest = 0;
 };
 
-/// Place among ascending numbers: whole numbers are their indices. Beyond the ends it goes on at the same pace.
+/// Position among ascending numbers, at whole numbers their indices; extrapolated beyond the ends.
 double index_of(std::vector<double> const& at, double value) {
     double const step = (at.back() - at.front()) / static_cast<double>(at.size() - 1);
     return (value - at.front()) / step;
@@ -383,7 +384,7 @@ Rivers rivers_on(WireframeScene const& scene, Fishnet const& knots) {
         for (Vec2 const p : scene.network->plan.arc(a).line) {
             Vec2 const at{index_of(knots.col_at, (p.x - grid.west) / grid.cell_m - 0.5),
                           index_of(knots.row_at, (grid.north - p.y) / grid.cell_m - 0.5)};
-            // What lies far off the net is not drawn, but would be cut at every line between.
+            // Vertices far off the net are not drawn, but would be cut at every line between.
             bool const near = std::fabs(at.x) < 1e4 && std::fabs(at.y) < 1e4;
             if (near && (thread.empty() || distance(thread.back(), at) > 0.02)) {
                 thread.push_back(at);
@@ -395,7 +396,7 @@ Rivers rivers_on(WireframeScene const& scene, Fishnet const& knots) {
     return rivers;
 }
 
-/// "the south-west" for where the eye is.
+/// "the south-west": the position of the viewer.
 char const* quarter_of(double azimuth_deg) {
     constexpr std::array<char const*, 8> quarters = {"south", "south-west", "west", "north-west",
                                                      "north", "north-east", "east", "south-east"};
@@ -417,7 +418,7 @@ void stroke(Cairo* sheet, Colour colour, double width) {
     cairo_stroke(sheet);
 }
 
-/// An arrow on the ground that points north.
+/// An arrow on the terrain that points north.
 void draw_north(Cairo* sheet, Vec2 at, View const& view, double unit) {
     Vec2 const tip = view.at({0.0, 1.0}, 0.0);
     Vec2 const along{tip.x * 26.0 * unit, -tip.y * 26.0 * unit};
@@ -438,15 +439,15 @@ void draw_north(Cairo* sheet, Vec2 at, View const& view, double unit) {
               {12.0 * unit, faint_ink}, Anchor::middle);
 }
 
-/// Where the model stands on the sheet; lengths in pixels.
+/// Layout of the model on the sheet; lengths in pixels.
 struct Sheet {
     double width;
-    double unit; ///< a pixel of a sheet 1200 wide
+    double unit; ///< a pixel of a sheet 1200 px wide
     double margin;
     double top;
     double scale; ///< [px/m]
     double height;
-    Vec2 corner; ///< the model's lower left one
+    Vec2 corner; ///< the model's lower left corner
 
     Vec2 at(Box const& box, Vec2 p) const {
         return {corner.x + (p.x - box.x) * scale, corner.y - (p.y - box.y) * scale};
@@ -475,7 +476,7 @@ void trace_straight(Cairo* cairo, std::vector<std::array<Vec2, 2>> const& lines,
     }
 }
 
-/// A line of the hidden-line removal, whose y grows upwards.
+/// Traces a line of the hidden-line removal, whose y grows upwards.
 void trace_upward(Cairo* cairo, std::vector<Vec2> line) {
     for (Vec2& p : line) {
         p.y = -p.y;
@@ -506,7 +507,7 @@ void draw_threads(Cairo* cairo, Rivers const& rivers, Seen const& seen, Sheet co
     }
 }
 
-/// Writes the length of a front edge beside it, where there is room.
+/// Writes the length of a front edge beside it, if there is room.
 void name_side(Cairo* cairo, Model const& model, Vec2 end, double metres, Sheet const& sheet) {
     double const unit = sheet.unit;
     Vec2 const from = sheet.at(model.box, model.base_corner);
@@ -522,7 +523,7 @@ void name_side(Cairo* cairo, Model const& model, Vec2 end, double metres, Sheet 
 
 void name_sides(Cairo* cairo, Model const& model, Grid const& grid, Sheet const& sheet) {
     auto const extent_m = [&](std::vector<double> const& at, std::int64_t cells) {
-        // Knots stand in the middle of cells, so that the land reaches half a cell further.
+        // Knots lie at cell centres: the terrain extends half a cell further.
         double const reach = at.back() - at.front();
         return grid.cell_m * (cells == 1 ? 1.0 : std::min(static_cast<double>(cells), reach + 1.0));
     };
@@ -566,7 +567,7 @@ double azimuth_up_valley(WireframeScene const& scene) {
     double const bearing = std::atan2(east, north) / degree + 360.0;
     double const axis = 90.0 * std::floor(bearing / 90.0 + 0.5);
     double const off = bearing - axis;
-    // Between end on and the diagonal, where squares turn into a chequer-board.
+    // Between edge-on and the diagonal, where squares would look like a chessboard.
     double const kept = std::copysign(std::clamp(std::fabs(off), 20.0, 35.0), off == 0.0 ? 1.0 : off);
     double const turned = axis + kept;
     return turned - 360.0 * std::floor(turned / 360.0);

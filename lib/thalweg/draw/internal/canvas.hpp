@@ -15,13 +15,13 @@ struct _cairo; // Cairo's own name: cairo.h stays in the .cpp files
 
 namespace thalweg::draw {
 
-// What every picture is drawn with: a sheet in memory, colours, lines and text.
-// Lengths on a sheet are pixels, x to the right, y down.
+// Drawing primitives of all pictures: a sheet in memory, colours, lines and text. Lengths on a sheet are pixels, x to
+// the right, y down.
 
 using Cairo = ::_cairo;
 
 struct Colour {
-    double red = 0.0; ///< [0, 1], as the others
+    double red = 0.0; ///< [0, 1], like the others
     double green = 0.0;
     double blue = 0.0;
     double alpha = 1.0;
@@ -40,9 +40,9 @@ struct Box {
     double bottom() const { return y + height; }
 };
 
-/// A picture of width × height pixels [1, 32000] that fill draws on white.
-/// Gives: equal bytes for equal drawing (no date, no counters of the process).
-/// Throws: IoError when Cairo reports a failure.
+/// Makes a picture of width × height pixels [1, 32000]: calls fill to draw on white.
+/// \return equal bytes for equal drawings (no date, no process-wide counters)
+/// \throws IoError when Cairo reports a failure
 Picture paint(double width, double height, Format format, std::function<void(Cairo*)> const& fill);
 
 void set_colour(Cairo* sheet, Colour colour);
@@ -50,11 +50,11 @@ void fill_box(Cairo* sheet, Box box, Colour colour);
 void frame_box(Cairo* sheet, Box box, double line_width, Colour colour);
 void draw_line(Cairo* sheet, Vec2 from, Vec2 to, double line_width, Colour colour);
 
-/// Appends a polyline to the path. Vertices nearer than a quarter pixel to the last one are left out; corners are
-/// rounded within corner_px of their vertex. Coordinates far outside any sheet are drawn no further than 1e6 px away.
+/// Appends a polyline to the path. Vertices closer than a quarter pixel to the previous one are dropped; corners are
+/// rounded within corner_px of their vertex. Coordinates far outside the sheet are clamped to 1e6 px.
 void trace_line(Cairo* sheet, std::vector<Vec2> const& line, double corner_px);
 
-/// Fills what lies between a line and a height on the sheet, and draws the line over it.
+/// Fills the area between a line and a height on the sheet, and draws the line on top.
 void draw_ground(Cairo* sheet, std::vector<Vec2> const& line, double base_y, Colour fill, Colour colour,
                  double line_width);
 
@@ -68,16 +68,16 @@ struct TextStyle {
     double halo_px = 0.0; ///< of a white rim
 };
 
-/// Any bytes: what is not UTF-8 becomes U+FFFD, control characters become spaces.
+/// Accepts any bytes: invalid UTF-8 becomes U+FFFD, control characters become spaces.
 double text_width(Cairo* sheet, std::string_view text, TextStyle const& style);
-/// at: where the anchor stands on the base line. along: the direction of its base line.
+/// at: position of the anchor on the base line. along: direction of the base line.
 void draw_text(Cairo* sheet, Vec2 at, std::string_view text, TextStyle const& style, Anchor anchor = Anchor::start,
                Vec2 along = {1.0, 0.0});
-/// As draw_text; a text wider than room is set smaller, down to 0.6 of its size, then cut and ended by "…".
+/// As draw_text; a text wider than room is scaled down to 0.6 of its size at most, then truncated with "…".
 void draw_text_within(Cairo* sheet, Vec2 at, std::string_view text, TextStyle style, double room,
                       Anchor anchor = Anchor::start);
 
-/// The part of the ground that a map shows, and where on the sheet.
+/// The area that a map shows, and its frame on the sheet.
 struct Window {
     Box frame;             ///< [px]
     double west = 0.0;     ///< [m] of the frame's left side
@@ -93,24 +93,25 @@ struct Window {
 
 // Scales, ticks and axes of the pictures.
 
-/// Round numbers (1, 2 or 5 times a power of ten apart) on a stretch of a scale.
+/// Round numbers (1, 2 or 5 times a power of ten apart) in an interval of a scale.
 struct Ticks {
     std::vector<double> values; ///< ascending
     double step = 1.0;
-    int decimals = 0; ///< that tell the values apart
+    int decimals = 0; ///< enough to distinguish the values
 };
 
-/// The largest of 1, 2, 5 times a power of ten that is not above value. value: positive and finite.
+/// The largest of 1, 2, 5 times a power of ten that is at most value. value: positive and finite.
 double round_down(double value);
 
-/// Ticks inside [low, high]. Gives: at most most + 1 of them; one value when low = high.
+/// Places ticks inside [low, high].
+/// \return at most most + 1 ticks; one value when low = high
 Ticks ticks_between(double low, double high, int most);
 
-/// A number with so many decimals, U+2212 for minus, a thin space between thousands from 10 000 on;
-/// four digits and an exponent from 1e9 on.
+/// Formats a number with this number of decimals, U+2212 for minus, a thin space between thousands from 10 000; four
+/// digits and an exponent from 1e9.
 std::string number(double value, int decimals);
 
-/// Decimals [0, 9] that multiples of step need.
+/// Number of decimals [0, 9] that multiples of step need.
 int decimals_of(double step);
 
 /// A diagram in its box: x to the right, y up.
@@ -127,10 +128,11 @@ struct Plot {
     }
 };
 
-/// Widens the scale of y to round numbers, and empty scales to a span.
+/// Extends the scale of y to round numbers, and empty scales to an interval.
 void settle_scales(Plot& plot);
 
-/// Grid lines, ticks with numbers, names of the axes. unit: [px] size of a small letter, from which all follows.
+/// Draws grid lines, ticks with numbers, and names of the axes. unit: [px] size of a small letter, the base of all
+/// lengths.
 void draw_axes(Cairo* sheet, Plot const& plot, std::string const& x_name, std::string const& y_name, double unit);
 
 } // namespace thalweg::draw

@@ -12,15 +12,15 @@
 
 namespace thalweg::draw {
 
-// The ground of a map: hillshade under a hypsometric tint.
+// The background of a map: hillshade under a hypsometric tint.
 
-/// Colour of a height. share: [0, 1] of the way from the lowest to the highest.
+/// Colour of a height. share: [0, 1] position between the lowest and the highest.
 Colour tint(double share);
 
-/// Where there are no heights.
+/// Colour of cells without heights.
 inline constexpr Colour no_data{0.90, 0.90, 0.90};
 
-// The lines of a map. unit: [px] what 1 px is on a sheet 1400 px wide.
+// The lines of a map. unit: [px] the equivalent of 1 px on a sheet 1400 px wide.
 
 struct LineStyle {
     double width_px = 1.0;
@@ -33,10 +33,10 @@ enum class ContourKind : std::uint8_t { ordinary, index };
 inline constexpr int index_every = 5;
 LineStyle contour_style(ContourKind kind, double unit);
 
-/// Rivers are the wider and the deeper blue, the more land they drain; without areas, the higher their order.
+/// Rivers are wider and deeper blue with contributing area; without areas, with order.
 struct RiverScale {
-    int highest_order = 0;        ///< 0 when the sheet has no rivers
-    double largest_area_m2 = 0.0; ///< 0 when no area is known
+    int highest_order = 0;        ///< 0: the sheet has no rivers
+    double largest_area_m2 = 0.0; ///< 0: no area is known
 };
 
 LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit);
@@ -47,21 +47,21 @@ LineStyle ridge_style(double unit);
 /// A line without its heights.
 std::vector<Vec2> in_plan(std::vector<Vec3> const& line);
 
-// What stands below a map.
+// The legend below a map.
 
 struct LegendFacts {
     double px_per_m = 1.0;
-    double ground_px = 0.0;              ///< width of the ground shown
+    double ground_px = 0.0;              ///< width of the map area
     std::vector<std::string> frame_text; ///< lines under the scale bar
-    double low_m = 0.0;                  ///< heights at the ends of the tint; low > high where there are none
+    double low_m = 0.0;                  ///< heights at the ends of the tint; low > high: none
     double high_m = 0.0;
     bool holes = false; ///< some cells have no height
     RiverScale rivers;
-    double contour_interval_m = 0.0; ///< 0 for none
-    bool ridges = false;             ///< some are drawn
+    double contour_interval_m = 0.0; ///< 0: none
+    bool ridges = false;             ///< the map shows ridges
 };
 
-/// Height [px] that the legend takes in a row of so many pixels: blocks that do not fit go into further rows.
+/// Height [px] of the legend in rows of this width: blocks that do not fit go into further rows.
 double legend_height(LegendFacts const& facts, double width, double unit);
 void draw_legend(Cairo* sheet, LegendFacts const& facts, Vec2 corner, double width, double unit);
 

@@ -10,11 +10,14 @@
 namespace thalweg::draw {
 
 struct MainStem {
-    std::vector<Vec2> line;         ///< [m] from the outlet upstream; empty where there is none
+    std::vector<Vec2> line;         ///< [m] from the outlet upstream; empty: none
     std::vector<double> from_out_m; ///< by vertex, along the stream
 };
 
-/// The longest flow path of all basins. Takes: a network and its orders.
+/// Finds the longest flow path of all basins.
+/// \param network any
+/// \param orders the network's orders
+/// \return empty: there is no stream
 MainStem main_stem(StreamNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::draw

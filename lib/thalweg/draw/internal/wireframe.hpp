@@ -12,61 +12,66 @@
 
 namespace thalweg::draw {
 
-// The net of a wireframe on the ground.
+// The net of a wireframe over the terrain.
 
 /// Knots with heights. Knot (0, 0) is the north-western one.
 struct Fishnet {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
-    Indexed<ColumnIndex, double> col_at; ///< column of the DEM of every column of knots; cell centres are whole numbers
-    Indexed<RowIndex, double> row_at;    ///< likewise of rows
-    Indexed<std::int64_t, double> height_m; ///< by knot, row-major; NaN where most of the land around it has no height
-    double low_m = 0.0;                     ///< of the knots; low > high where none has a height
+    Indexed<ColumnIndex, double> col_at;    ///< column of the DEM by column of knots; cell centres are whole numbers
+    Indexed<RowIndex, double> row_at;       ///< the same for rows
+    Indexed<std::int64_t, double> height_m; ///< by knot, row-major; NaN: most of the terrain around it has no height
+    double low_m = 0.0;                     ///< of the knots; low > high: none has a height
     double high_m = 0.0;
 };
 
-/// A net of at most most_lines lines each way over the part of a DEM that holds heights, its meshes as square as whole
-/// numbers allow.
-/// Takes: a DEM of one cell or more; most_lines >= 2. Gives: a knot in every cell where these are few enough, else
-/// evenly spread knots with the mean height around them. A single row or column of cells gets two lines, on its edges.
+/// Makes a net of at most most_lines lines in each direction over the part of a DEM with heights, with meshes as square
+/// as whole numbers allow.
+/// \param dem at least one cell
+/// \param most_lines >= 2
+/// \return a knot in every cell if these are few enough, otherwise evenly spaced knots with the mean height around
+/// them. A single row or column of cells has two lines, on its edges.
 Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines);
 
-// Which parts of a net over the land are seen.
+// Hidden-line removal for a net over terrain.
 
-using KnotId = std::int64_t; ///< place of a knot in a net, row by row
+using KnotId = std::int64_t; ///< index of a knot in a net, row by row
 
-/// A fishnet over heights as a parallel projection shows it.
+/// A fishnet over heights in parallel projection.
 struct Net {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
-    Indexed<KnotId, Vec2> at; ///< knots on the sheet, row-major: x to the right, y up; NaN where there is none
-    int away_col = 1;         ///< 1 or -1: columns grow away from the viewer or towards him
-    int away_row = -1;        ///< likewise of rows
+    Indexed<KnotId, Vec2> at; ///< knots on the sheet, row-major: x to the right, y up; NaN: none
+    int away_col = 1;         ///< 1 or -1: columns grow away from or towards the viewer
+    int away_row = -1;        ///< the same for rows
 
     Vec2 const& knot(std::int64_t col, std::int64_t row) const { return at[row * columns + col]; }
 };
 
-/// A line on the land: column and row of its vertices, fractions between knots.
+/// A line on the terrain: column and row of its vertices, fractional between knots.
 using Thread = std::vector<Vec2>;
 
-/// A stretch of a thread that is seen.
+/// A visible part of a thread.
 struct SeenThread {
-    std::size_t thread = 0; ///< its number
+    std::size_t thread = 0; ///< index of the thread
     std::vector<Vec2> line; ///< on the sheet
 };
 
 struct Seen {
-    std::vector<std::vector<Vec2>> net; ///< stretches of the net's lines
+    std::vector<std::vector<Vec2>> net; ///< visible parts of the net's lines
     std::vector<SeenThread> threads;
 };
 
-/// Takes the hidden parts away from a net and the threads on it, front to back against a floating horizon.
-/// Takes: no mesh side parallel to the line of sight in plan; threads lie on the meshes, bilinear between knots.
-/// Gives: a point of the net's lines is seen unless a line that crosses its column of the sheet nearer to the viewer
-/// stands higher there. The land is a solid, seen from above: what lies below the horizon is hidden, so that one
-/// horizon serves. A side of a mesh without one of its knots is left out, and what threads have there.
-/// Threads may lie tolerance below the horizon. What is shorter than 0.001 on the sheet is left out.
-/// Source: floating horizon, Wright 1973; the net of paper 001.
+/// Removes the hidden parts of a net and of the threads on it, front to back against a floating horizon. A point of the
+/// net's lines is visible unless a line closer to the viewer is higher in its column of the sheet. The terrain is a
+/// solid seen from above: everything below the horizon is hidden, so that one horizon suffices. Sides of meshes with a
+/// missing knot, and threads there, are left out; so are parts shorter than 0.001 on the sheet.
+/// \param net no mesh side is parallel to the line of sight in plan
+/// \param threads lie on the meshes, bilinear between knots
+/// \param tolerance allowed depth of threads below the horizon
+/// \return the visible parts
+///
+/// Source: floating horizon, Wright 1973; the net of \cite zhang.
 Seen hidden_lines(Net const& net, std::vector<Thread> const& threads, double tolerance);
 
 } // namespace thalweg::draw
