@@ -34,7 +34,7 @@ std::string opencl_error_name(int code);
 /// Checks that blocks fit into the device's memory.
 /// \param stage for messages
 /// \param bytes of all blocks
-/// \param largest of the largest block
+/// \param largest_bytes of the largest block
 /// \throws IoError with both numbers when they do not fit
 void check_device_memory(OpenClDevice const& device, char const* stage, std::int64_t bytes, std::int64_t largest_bytes);
 
