@@ -23,12 +23,12 @@
 namespace thalweg::io {
 namespace {
 
-// GDAL reads the digits of a code and passes over what follows them.
+// GDAL reads a code's digits and ignores everything after them.
 bool is_mistyped_code(std::string const& text) {
     return EQUALN(text.c_str(), "EPSG:", 5) && text.find_first_not_of("0123456789+", 5) != std::string::npos;
 }
 
-/// Whether PROJ finds its tables: a code that each of them has is known.
+/// Whether PROJ finds its tables: checks a code that all of them contain.
 bool has_database() {
     return OGRSpatialReference().importFromEPSG(4326) == OGRERR_NONE;
 }
@@ -81,7 +81,7 @@ std::string name_of(OGRSpatialReference const& reference) {
     if (auto code = code_of(reference); !code.empty()) {
         return code;
     }
-    Driver const driver; // that it is not identified is no error
+    Driver const driver; // an unidentified CRS is not an error
     OGRSpatialReference identified(reference);
     if (identified.AutoIdentifyEPSG() == OGRERR_NONE) {
         if (auto code = code_of(identified); !code.empty()) {
@@ -146,7 +146,7 @@ std::string projected_crs(std::string const& text) {
 }
 
 std::string utm_zone(double longitude_deg, double latitude_deg) {
-    // Written so that NaN is refused.
+    // Written so that NaN is rejected.
     refuse_if<BadInput>(!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0),
                         "io.utm_zone: no UTM zone covers longitude {}, latitude {}; give the CRS of the grid",
                         longitude_deg, latitude_deg);
@@ -168,7 +168,7 @@ double utm_stretch(std::string const& crs, DegreeBox const& box) {
     constexpr double scale = 0.9996; // on the central meridian
     constexpr double radian = portable::pi / 180.0;
     double const central = 6.0 * *zone - 183.0;
-    // Farthest from the central meridian, nearest to the equator.
+    // The position farthest from the central meridian and closest to the equator.
     double const latitude =
         box.south <= 0.0 && box.north >= 0.0 ? 0.0 : std::min(std::fabs(box.south), std::fabs(box.north));
     double stretch = 0.0;
@@ -223,7 +223,7 @@ double side_of_geographic(Grid const& grid, OGRSpatialReference const& reference
     double const flattening = reference.GetInvFlattening() > 0.0 ? 1.0 / reference.GetInvFlattening() : 0.0;
     double const eccentricity_2 = flattening * (2.0 - flattening);
     double const sine = portable::sin(latitude);
-    // The root of the radii of curvature's product along the meridian and across it.
+    // Geometric mean of the radii of curvature along and across the meridian.
     double const radius =
         reference.GetSemiMajor() * std::sqrt(1.0 - eccentricity_2) / (1.0 - eccentricity_2 * sine * sine);
     return grid.cell_m * unit * radius * std::sqrt(portable::cos(latitude));
@@ -268,7 +268,7 @@ bool is_distorted(Grid const& grid) {
 
 namespace {
 
-// East may exceed 180, not west + 360.
+// East may exceed 180, but not west + 360.
 DegreeBox box_of(Grid const& grid, std::string const& what) {
     Driver const driver;
     OGRSpatialReference const from = read_reference(grid.crs);
@@ -305,7 +305,7 @@ double zone_stretch(Grid const& grid) {
     }
     try {
         return utm_stretch(grid.crs, box_of(grid, "the grid"));
-    } catch (BadInput const&) { // as far away as that
+    } catch (BadInput const&) { // too far away to be transformed
         return std::numeric_limits<double>::infinity();
     }
 }

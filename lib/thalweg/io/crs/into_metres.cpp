@@ -22,7 +22,7 @@ namespace {
 using Transformation = std::unique_ptr<OGRCoordinateTransformation>;
 
 constexpr double most_length_error = 0.01;
-constexpr double most_error_without_zone = 0.1; // polar stereographic metres are better
+constexpr double most_error_without_zone = 0.1; // polar stereographic metres are more accurate
 
 OGRSpatialReference plan_of(OGRSpatialReference const& reference) {
     OGRSpatialReference plan(reference);
@@ -60,8 +60,8 @@ Axes axes_of(Vec2 x, Vec2 y) {
     return {0.5 * (sum + difference), 0.5 * (sum - difference), area};
 }
 
-// By how much lengths in a projected CRS are off, on average over a box whose coordinates are in `own`; places without
-// longitude and latitude in `own` do not count, those without any in the other CRS count as off by 100 %.
+// Mean error of lengths in a projected CRS over a box whose coordinates are in `own`; positions without longitude and
+// latitude in `own` do not count, those without any in the other CRS count as 100 %.
 double length_error(OGRSpatialReference const& projected, OGRSpatialReference const& own, FileBox const& box) {
     Driver const driver;
     OGRSpatialReference const from = plan_of(own);
@@ -115,11 +115,11 @@ std::optional<PointScale> GroundScale::at(Vec2 place) const {
     if (!turn_->to_globe || !is_finite(place)) {
         return std::nullopt;
     }
-    constexpr double step_m = 50.0; // long beside PROJ's last bits, short beside any curvature
+    constexpr double step_m = 50.0; // large compared with PROJ's rounding, small compared with any curvature
     std::array<double, 5> x{place.x, place.x + step_m, place.x - step_m, place.x, place.x};
     std::array<double, 5> y{place.y, place.y, place.y, place.y + step_m, place.y - step_m};
     std::array<int, 5> done{};
-    Driver const driver; // that a place has no longitude is no error
+    Driver const driver; // a position without longitude is not an error
     turn_->to_globe->Transform(5, x.data(), y.data(), nullptr, done.data());
     for (std::size_t i = 0; i < done.size(); ++i) {
         x[i] *= turn_->unit_rad;
@@ -149,10 +149,10 @@ namespace {
 
 constexpr double most_stretch = 0.04;
 
-// Nothing where a corner has no place on the globe.
+// Nothing if a corner is not on the globe.
 std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformation& turn) {
     constexpr int points_a_side = 21;
-    Driver const driver; // that there is none is no error
+    Driver const driver; // a missing position is not an error
     DegreeBox degrees;
     bool const done = turn.TransformBounds(box.low.x, box.low.y, box.high.x, box.high.y, &degrees.west, &degrees.south,
                                            &degrees.east, &degrees.north, points_a_side) != 0;
@@ -165,10 +165,10 @@ std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformat
     return degrees;
 }
 
-// The UTM zone of the middle of a box whose coordinates are in `from`; where that lengthens lines by more than 4 %,
-// Lambert's azimuthal equal-area projection around the middle. Longitudes on both sides of 180 degrees are one box
-// where that is narrower. Throws: BadInput where the middle has no longitude and latitude or the box spans more than
-// 180 degrees of longitude: "io.into_metres: name ...".
+// The UTM zone of the middle of a box whose coordinates are in `from`; if that lengthens lines by more than 4 %,
+// Lambert's azimuthal equal-area projection centred there. Longitudes on both sides of 180 degrees form one box if that
+// is narrower. Throws BadInput when the middle has no longitude and latitude or the box spans more than 180 degrees of
+// longitude: "io.into_metres: name ...".
 std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
     FileBox box = given;
     if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
@@ -218,7 +218,7 @@ std::optional<std::string> less_distorted(OGRSpatialReference const& own, FileBo
     std::string zone;
     try {
         zone = zone_of(box, own, name);
-    } catch (BadInput const&) { // round a pole or the globe
+    } catch (BadInput const&) { // around a pole or the globe
         if (length_error(own, own, box) > most_error_without_zone) {
             throw;
         }

@@ -32,8 +32,8 @@ std::error_code last_error() {
     return {errno, std::generic_category()};
 }
 
-// Waits until a file, or a folder's list of names, is on the disk: a rename that follows then never names what a power
-// failure has cut.
+// Flushes a file, or a folder's directory entries, to disk: a rename after that never leads to a file truncated by a
+// power failure.
 void make_durable(fs::path const& place, std::string const& who) {
     int const file = open(place.empty() ? "." : place.c_str(), O_RDONLY | O_CLOEXEC);
     bool const done = file >= 0 && fsync(file) == 0;
@@ -41,7 +41,7 @@ void make_durable(fs::path const& place, std::string const& who) {
     if (file >= 0) {
         close(file);
     }
-    // Some file systems have no such call, some folders may be written to and not read.
+    // Some file systems lack fsync, some folders are writable but not readable.
     bool const has_none = reason == EINVAL || reason == ENOTSUP || reason == EROFS;
     std::error_code ignored;
     if (!done && !has_none && !(reason == EACCES && fs::is_directory(place, ignored))) {
@@ -49,7 +49,7 @@ void make_durable(fs::path const& place, std::string const& who) {
     }
 }
 
-// Likewise every file and folder below a folder, and the folder.
+// The same for every file and folder below a folder, and for the folder.
 void make_all_durable(fs::path const& folder, std::string const& who) {
     std::error_code error;
     fs::recursive_directory_iterator entry(folder, error);
@@ -63,7 +63,7 @@ void make_all_durable(fs::path const& folder, std::string const& who) {
     make_durable(folder, who);
 }
 
-// A process's number says nothing on another host that sees the same folder.
+// A process id is meaningless on another host that sees the same folder.
 std::string mark_of_host() {
     std::array<char, 256> name{};
     gethostname(name.data(), name.size() - 1);
@@ -87,14 +87,13 @@ bool holds_old_files(fs::path const& place) {
     return place.string().ends_with("-old") || fs::exists(place.string() + "-old", ignored);
 }
 
-// What the name of every temporary file of this process holds: "thalweg-tmp-HOST-PID".
+// The part common to all temporary names of this process: "thalweg-tmp-HOST-PID".
 std::string temporary_mark() {
     return fmt::format("{}{}", mark_of_host(), getpid());
 }
 
-// Removes the temporary files and folders in a folder that processes of this host left when they were killed. Where one
-// died while it moved old files aside, all stays: NAME-old beside NAME holds files of the user. What cannot be removed
-// stays without a word.
+// Removes temporary files and folders that killed processes of this host left in a folder. If one died while it moved
+// old files aside, everything stays: NAME-old beside NAME holds the user's files. Failures are ignored.
 void sweep_leftovers(fs::path const& folder) noexcept {
     try {
         std::string const mark = mark_of_host();
@@ -108,7 +107,7 @@ void sweep_leftovers(fs::path const& folder) noexcept {
             std::error_code ignored;
             fs::remove_all(place, ignored);
         }
-    } catch (std::exception const&) { // a folder that cannot be read, or no memory: the next run sweeps
+    } catch (std::exception const&) { // an unreadable folder, or no memory: the next run tries again
     }
 }
 
@@ -161,7 +160,8 @@ bool is_plain(fs::path const& name) {
     return !name.empty() && name.is_relative() && std::ranges::find(name, fs::path("..")) == name.end();
 }
 
-// A file this library may remove: below the folder by its name, reached without a link, and no folder itself.
+// Checks that this library may remove a file: its name is below the folder, no link leads to it, and it is not a
+// folder.
 void require_removable(fs::path const& folder, std::string const& name) {
     if (!is_plain(name)) {
         throw BadInput(
@@ -199,7 +199,7 @@ std::vector<std::string> files_below(fs::path const& folder) {
     return names;
 }
 
-// Moves that can be taken back.
+// Moves that can be undone.
 class Moves {
 public:
     Moves() = default;
@@ -272,7 +272,7 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
     if (existed_) {
         sweep_leftovers(place);
     }
-    // In an existing folder, for it may be a mount point whose parent is another file system or not ours to write to.
+    // Inside an existing folder, which may be a mount point whose parent is another file system or not writable.
     std::string const stem = (existed_ ? (place / ".").string() : folder_ + ".") + temporary_mark();
     fs::path missing = existed_ ? fs::path() : fs::absolute(place).parent_path();
     for (; !missing.empty() && !fs::exists(missing, error); missing = missing.parent_path()) {
@@ -294,7 +294,7 @@ OutputFolder::~OutputFolder() {
     fs::remove_all(staging_, ignored);
     if (!committed_) {
         for (auto made = made_.rbegin(); made != made_.rend(); ++made) {
-            fs::remove(*made, ignored); // only when nothing else has come into it
+            fs::remove(*made, ignored); // only if nothing else has been put there
         }
     }
 }
@@ -318,7 +318,7 @@ void OutputFolder::commit() {
     std::error_code error;
     make_all_durable(staging_, who);
     if (!existed_) {
-        // rename() would silently replace an empty folder that has come since; one that holds something stops it.
+        // rename() would silently replace an empty folder created in the meantime; one with content stops it.
         fs::rename(staging_, folder, error);
         require(error, "io.output_folder: " + folder_);
         committed_ = true;
@@ -342,7 +342,7 @@ void OutputFolder::commit() {
                             (folder / name).string()));
         }
     }
-    // The old files go aside first, so that every move has an empty place to go to and can be taken back.
+    // The old files are moved aside first, so that every move has a free target and can be undone.
     fs::path const aside = fs::path(staging_ + "-old");
     Moves moves;
     for (std::string const& name : old_files_) {
@@ -360,7 +360,7 @@ void OutputFolder::commit() {
     for (std::string const& name : old_files_) {
         fs::path const above = (folder / name).parent_path();
         if (above != folder) {
-            fs::remove(above, error); // an emptied inputs/; one that holds something stays
+            fs::remove(above, error); // removes an empty inputs/; one with content stays
         }
     }
 }
@@ -422,7 +422,7 @@ OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path)
     require_place();
     sweep_leftovers(folder);
     staging_ = (folder / fmt::format(".{}-{}", temporary_mark(), fs::path(path).filename().string())).string();
-    fs::remove(staging_, ignored); // of an earlier process of the same number
+    fs::remove(staging_, ignored); // of an earlier process with the same id
 }
 
 OutputFile::~OutputFile() {
@@ -443,7 +443,7 @@ void OutputFile::require_place() const {
 }
 
 void OutputFile::commit() {
-    require_place(); // something may have come since
+    require_place(); // something may have been created in the meantime
     make_durable(staging_, "io.output_file");
     std::error_code error;
     fs::rename(staging_, path_, error);

@@ -48,7 +48,7 @@ bool names_connection(std::string const& path) {
         return false;
     }
     for (std::string_view const system : local) {
-        if (name.starts_with(system)) { // in which another may be: /vsizip//vsicurl/...
+        if (name.starts_with(system)) { // file systems may be nested: /vsizip//vsicurl/...
             return names_connection(std::string(name.substr(system.size() - 1)));
         }
     }
@@ -86,7 +86,7 @@ void require_allowed(std::string const& path) {
 
 namespace {
 
-// Drivers that connect to servers, also where only a file or a VRT tells them to; GPSBabel starts a program.
+// Drivers that connect to servers, also when only a file or a VRT asks for it; GPSBabel starts a program.
 constexpr std::array network_drivers{
     "AmigoCloud",    "Carto",        "CSW",      "DAAS",     "DODS",     "EEDA",     "EEDAI",
     "Elasticsearch", "GeoRaster",    "GMLAS",    "GPSBabel", "HANA",     "HTTP",     "JPIPKAK",
@@ -94,7 +94,7 @@ constexpr std::array network_drivers{
     "ODBC",          "OGCAPI",       "OGR_OGDI", "PGeo",     "PLMOSAIC", "PLSCENES", "PostGISRaster",
     "RDA",           "STACIT",       "STACTA",   "WCS",      "WFS",      "WMS",      "WMTS"};
 
-// File systems of GDAL's that stay on this machine.
+// GDAL's file systems that stay on this machine.
 constexpr std::array local_systems{"/vsimem/",   "/vsizip/",     "/vsigzip/",
                                    "/vsitar/",   "/vsisubfile/", "/vsisparse/",
                                    "/vsicrypt/", "/vsistdout/",  "/vsistdout_redirect/",
@@ -105,7 +105,7 @@ thread_local Refusal refused;
 
 struct Roots {
     std::mutex mutex;
-    std::vector<std::string> folders; ///< one of each Confined, twice
+    std::vector<std::string> folders; ///< two entries for each Confined
     std::string tables;               ///< GDAL's own
 };
 
@@ -114,7 +114,7 @@ Roots& roots() {
     return all;
 }
 
-/// Drivers that are at hand but not registered.
+/// Drivers kept but not registered.
 struct Aside {
     GDALDriver* postgres = nullptr;
     GDALDriver* netcdf = nullptr;
@@ -175,11 +175,11 @@ bool is_any(char const* /*path*/) {
     return true;
 }
 
-/// A file system of GDAL's that some names do not reach.
+/// A file system of GDAL's that is closed to some names.
 class Guarded : public VSIFilesystemHandler {
 public:
     using Allows = bool (*)(char const*);
-    /// Takes: what may be touched at all, and what of that may be opened.
+    /// allows: which files may be accessed; opens: which of them may be opened.
     Guarded(VSIFilesystemHandler* inner, Allows allows, Allows opens = is_any)
         : inner_(inner), allows_(allows), opens_(opens) {}
     ~Guarded() override { delete inner_; }
@@ -255,7 +255,7 @@ private:
         return false;
     }
 
-    VSIFilesystemHandler* inner_; // deleted here: GDAL deletes what it holds, and it holds this
+    VSIFilesystemHandler* inner_; // deleted here: GDAL deletes this handler, which owns the inner one
     Allows allows_;
     Allows opens_;
 };
@@ -413,7 +413,7 @@ std::vector<std::string> const& proj_folders() {
     return folders;
 }
 
-/// PROJ tries a name without a folder in each of its own and at last in the current one; that this fails is usual.
+/// PROJ tries a name without a folder in each of its folders and finally in the current one; failure there is normal.
 bool is_of_proj(char const* name) noexcept {
     try {
         std::string const path = fs::absolute(name).lexically_normal().string();
@@ -423,7 +423,7 @@ bool is_of_proj(char const* name) noexcept {
         if (std::string_view(name).find('/') != std::string_view::npos) {
             refused.grid = name;
         }
-    } catch (std::exception const&) { // must not cross frames of C
+    } catch (std::exception const&) { // exceptions must not cross C frames
     }
     return false;
 }

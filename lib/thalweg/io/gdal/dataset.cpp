@@ -39,7 +39,7 @@ struct Sqlite {
     bool is_write_ahead = false;
 };
 
-// The header of an SQLite file: its name, and 2 for write-ahead mode where versions to write and read stand.
+// Reads the header of an SQLite file: its magic, and 2 for write-ahead mode as read and write versions.
 Sqlite sqlite_in(fs::path const& file) {
     std::array<char, 20> header{};
     std::ifstream stream(file, std::ios::binary);
@@ -62,7 +62,7 @@ State state_of(fs::path const& file) {
     return {fs::file_size(file), fs::last_write_time(file)};
 }
 
-// Whether neither part changed while they were copied.
+// Copies two files; false if either changed meanwhile.
 bool copied(fs::path const& file, fs::path const& copy) {
     std::array const before{state_of(file), state_of(wal_of(file))};
     auto const options = fs::copy_options::overwrite_existing;
@@ -71,16 +71,16 @@ bool copied(fs::path const& file, fs::path const& copy) {
     return before == std::array{state_of(file), state_of(wal_of(file))};
 }
 
-// How a file is opened so that reading changes neither it nor its folder. SQLite writes to a GeoPackage in write-ahead
-// mode even when it is opened to be read: it makes NAME-wal and NAME-shm, and on closing moves what stands in NAME-wal
-// into the file; a NAME-wal beside one in another mode it deletes. One without changes in NAME-wal is therefore opened
-// as immutable; of one with changes a copy is read, which goes with this object. Any other file is opened as it is.
+// Opens a file so that reading changes neither it nor its folder. SQLite writes to a GeoPackage in write-ahead mode
+// even when it is opened for reading: it creates NAME-wal and NAME-shm, and on closing moves the content of NAME-wal
+// into the file; it deletes a NAME-wal beside a file in another mode. A GeoPackage without changes in NAME-wal is
+// therefore opened as immutable; one with changes is copied, and the copy is removed with this object. Any other file
+// is opened directly.
 class Undisturbed {
 public:
-    // Throws: BadInput like refuse_pipe; IoError when a copy is needed and cannot be made, or the file is being
-    // written meanwhile.
+    // Throws BadInput as refuse_pipe; IoError when a necessary copy fails, or the file is being written meanwhile.
     explicit Undisturbed(fs::path const& file) : path_(file) {
-        for (char const* const beside : {"", "-journal", "-wal"}) { // SQLite opens these by itself
+        for (char const* const beside : {"", "-journal", "-wal"}) { // SQLite opens these on its own
             std::string const path = file.string() + beside;
             refuse_pipe(path, "io.Undisturbed: " + path);
         }
@@ -110,7 +110,7 @@ public:
             "io.Undisturbed: {} is being written by another program; close it there and try again", file.string()));
     }
 
-    // What to open.
+    // The path to open.
     std::string path() const { return path_.string(); }
     // GDAL's open options, null-terminated.
     char const* const* options() const {
@@ -120,7 +120,7 @@ public:
 
 private:
     fs::path path_;
-    std::unique_ptr<TemporaryFolder> copies_; // the folder of the copy; null when there is none
+    std::unique_ptr<TemporaryFolder> copies_; // the folder of the copy; null: none
     bool immutable_ = false;
 };
 
@@ -145,7 +145,7 @@ constexpr std::array recipe_formats{"GTiff",        "HFA",
                                     "OGR_GMT",      "JML",
                                     "DXF"};
 
-// The word of an SQL text that begins at a place, and the place behind it; quotes taken off.
+// Reads the word of an SQL text at a position, without quotes, and advances the position.
 std::string next_word(std::string const& sql, std::size_t& at) {
     at = std::min(sql.find_first_not_of(" \t\r\n", at), sql.size());
     if (at == sql.size()) {
@@ -161,7 +161,7 @@ std::string next_word(std::string const& sql, std::size_t& at) {
     return word;
 }
 
-// Whether a table of a GeoPackage is made by a program, which may read any file: all but the index of shapes.
+// Whether a table of a GeoPackage is virtual, which may read any file: all but the spatial index.
 bool is_foreign_table(std::string const& sql) {
     std::size_t at = 0;
     for (char const* const word : {"CREATE", "VIRTUAL", "TABLE"}) {
@@ -173,15 +173,15 @@ bool is_foreign_table(std::string const& sql) {
     return !EQUAL(next_word(sql, at).c_str(), "USING") || !EQUAL(next_word(sql, at).c_str(), "rtree");
 }
 
-// GDAL's names of formats that hold their data themselves, read by drivers that look no further than the files beside
-// the one they open; nullptr at the end.
+// GDAL's names of formats that contain all their data, read by drivers that open only the files beside the given one;
+// nullptr at the end.
 std::vector<char const*> recipe_drivers() {
     std::vector<char const*> drivers(recipe_formats.begin(), recipe_formats.end());
     drivers.push_back(nullptr);
     return drivers;
 }
 
-// Takes: GDAL's name of a file, and the user's. Throws: BadInput when the file is in another format.
+// name: GDAL's name of the file; path: the user's. Throws BadInput when the file is in another format.
 void refuse_other_format(std::string const& name, std::string const& path) {
     GDALDriverH const driver = GDALIdentifyDriver(name.c_str(), nullptr);
     std::string const format = driver == nullptr ? "" : GDALGetDriverShortName(driver);
@@ -192,7 +192,7 @@ void refuse_other_format(std::string const& name, std::string const& path) {
                         path, format);
 }
 
-// Throws: BadInput when a GeoPackage holds a virtual table, which may read any file; the index of shapes is none.
+// Throws BadInput when a GeoPackage contains a virtual table, which may read any file; the spatial index is allowed.
 void require_own_tables(GDALDataset& package, std::string const& path) {
     OGRLayer* const tables = package.ExecuteSQL(
         "SELECT name, sql FROM sqlite_master WHERE type = 'table' AND (rootpage IS NULL OR rootpage < 1)", nullptr, "");
@@ -246,7 +246,7 @@ bool is_postgres(std::string const& path) {
     return path.starts_with("PG:") || path.starts_with("postg");
 }
 
-// What one data set needs as long as it is open, in this order.
+// Resources that a data set needs as long as it is open, in this order.
 struct Held {
     std::unique_ptr<Connection const> connection = {};
     std::unique_ptr<Undisturbed const> file = {};
@@ -321,7 +321,7 @@ bool is_recipe_file(std::string const& path) {
 }
 
 Dataset open_file(std::string const& path, unsigned kinds, std::string const& what) {
-    // GDAL takes addresses and connection strings for file names.
+    // GDAL accepts addresses and connection strings as file names.
     if (std::error_code ignored; !fs::exists(path, ignored)) {
         throw BadInput(what + " does not exist");
     }

@@ -22,13 +22,13 @@ namespace thalweg::io {
 namespace {
 
 struct Kept {
-    std::vector<std::string> errors; // the first few: a corrupt file can give one a tile
-    bool is_cut = false;             // there was no memory for another
+    std::vector<std::string> errors; // the first few: a corrupt file can cause one per tile
+    bool is_cut = false;             // memory was insufficient for more
 };
 
 constexpr std::size_t errors_kept = 4;
 
-// After an error of this level, an allocation that failed, GDAL calls abort().
+// After an error of this level (a failed allocation) GDAL calls abort().
 void end_if_fatal(CPLErr level, char const* text) {
     if (level != CE_Fatal) {
         return;
@@ -49,12 +49,12 @@ void CPL_STDCALL note(CPLErr level, CPLErrorNum, char const* text) noexcept {
         if (errors.size() < errors_kept && std::ranges::find(errors, text) == errors.end()) {
             errors.emplace_back(text);
         }
-    } catch (std::exception const&) { // must not cross frames of C
+    } catch (std::exception const&) { // exceptions must not cross C frames
         is_cut = true;
     }
 }
 
-// Of threads that have no Driver.
+// For threads without a Driver.
 void CPL_STDCALL note_elsewhere(CPLErr level, CPLErrorNum number, char const* text) {
     end_if_fatal(level, text);
     CPLDefaultErrorHandler(level, number, text);
@@ -65,12 +65,12 @@ void CPL_STDCALL note_elsewhere(CPLErr level, CPLErrorNum number, char const* te
 struct Driver::Log : Kept {};
 
 Driver::Driver() : log_(std::make_unique<Log>()) {
-    // Not call_once: an exception, of memory that is exhausted, would cross frames of C.
+    // Not call_once: an exception (out of memory) would cross C frames.
     [[maybe_unused]] static bool const is_registered = [] {
         GDALAllRegister();
         guard_gdal();
         CPLSetErrorHandler(note_elsewhere);
-        OSRSetPROJEnableNetwork(0); // a datum grid fetched on one machine only would change the coordinates there
+        OSRSetPROJEnableNetwork(0); // a datum grid downloaded on one machine would change coordinates only there
         return true;
     }();
     CPLPushErrorHandlerEx(note, static_cast<Kept*>(log_.get()));

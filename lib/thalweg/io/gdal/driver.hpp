@@ -7,20 +7,21 @@
 
 namespace thalweg::io {
 
-/// Holds GDAL's drivers and, for the calling thread, its error handler for as long as it lives; every door of this
-/// module opens one as a local variable, before any dataset, and closes the datasets before the last check().
-/// Errors GDAL only logs (a flush that failed at close, a corrupt tile) are kept and thrown by check().
+/// Holds GDAL's drivers and, for the calling thread, its error handler; every public function of this module creates
+/// one as a local variable before any dataset, and closes the datasets before the last check(). Errors that GDAL only
+/// logs (a failed flush at close, a corrupt tile) are kept and thrown by check().
 class Driver {
 public:
     Driver();
     ~Driver();
     Driver(Driver const&) = delete;
     Driver& operator=(Driver const&) = delete;
-    /// \param what what was done, for messages
-    /// \throws IoError with GDAL's words when an error came since the last call, BadInput when a file wanted a
-    /// connection or names a CRS that does not exist. what: "io.write_dem: out/dem.tif"
+    /// Throws errors that GDAL reported since the last call.
+    /// \param what "io.write_dem: out/dem.tif"
+    /// \throws IoError with GDAL's message
+    /// \throws BadInput when a file requested a connection or names a CRS that does not exist
     void check(std::string const& what) const;
-    /// \return GDAL's words for the errors since the last call, "" for none: for messages of one's own.
+    /// \return GDAL's messages since the last call, for the caller's own error; "": none
     std::string take() const;
 
 private:
@@ -28,7 +29,7 @@ private:
     std::unique_ptr<Log> log_;
 };
 
-/// \return the name and version of GDAL, for reports.
+/// \return the name and version of GDAL, for reports
 std::string gdal_version();
 
 } // namespace thalweg::io

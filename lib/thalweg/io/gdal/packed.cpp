@@ -18,7 +18,7 @@ namespace {
 
 constexpr int level = 6;
 constexpr std::size_t most = std::numeric_limits<std::int32_t>::max();
-constexpr std::size_t piece = 3 << 20; // of whole threes: base64 fills up only at its end
+constexpr std::size_t piece = 3 << 20; // a multiple of three: base64 pads only at its end
 
 struct Freed {
     void operator()(void* memory) const { VSIFree(memory); }

@@ -8,11 +8,11 @@
 
 namespace thalweg::io {
 
-/// Bytes as base64 of a zlib stream, to stand in a text.
-/// \param bytes the number of bytes
-/// \return letters, digits, + and /, filled up with =, without line breaks; inflated again they are the same bytes.
-/// Which bytes a stream has depends on the zlib or libdeflate that GDAL was built with.
-/// \throws BadInput beyond 2^31 - 1 bytes, which older GDALs cannot deflate
+/// Compresses bytes to base64 of a zlib stream, for embedding in text.
+/// \param bytes any
+/// \return letters, digits, + and /, padded with =, without line breaks. The bytes of the stream depend on the zlib or
+/// libdeflate that GDAL uses; decompression restores the input.
+/// \throws BadInput beyond 2^31 - 1 bytes, which older GDALs cannot compress
 /// \throws IoError when GDAL fails
 ///
 /// Source: RFC 1950 (zlib), RFC 4648 (base64).

@@ -32,7 +32,7 @@
 namespace thalweg::io {
 namespace {
 
-// Of a layer of any shapes the first feature decides.
+// For a layer of any geometry type the first feature decides.
 OGRwkbGeometryType shape_of(OGRLayer& layer) {
     auto type = wkbFlatten(layer.GetGeomType());
     if (type == wkbUnknown) {
@@ -100,12 +100,13 @@ std::vector<std::string> dataset_files(std::string const& path) {
     CPLStringList const list(source->GetFileList(), TRUE);
     std::vector<std::string> files;
     for (int i = 0; i < list.size(); ++i) {
-        // GDAL 3.7 lists what companions name, too, wherever it lies.
+        // GDAL 3.7 also lists files named by companions, wherever they are.
         if (VSIStatBufL status; VSIStatL(list[i], &status) == 0) {
             files.emplace_back(list[i]);
         }
     }
-    if (!files.empty() && source->GetDescription() != path) { // a copy was read, because changes stand beside the file
+    // a copy was read, because the file has uncommitted changes
+    if (!files.empty() && source->GetDescription() != path) {
         files = {path, path + "-wal"};
     }
     std::sort(files.begin(), files.end());
@@ -117,9 +118,9 @@ namespace {
 struct Units {
     OGRSpatialReference crs;
     double height_m = 1.0;
-    bool names_height = false; ///< the file says what its heights are in
+    bool names_height = false; ///< the file specifies the unit of its heights
     bool has_heights = false;
-    std::optional<FileBox> box; ///< of what has a place
+    std::optional<FileBox> box; ///< of data that have positions
 };
 
 std::optional<FileBox> placed_box(GDALDataset& data) {
@@ -145,7 +146,7 @@ OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string con
     }
     try {
         return &rivers_layer(data, "", path, "io.conversions_of");
-    } catch (BadInput const&) { // of points or polygons
+    } catch (BadInput const&) { // it has points or polygons
         return data.GetLayerCount() > 0 ? data.GetLayer(0) : nullptr;
     }
 }
@@ -202,7 +203,7 @@ std::vector<std::string> conversions_of(std::string const& path, std::string con
         OGRSpatialReference target = read_reference(crs);
         target.StripVertical();
         if (name_of(plan) != name_of(target) && plan.IsSame(&target) == 0) {
-            bool const is_code = crs.size() < 40; // EPSG:32631; else the whole WKT
+            bool const is_code = crs.size() < 40; // EPSG:32631; otherwise the whole WKT
             said.push_back(fmt::format("{}: coordinates in {} ({}) are reprojected into {}", name,
                                        plan.GetName() == nullptr ? "its CRS" : plan.GetName(),
                                        unit_in_plan(plan, units.box),
@@ -230,7 +231,7 @@ Dataset copy_raster(GDALDataset& source, std::string const& path, Watch& watch) 
 
 Dataset copy_layers(GDALDataset& source, std::string const& layer, std::string const& path, Watch& watch) {
     CPLStringList words;
-    // The names of the columns for numbers and shapes shall not meet one of the source's.
+    // The columns for ids and geometries must not collide with the source's.
     for (char const* const word : {"-f", "GPKG", "-lco", "FID=thalweg_fid", "-lco", "GEOMETRY_NAME=thalweg_shape"}) {
         words.AddString(word);
     }

@@ -11,7 +11,7 @@
 namespace thalweg::io {
 namespace {
 
-// Appends a field of so many bytes, filled with zeros.
+// Appends a field of this many bytes, padded with zeros.
 void put_field(std::string& bytes, std::string_view words, std::size_t size) {
     bytes.append(words.substr(0, size));
     bytes.append(size - std::min(size, words.size()), '\0');
@@ -53,7 +53,7 @@ LasAxis axis_of(double low, double high, double scale) {
 }
 
 double scale_for(double short_way) {
-    double steps = 1000.0; // in a metre; a power of ten, so that the scale is the double nearest to one
+    double steps = 1000.0; // per metre; a power of ten, so that the scale is the double nearest to one
     while (steps * short_way < 1000.0 && steps < 1e15) {
         steps *= 10.0;
     }
@@ -94,7 +94,7 @@ void put_las_header(std::string& bytes, LasFrame const& frame, std::string const
     put_number(bytes, std::uint8_t{2});
     put_field(bytes, "EXTRACTION", 32);
     put_field(bytes, "thalweg", 32);
-    put_number(bytes, std::uint16_t{1}); // day and year: fixed, so that the bytes are
+    put_number(bytes, std::uint16_t{1}); // day and year: fixed, so that files are reproducible
     put_number(bytes, std::uint16_t{2000});
     put_number(bytes, header_size);
     put_number(bytes, header_size + (has_keys ? record_header_size + keys_size : 0U));
@@ -102,7 +102,7 @@ void put_las_header(std::string& bytes, LasFrame const& frame, std::string const
     put_number(bytes, std::uint8_t{0}); // point format
     put_number(bytes, std::uint16_t{20});
     put_number(bytes, frame.count);
-    put_number(bytes, frame.count); // by return: all are first
+    put_number(bytes, frame.count); // by return: all are first returns
     for (int i = 0; i < 4; ++i) {
         put_number(bytes, std::uint32_t{0});
     }

@@ -16,53 +16,56 @@ namespace thalweg::io {
 /// Whether points need heights.
 enum class PointHeights : std::uint8_t {
     wanted,
-    passed_over ///< points lie in plan: whatever heights they have count as 0, and text needs no third column
+    passed_over ///< points lie in plan: any heights count as 0, and text needs no third column
 };
 
-/// What becomes of points that lie at one place in plan at unequal heights.
+/// Treatment of points with the same position in plan but different heights.
 enum class DuplicatePoints : std::uint8_t {
     refused,
-    averaged ///< all of a place take the mean of their heights
+    averaged ///< all points at a position get the mean of their heights
 };
 
 /// Options of read_points().
 struct ReadPointsParams {
     std::string path = {};     ///< text (.csv, .txt, .xyz) or anything OGR opens
-    std::string layer = {};    ///< "" takes the only layer of points
-    std::string z_field = "z"; ///< heights of points that have none themselves
-    std::string crs = {};      ///< of the result; "" takes the file's own when projected in metres, else its UTM zone;
-                               ///< a file without one, text included, is taken to be in it unless source_crs says
+    std::string layer = {};    ///< "": the only layer of points
+    std::string z_field = "z"; ///< source of heights for points without their own
+    /// of the result; "": the file's own if projected in metres, else its UTM zone; a file without a CRS, text
+    /// included, is assumed to be in it unless source_crs is set
+    std::string crs = {};
     PointHeights heights = PointHeights::wanted;
     DuplicatePoints duplicates = DuplicatePoints::refused;
-    /// Text: the columns that hold x, y and z, as names of a first line or numbers from 1 ("3,2,4"), or "pnezd"
-    /// (number, northing, easting, height, description). "": a first line names them x, y and z, or there are just
-    /// these three; nothing where the user has no option to name them
+    /// Text: the columns of x, y and z, as names in a first line or numbers from 1 ("3,2,4"), or "pnezd" (number,
+    /// northing, easting, height, description). "": a first line names them x, y and z, or there are exactly these
+    /// three; nothing: the user has no option to name them
     std::optional<std::string> columns = {};
-    /// CRS of a file that has none, text included ("": crs); nothing where the user has no option to name it
+    /// CRS of a file that has none, text included ("": crs); nothing: the user has no option to name it
     std::optional<std::string> source_crs = {};
 };
 
-/// Reads points with heights. Text: one a line, x y z in three columns, in those that a first line names (x, y, z in
-/// any case and order) or in those of params.columns, separated by commas, semicolons or blanks; empty lines and those
-/// that begin with # are skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6
-/// m as read_rivers does.
-/// \return the points
+/// Reads points with heights. Text: one point per line, x y z in three columns, in those named by a first line (x, y, z
+/// in any case and order) or by params.columns, separated by commas, semicolons or blanks; empty lines and those that
+/// begin with # are skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6 m
+/// like read_rivers.
+/// \return in the file's order
 /// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no
-/// points, something that is not a point or not a number, NaN or infinite values, no CRS (not in text), coordinates
-/// that cannot be reprojected, text without names that has more than three columns, text without a CRS that can only be
-/// longitudes and latitudes (where params.source_crs is set) \throws BadParameter columns that are not three \throws
-/// IoError when the file cannot be read to its end
+/// points, a feature that is not a point, a value that is not a finite number, no CRS (except text), coordinates that
+/// cannot be reprojected, text without names that has more than three columns, text without a CRS that can only be
+/// longitudes and latitudes (if params.source_crs is set)
+/// \throws BadParameter when columns are not three
+/// \throws IoError when the file cannot be read to its end
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
 
-/// \param path path of the file
-/// \return whether a path's ending is that of text with points.
+/// Tells whether a path's extension is that of text with points.
+/// \param path of the file
+/// \return true: .csv, .txt or .xyz
 bool is_text_of_points(std::string const& path);
 
-/// How a cloud of points is written.
+/// Formats of point clouds.
 enum class PointFormat : std::uint8_t {
     ply, ///< PLY, binary, coordinates as doubles
     las, ///< LAS 1.2, point format 0
-    xyz, ///< text, x y z of one a line
+    xyz, ///< text, x y z of one point per line
 };
 
 /// A point format name.
@@ -73,15 +76,16 @@ struct PointFormatName {
 };
 std::vector<PointFormatName> const& point_formats();
 
-/// \param name its name
-/// \param path path of the file
-/// \return the format of a name, or where it is "" of a path's ending, in any case of letters.
-/// \throws BadParameter that lists the names there are
+/// Finds a format.
+/// \param name its name; "": by the path's extension, ignoring case
+/// \param path of the file
+/// \return the format
+/// \throws BadParameter that lists the names
 PointFormat point_format(std::string const& name, std::string const& path);
 
-/// What LAS says of a point (its classification).
+/// Classification of a point in LAS.
 enum class PointClass : std::uint8_t {
-    ground = 2,    ///< cells of a land
+    ground = 2,    ///< cells of terrain
     key_point = 8, ///< points of a file, ridges and points of a skeleton (model key-point)
     water = 9      ///< rivers of a skeleton
 };
@@ -89,18 +93,18 @@ enum class PointClass : std::uint8_t {
 /// Options of write_points().
 struct WritePointsParams {
     PointFormat format = PointFormat::las;
-    std::int64_t every = 1; ///< [1, ...] one point, or row and column, of this many: the first
+    std::int64_t every = 1; ///< [1, ...] writes every n-th point, or row and column, starting with the first
 };
 
-/// Writes points, or the centres of all cells with a height, as a new file; gives how many there are.
-/// \pre crs as in Grid, kept by ply (comment) and las (EPSG code); rivers: a mask in the skeleton's frame.
-/// \param points the points
-/// \param path path of the file
-/// \return points in their order, cells row by row from the north-west. Coordinates read back bit for bit, in text a
-/// cell's height as a float; in LAS within half a millimetre, or half a thousandth of a cell below a metre (of extents
-/// that need more than 32 bits: half the least power of ten that fits). The same bytes on any day.
-/// \throws BadInput naming point or cell, for a number that is not finite, when there is no point, LAS cannot count so
-/// many or the mask is of another frame
+/// Writes points, or the centres of all cells with a height, as a new file. crs as in Grid is kept by ply (comment) and
+/// las (EPSG code); rivers: a mask in the skeleton's frame.
+/// \param points in any order
+/// \param path of the file
+/// \return number of points, written in their order, cells row by row from the north-west. Coordinates read back bit
+/// for bit, in text a cell's height as a float; in LAS within half a millimetre, or half a thousandth of a cell below a
+/// metre (of extents that need more than 32 bits: half the least power of ten that fits). The same bytes on any day.
+/// \throws BadInput naming point or cell when a number is not finite, when there is no point, too many for LAS, or the
+/// mask has another frame
 /// \throws IoError also when the file exists
 ///
 /// Source: ASPRS LAS 1.2; \cite turk1994, The PLY polygon file format.

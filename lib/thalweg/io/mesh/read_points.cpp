@@ -70,7 +70,7 @@ std::optional<double> number_of_text(std::string_view text) {
     return whole ? std::optional(value) : std::nullopt;
 }
 
-/// Where x, y and z stand in a line, from 0.
+/// Columns of x, y and z, from 0.
 using PointColumns = std::array<std::size_t, 3>;
 
 std::string lowered_text(std::string_view text) {
@@ -79,7 +79,7 @@ std::string lowered_text(std::string_view text) {
     return small;
 }
 
-/// Text of points, as far as it is understood.
+/// Parses text of points.
 class PointText {
 public:
     PointText(ReadPointsParams const& params, std::string const& name)
@@ -102,7 +102,8 @@ public:
                                 columns);
     }
 
-    /// Takes the first line. Gives: whether it holds names.
+    /// Reads the first line.
+    /// \return whether it has names
     bool begin(std::vector<std::string_view> const& fields) {
         return names_.empty() ? begin_unnamed(fields) : begin_named(fields);
     }
@@ -171,7 +172,7 @@ private:
             columns_[k] = static_cast<std::size_t>(at - fields.begin());
             by_name = true;
         }
-        // With numbers alone a first line may hold names or not.
+        // If columns are given as numbers, a first line may still have names.
         return by_name ||
                std::ranges::none_of(columns_.begin(), columns_.begin() + static_cast<int>(wanted_), [&](std::size_t c) {
                    return c < fields.size() && number_of_text(fields[c]).has_value();
@@ -183,7 +184,7 @@ private:
     bool offered_;
     std::vector<std::string> names_;
     PointColumns columns_{0, 1, 2};
-    bool is_bare_ = false; ///< neither named nor numbered
+    bool is_bare_ = false; ///< columns are neither named nor numbered
 };
 
 std::vector<Vec3> parse(std::string const& text, ReadPointsParams const& params, std::string const& name,
@@ -213,7 +214,7 @@ std::vector<Vec3> parse(std::string const& text, ReadPointsParams const& params,
     return points;
 }
 
-/// Whether numbers can only be longitudes and latitudes.
+/// Whether coordinates can only be longitudes and latitudes.
 bool are_degrees(std::vector<Vec3> const& points) {
     return !points.empty() && std::ranges::all_of(points, [](Vec3 const& p) {
         bool const has_fraction = p.x != std::floor(p.x) || p.y != std::floor(p.y);
@@ -271,7 +272,7 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
     bool const in_plan = params.heights == PointHeights::passed_over;
     int const field = in_plan ? -1 : layer.GetLayerDefn()->GetFieldIndex(z_field.c_str());
     std::vector<Vec3> points;
-    std::int64_t number = 0; // of the feature, from 1, as in other files: numbers of formats may begin with 0
+    std::int64_t number = 0; // of the feature, from 1, as in other files: numbers of some formats begin with 0
     for (auto const& feature : layer) {
         run.check();
         ++number;
@@ -288,7 +289,7 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
         if (has_field) {
             field_z = number_of_text(trimmed(feature->GetFieldAsString(field)));
             if (layer.GetLayerDefn()->GetFieldDefn(field)->GetType() == OFTReal) {
-                field_z = feature->GetFieldAsDouble(field); // its text is rounded
+                field_z = feature->GetFieldAsDouble(field); // its text would be rounded
             }
         }
         if (!field_z) {
@@ -365,10 +366,10 @@ FeaturePoints read_point_text(ReadPointsParams const& params, std::string const&
     return read;
 }
 
-/// Points at one place in plan, by number from 0.
+/// Points at one position in plan, by number from 0.
 using SamePlace = std::vector<std::size_t>;
 
-/// The places where points have unequal heights, in the order of their first points.
+/// The positions where points have different heights, in the order of their first points.
 std::vector<SamePlace> places_of_two_heights(std::vector<Vec3> const& points) {
     std::vector<std::size_t> order(points.size());
     std::iota(order.begin(), order.end(), std::size_t{0});
@@ -406,7 +407,7 @@ std::vector<SamePlace> places_of_two_heights(std::vector<Vec3> const& points) {
                                     name, places.size(), list));
 }
 
-/// One place has one height.
+/// Gives every position one height.
 void settle_duplicates(FeaturePoints& read, DuplicatePoints duplicates, std::string const& name) {
     std::vector<SamePlace> const places = places_of_two_heights(read.points);
     if (places.empty()) {

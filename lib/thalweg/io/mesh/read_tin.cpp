@@ -30,12 +30,13 @@ bool ends_in(std::string const& path, std::string_view ending) {
            });
 }
 
-/// A text, line by line and word by word.
+/// Text, read line by line and word by word.
 class Words {
 public:
     Words(std::string const& path, std::string_view text, Run const& run) : path_(path), rest_(text), run_(run) {}
 
-    /// Goes to the next line. Gives: whether there is one.
+    /// Advances to the next line.
+    /// \return whether there is one
     bool next_line() {
         if (rest_.empty()) {
             return false;
@@ -48,7 +49,7 @@ public:
         rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
         return true;
     }
-    /// The next word of the line; "" at its end.
+    /// \return the next word of the line; "": its end.
     std::string_view word() {
         std::size_t const begin = line_.find_first_not_of(blanks);
         if (begin == std::string_view::npos) {
@@ -60,7 +61,7 @@ public:
         line_ = line_.substr(end);
         return word;
     }
-    /// The line's end behind the words read.
+    /// \return the rest of the line.
     std::string_view remainder() const {
         std::size_t const begin = line_.find_first_not_of(blanks);
         return begin == std::string_view::npos ? std::string_view()
@@ -75,7 +76,7 @@ public:
         }
         return value;
     }
-    /// A number of a vertex; of OBJ's a/b/c the first.
+    /// Reads the number of a vertex; of OBJ's a/b/c the first.
     std::uint64_t index() {
         std::string_view text = word();
         text = text.substr(0, text.find('/'));
@@ -98,7 +99,7 @@ public:
         }
         return face;
     }
-    /// Those that the rest of the line names.
+    /// Reads the numbers in the rest of the line.
     std::vector<std::uint64_t> corners() {
         std::vector<std::uint64_t> face;
         while (face.size() < 3 || !remainder().empty()) {
@@ -106,7 +107,7 @@ public:
         }
         return face;
     }
-    /// Takes what comments of write_tin say.
+    /// Reads the comments written by write_tin.
     void comment(std::string_view text, TinFile& file) const {
         if (text.find("heights in ") != std::string_view::npos) {
             refuse("its heights are not in metres; write the mesh in metres");
@@ -130,7 +131,7 @@ private:
 using FaceList = std::vector<std::vector<std::uint64_t>>; // corners, counted from 0
 
 void read_2dm(Words& words, TinFile& file, FaceList& faces) {
-    std::unordered_map<std::uint64_t, std::uint64_t> number; // of a node by its id
+    std::unordered_map<std::uint64_t, std::uint64_t> number; // index of a node by its id
     while (words.next_line()) {
         std::string_view const word = words.word();
         if (word == "ND") {
@@ -165,13 +166,13 @@ void read_obj(Words& words, TinFile& file, FaceList& faces) {
         } else if (word == "f") {
             faces.push_back(words.corners());
             for (std::uint64_t& v : faces.back()) {
-                --v; // 0 becomes a number beyond any
+                --v; // 0 becomes a number beyond all others
             }
         }
     }
 }
 
-/// The next line that says something.
+/// Advances to the next line with content.
 bool next_of_off(Words& words, TinFile& file) {
     while (words.next_line()) {
         std::string_view const text = words.remainder();
@@ -223,8 +224,8 @@ double twice_area(std::vector<Vec3> const& vertices, std::array<std::uint32_t, 3
     return (b.x - a.x) * (c.y - a.y) - (b.y - a.y) * (c.x - a.x);
 }
 
-/// Cuts a face with more than three corners into triangles: again and again the corner whose neighbours lie closest
-/// together, where the cut lies inside the face. So a quadrilateral is cut along its shorter diagonal.
+/// Splits a face with more than three corners into triangles: repeatedly cuts off the corner whose neighbours are
+/// closest together, if the cut lies inside the face. Quadrilaterals are split along their shorter diagonal.
 class FaceCutter {
 public:
     FaceCutter(std::vector<std::uint32_t> face, std::vector<Vec3> const& vertices)
@@ -257,7 +258,7 @@ private:
     bool is_inside(Triangle const& t) const {
         return turns(t[0], t[1], t[2]) && std::ranges::none_of(face_, [&](std::uint32_t v) {
                    return v != t[0] && v != t[1] && v != t[2] && turns(t[0], t[1], v) && turns(t[1], t[2], v) &&
-                          !turns(t[0], t[2], v); // nor on the third side
+                          !turns(t[0], t[2], v); // or on the third side
                });
     }
     std::size_t next() const {
@@ -271,15 +272,15 @@ private:
                 best = k;
             }
         }
-        return best == n ? shortest : best; // an upright face, or one that crosses itself
+        return best == n ? shortest : best; // a vertical face, or one that crosses itself
     }
 
     std::vector<std::uint32_t> face_;
     std::vector<Vec3> const& vertices_;
-    double area_ = 0.0; ///< twice, in plan
+    double area_ = 0.0; ///< twice the area, in plan
 };
 
-/// The corners of a face as numbers of vertices; of several in a row that are the same, one.
+/// The corners of a face as numbers of vertices, without consecutive duplicates.
 std::vector<std::uint32_t> corners_of(std::vector<std::uint64_t> const& face) {
     std::vector<std::uint32_t> corners;
     for (std::uint64_t const v : face) {

@@ -12,28 +12,30 @@
 
 namespace thalweg::io {
 
-/// A mesh of a file: its triangles may also overhang.
+/// A mesh read from a file: its triangles may overhang.
 struct TinFile {
     Tin tin;
-    std::string crs;        ///< of the comment that write_tin leaves; "" for none
-    std::int64_t split = 0; ///< faces that were cut into triangles
+    std::string crs;        ///< from the comment of write_tin; "" for none
+    std::int64_t split = 0; ///< faces that were split into triangles
 };
 
-/// \param path path of the file
-/// \return whether a file's name ends in that of a mesh that read_tin reads: .2dm, .obj or .off.
+/// Tells whether a file name has the extension of a mesh that read_tin reads: .2dm, .obj or .off.
+/// \param path of the file
+/// \return true: a mesh
 bool holds_tin(std::string const& path);
 
 /// Reads a mesh: 2DM (E3T, E4Q, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are skipped. Faces with
-/// more than three corners are cut into triangles, quadrilaterals along the shorter diagonal; the log says how many.
-/// \param path path of the file
-/// \return vertices and triangles in the file's order; of what write_tin writes in these formats the same TIN.
-/// \throws BadInput naming file and line: a number that is none, a face without three corners or that names a vertex
-/// that is not there, heights that are not in metres, more than 2^30 bytes, no triangle
+/// more than three corners are split into triangles, quadrilaterals along the shorter diagonal; the log reports their
+/// number.
+/// \param path of the file
+/// \return vertices and triangles in the file's order; restores a TIN written by write_tin in these formats
+/// \throws BadInput naming file and line: an invalid number, a face without three corners or with a vertex that does
+/// not exist, heights that are not in metres, more than 2^30 bytes, no triangle
 ///
 /// Source: Aquaveo, 2DM files; Wavefront OBJ; Geomview OFF.
 TinFile read_tin(std::string const& path, Run const& run = {});
 
-/// How a TIN, or its vertices alone, is written.
+/// Formats of a TIN, or of its vertices alone.
 enum class TinFormat : std::uint8_t {
     mesh_2dm,   ///< SMS 2DM, as QGIS (MDAL) reads it
     ply,        ///< PLY, binary, coordinates as doubles
@@ -43,10 +45,10 @@ enum class TinFormat : std::uint8_t {
     landxml,    ///< LandXML 1.2, Surface of type TIN; points are northing, easting, elevation
     las,        ///< the vertices as LAS 1.2, point format 0, class 2 (ground)
     ply_points, ///< the vertices as PLY
-    xyz,        ///< the vertices as text, one a line
+    xyz,        ///< the vertices as text, one per line
 };
 
-/// A tin format name.
+/// The name of a TIN format.
 struct TinFormatName {
     TinFormat format;
     char const* name;   ///< "2dm", "ply-points"
@@ -54,26 +56,24 @@ struct TinFormatName {
 };
 std::vector<TinFormatName> const& tin_formats();
 
-/// \param name its name
-/// \param path path of the file
-/// \return the format of a name, or where it is "" of a path's ending, in any case of letters.
-/// \throws BadParameter that lists the names there are
+/// Finds a format.
+/// \param name its name; "": by the path's extension, ignoring case
+/// \param path of the file
+/// \return the format
+/// \throws BadParameter that lists the names
 TinFormat tin_format(std::string const& name, std::string const& path);
 
-/// Writes a TIN as a new file.
-/// \post coordinates that read back bit for bit, in LAS within half a millimetre (of extents beyond 4000 km: half the
-/// least power of ten that fits); vertex i of the TIN is number i of the file, from 1 in 2dm, obj, landxml and the
-/// fields of geopackage, from 0 in ply and off. The same bytes for the same TIN, on any day.
-/// \pre a TIN; crs as in Grid, kept by ply, obj, off (comment), geopackage, landxml and las (EPSG code), "" for none;
-/// the unit of its heights, which 2dm (name of the mesh), ply, obj and off (comment) keep: other formats hold metres.
-/// \param tin the TIN
-/// \param crs "EPSG:n" or WKT; "": none
-/// \param path path of the file
-/// \param format the format
-/// \param unit the unit
+/// Writes a TIN as a new file. Coordinates read back bit for bit, in LAS within half a millimetre (of extents beyond
+/// 4000 km: half the least power of ten that fits). Vertex i of the TIN has number i in the file, from 1 in 2dm, obj,
+/// landxml and the fields of geopackage, from 0 in ply and off. The same bytes for the same TIN, on any day.
+/// \param tin any
+/// \param crs as in Grid, "": none; kept by ply, obj, off (comment), geopackage, landxml and las (EPSG code)
+/// \param path of the file
+/// \param format of the file
+/// \param unit of heights; kept by 2dm (name of the mesh), ply, obj and off (comment); other formats hold metres
 /// \throws BadParameter when the format does not keep the unit
-/// \throws BadInput naming the vertex or triangle when a coordinate is not finite, a vertex is not there or the format
-/// cannot number so many
+/// \throws BadInput naming the vertex or triangle when a coordinate is not finite, a vertex does not exist or there are
+/// too many for the format
 /// \throws IoError also when the file exists
 ///
 /// Source: Aquaveo, 2DM files; \cite turk1994, The PLY polygon file format; ASPRS LAS 1.2; LandXML-1.2.xsd.

@@ -16,7 +16,7 @@ namespace thalweg::io {
 
 namespace {
 
-/// Points one after the other: visit(x, y, z, class), z in the type of its source.
+/// Enumerates points: visit(x, y, z, class), z in the type of its source.
 struct ListedPoints {
     std::vector<Vec3> const& points;
     std::string const& crs;

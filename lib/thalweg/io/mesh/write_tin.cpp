@@ -50,7 +50,7 @@ void require_whole(Tin const& tin, std::string const& what) {
     }
 }
 
-/// "heights in ft" after some words; nothing for metres.
+/// "heights in ft" after some words; empty for metres.
 std::string unit_after(std::string const& before, HeightUnit unit, char const* after) {
     return unit == HeightUnit::metre ? "" : fmt::format("{}heights in {}{}", before, name_of(unit), after);
 }
@@ -169,7 +169,7 @@ void write_las(Bytes& out, Tin const& tin, std::string const& crs) {
 Table faces_table(Tin const& tin) {
     auto const triangle = [&tin](std::size_t row) { return tin.triangles[row]; };
     auto const corner = [&tin, triangle](std::size_t row, std::size_t k) { return tin.vertices[triangle(row)[k]]; };
-    // Twice the area and the height's differences along both axes times it.
+    // Twice the area vector.
     auto const normal = [corner](std::size_t row) {
         Vec3 const a = corner(row, 0);
         Vec3 const b = corner(row, 1);

@@ -77,7 +77,7 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
     Driver const driver;
     Dataset const source = in_memory(dem, what);
     if (std::ranges::all_of(dem.values(), [](float z) { return std::isnan(z); })) {
-        return {}; // GDAL 3.9 refuses such a raster
+        return {}; // GDAL 3.9 rejects such a raster
     }
     Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
     OGRLayer* const layer = drawn->CreateLayer("contours", nullptr, wkbLineString, nullptr);
@@ -102,7 +102,7 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         }
         lines.push_back(std::move(line));
     }
-    driver.check(what); // an allocation that fails ends the loop, too
+    driver.check(what); // a failed allocation also ends the loop
     refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(),
                        "{}: contours are missing: free memory", what);
     return lines;

@@ -14,11 +14,12 @@ namespace thalweg::io {
 
 enum class Light { north_west, multidirectional };
 
-/// \param dem [m] heights by cell; NaN: no data
+/// Computes GDAL's hillshade.
+/// \param dem [m] by cell; NaN: no data
 /// \param z_factor > 0, vertical exaggeration
-/// \param light where the light comes from
-/// \return GDAL's hillshade, 1..255; 0 where there is no data. z_factor: [> 0] exaggeration.
-/// \throws BadInput an empty raster, an infinite height
+/// \param light direction of the light
+/// \return 1 to 255; 0: no data
+/// \throws BadInput for an empty raster or an infinite height
 Raster<std::uint8_t> hillshade(Raster<float> const& dem, double z_factor = 1.0, Light light = Light::north_west);
 
 /// A contour line.
@@ -27,30 +28,30 @@ struct ContourLine {
     std::vector<Vec2> line;
 };
 
-/// GDAL's contour lines at multiples of an interval [m].
-/// \param dem [m] heights by cell; NaN: no data
-/// \param interval_m [m] > 0, interval between contours
-/// \return the lines
+/// Computes GDAL's contour lines at multiples of an interval.
+/// \param dem [m] by cell; NaN: no data
+/// \param interval_m [m] > 0
+/// \return in GDAL's order
 /// \throws BadParameter when the interval is not above 0 or gives more than 10000 levels
-/// \throws BadInput an empty raster, an infinite height
+/// \throws BadInput for an empty raster or an infinite height
 std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run = {});
 
-/// Writes contours as a new GeoPackage, layer contours (LineStringZ; z real, is_index integer: 1 for every fifth).
-/// \post the same bytes for the same lines.
-/// \param lines the polylines
+/// Writes contours as a new GeoPackage, layer contours (LineStringZ; z real, is_index integer: 1 for every fifth). The
+/// same bytes for the same lines.
+/// \param lines contours
 /// \param interval_m [m] > 0, interval between contours
 /// \param crs "EPSG:n" or WKT; "": none
-/// \param path path of the file
+/// \param path of the file
 /// \throws IoError also when the file exists
 void write_contours(std::vector<ContourLine> const& lines, double interval_m, std::string const& crs,
                     std::string const& path, Run const& run = {});
 
-/// The same of heights in a unit; of feet there is a column z_unit besides.
-/// \param lines the polylines
+/// Writes contours with heights in a unit; for feet there is an additional column z_unit.
+/// \param lines contours
 /// \param interval > 0, interval between contours, in the unit
 /// \param crs "EPSG:n" or WKT; "": none
-/// \param path path of the file
-/// \param unit the unit
+/// \param path of the file
+/// \param unit of heights
 void write_contours(std::vector<ContourLine> const& lines, double interval, std::string const& crs,
                     std::string const& path, HeightUnit unit, Run const& run = {});
 

@@ -36,7 +36,7 @@ bool is_polygonal(OGRwkbGeometryType type) {
     return OGR_GT_IsSubClassOf(flat, wkbSurface) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiSurface) != 0;
 }
 
-// Of a layer of any shapes the first feature decides.
+// For a layer of any geometry type the first feature decides.
 std::vector<OGRLayer*> polygon_layers(GDALDataset& data) {
     std::vector<OGRLayer*> layers;
     for (auto* const layer : data.GetLayers()) {
@@ -87,7 +87,7 @@ void add_ring(OGRLinearRing const& drawn, Polygon& polygon, std::string const& n
     polygon.rings.push_back(std::move(ring));
 }
 
-// One polygon for each part.
+// Adds one polygon for each part.
 void add_parts(OGRGeometry const& geometry, std::int64_t feature, std::string const& name,
                std::vector<Polygon>& polygons) {
     auto const flat = wkbFlatten(geometry.getGeometryType());
@@ -108,7 +108,7 @@ void add_parts(OGRGeometry const& geometry, std::int64_t feature, std::string co
     polygons.push_back(std::move(polygon));
 }
 
-/// Number of a field by name in any case; -1 for "". Throws where there is none of numbers.
+/// Finds a field by name, ignoring case; -1: "". Throws if there is no such numeric field.
 int field_in(OGRLayer& layer, std::string const& name, std::string const& field) {
     int const at = field.empty() ? -1 : layer.GetLayerDefn()->GetFieldIndex(field.c_str());
     if (field.empty()) {
@@ -153,7 +153,7 @@ std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string 
     return polygons;
 }
 
-// PROJ's last bits differ between machines: a millionth of a unit does not.
+// PROJ's last bits differ between machines; rounding to a millionth of a unit hides that.
 void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, std::string const& crs,
                std::string const& name, Driver const& driver) {
     OGRSpatialReference const to = read_reference(crs);
@@ -268,7 +268,7 @@ Polygon taken(OGRPolygon const& drawn, std::int64_t number) {
     Polygon polygon{number, {}};
     for (auto const* const ring : drawn) {
         std::vector<Vec2> positions;
-        for (int i = 0; i + 1 < ring->getNumPoints(); ++i) { // the last is the first
+        for (int i = 0; i + 1 < ring->getNumPoints(); ++i) { // the last vertex equals the first
             positions.push_back({ring->getX(i), ring->getY(i)});
         }
         polygon.rings.push_back(std::move(positions));
@@ -299,7 +299,7 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
         auto const number = feature->GetFieldAsInteger64(0);
         polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
     }
-    driver.check(what); // an allocation that fails ends the loop, too
+    driver.check(what); // a failed allocation also ends the loop
     return polygons;
 }
 
@@ -329,7 +329,7 @@ void require_counted(CatchmentTables const& tables, std::string const& what) {
     }
 }
 
-/// Basins by their id, and by row which it is.
+/// Basins by id, and by row the index of its basin.
 std::vector<Basin> basins_of(std::vector<CatchmentRow> const& rows, Indexed<std::int32_t, std::int32_t>& basin_of_row) {
     std::map<std::int64_t, Basin> by_id;
     for (CatchmentRow const& row : rows) {

@@ -12,77 +12,80 @@
 
 namespace thalweg::io {
 
-/// \param path path of the file
-/// \return whether a file is one that OGR reads and has a layer of polygons.
-/// \throws BadInput when there is none or GDAL cannot read it
+/// Tells whether OGR reads a file and it has a layer of polygons.
+/// \param path of the file
+/// \return true: it has
+/// \throws BadInput when it does not exist or GDAL cannot read it
 bool holds_polygons(std::string const& path);
 
-/// \param path path of the file
-/// \return the CRS in metres in which a file's polygons are read where none is set: the file's own when it is projected
-/// in metres, else the UTM zone of the middle of its box.
-/// \throws BadInput as read_polygons, and for a file without CRS
+/// Chooses the CRS in metres for a file's polygons if none is set.
+/// \param path of the file
+/// \return the file's own if projected in metres, else the UTM zone of the middle of its box
+/// \throws BadInput as read_polygons, and for a file without a CRS
 std::string crs_for_polygons(std::string const& path);
 
-/// What a file's polygons are in.
+/// The CRS of a file's polygons.
 struct PolygonsCrs {
     std::string crs;        ///< "EPSG:n" or WKT; "": none
     bool in_metres = false; ///< projected, in metres
 };
 
-/// \param path path of the file
-/// \return the CRS of the file's layer of polygons
+/// Reads the CRS of a file's layer of polygons.
+/// \param path of the file
+/// \return "" and false for none
 /// \throws BadInput as read_polygons
 PolygonsCrs crs_of_polygons(std::string const& path);
 
-/// Reads the polygons of any OGR source, multi-part ones part by part, curves as OGR linearises them.
-/// \pre the CRS of the result as in Grid, "" for none.
-/// \param path path of the file
-/// \param crs "EPSG:n" or WKT; "": none
-/// \return vertices reprojected and rounded to 1e-6 of a unit.
-/// \throws BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features,
-/// something that is not a polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
+/// Reads the polygons of any OGR source: multi-part ones part by part, curves as linearised by OGR.
+/// \param path of the file
+/// \param crs of the result, as in Grid; "": none
+/// \return vertices reprojected and rounded to 1e-6 of a unit
+/// \throws BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features, a
+/// feature that is not a polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
 /// (naming both)
 /// \throws IoError when the file cannot be read to its end
 Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run = {});
 
-/// \param path path of the file
-/// \param crs "EPSG:n" or WKT; "": none
-/// \param field name of a numeric field
-/// \return the same, each with the value of a numeric field.
-/// \throws Error also BadInput when the layer has no such field, or a feature no finite value in it
+/// Reads polygons with the values of a numeric field.
+/// \param path of the file
+/// \param crs of the result, as in Grid; "": none
+/// \param field name of the field
+/// \return as without a field
+/// \throws Error as without a field, and BadInput when the layer has no such field, or a feature has no finite value in
+/// it
 Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run = {});
 
-/// The catchment of an arc, as its row says.
+/// The catchment of an arc as a row.
 struct CatchmentRow {
     std::int64_t arc_id = 0;
-    std::int64_t ds_arc = 0;   ///< arc_id of the arc downstream; 0 for none
+    std::int64_t ds_arc = 0;   ///< arc_id of the arc downstream; 0: none
     std::int64_t basin_id = 0; ///< the same for all arcs that share an outlet
     std::int64_t cells = 0;
-    std::int64_t upstream_cells = 0; ///< of it and of all catchments upstream
+    std::int64_t upstream_cells = 0; ///< of it and all catchments upstream
 };
 
-/// Catchments by cell, and what is known of each.
+/// Catchments by cell, with their attributes.
 struct CatchmentTables {
-    Raster<std::int32_t> const& number; ///< by cell, the row of its catchment; below 0 for none
+    Raster<std::int32_t> const& number; ///< by cell: row of its catchment; below 0: none
     std::vector<CatchmentRow> const& rows;
 };
 
-/// How many of each there are in a file.
+/// The numbers of features in a file.
 struct CatchmentCount {
-    std::int64_t catchments = 0; ///< one an arc that has a cell
-    std::int64_t parts = 0;      ///< polygons they consist of: cells that touch in corners only are several
+    std::int64_t catchments = 0; ///< one per arc with cells
+    std::int64_t parts = 0;      ///< their polygons: cells that touch only at corners are several
     std::int64_t basins = 0;
 };
 
-/// Writes a new GeoPackage of outlines along the edges of cells (MultiPolygon), in the grid's CRS. Layer catchments:
-/// arc_id, ds_arc, basin_id, cells (integer), area and ds_area [m2] (real): of the catchment, and of all that drains to
-/// the arc's lower end, as in the layer arcs; an arc without cells has no catchment. Layer basins: basin_id, arcs,
-/// cells (integer), area.
-/// \param tables the values of the tables
-/// \param path path of the file
-/// \return polygons that tile the cells with a number, valid and without gaps or overlaps; the same bytes for the same
-/// tables.
-/// \throws BadInput when the cells of a row are not as many as it says
+/// Writes outlines along the borders of cells (MultiPolygon) as a new GeoPackage, in the grid's CRS. Layer catchments:
+/// arc_id, ds_arc, basin_id, cells (integer), area and ds_area [m2] (real): of the catchment, and of everything that
+/// drains to the arc's lower end, as in the layer arcs; an arc without cells has no catchment. Layer basins: basin_id,
+/// arcs, cells (integer), area. The polygons tile the cells with a number, are valid and have no gaps or overlaps; the
+/// same bytes for the same tables.
+/// \param tables catchments
+/// \param path of the file
+/// \return number of features
+/// \throws BadInput when a row has another number of cells than it states
 /// \throws IoError also when the file exists
 CatchmentCount write_catchments(CatchmentTables const& tables, std::string const& path, Run const& run = {});
 

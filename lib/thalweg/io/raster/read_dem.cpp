@@ -36,7 +36,7 @@ std::string remedy(double stored, std::string const& path) {
 } // namespace
 
 bool stands_for(double stored, double named) {
-    constexpr double largest = 1e30; // 3.4e38 for 3.4028235e38
+    constexpr double largest = 1e30; // matches 3.4e38 for 3.4028235e38
     return stored == named || static_cast<float>(stored) == static_cast<float>(named) ||
            (std::fabs(stored) > largest && std::fabs(named) > largest && (stored > 0.0) == (named > 0.0));
 }
@@ -101,7 +101,7 @@ void UndeclaredNodata::add_row(std::span<double const> stored) {
             if (z < deep) {
                 note_sentinel(static_cast<std::int64_t>(col), z);
             }
-            if (searches_blocks_) { // NaN is neither
+            if (searches_blocks_) { // NaN is skipped by both
                 low_.add(col, z);
                 high_.add(col, -z);
             }
@@ -173,9 +173,9 @@ void require_memory(Grid const& grid, std::string const& what) {
 
 enum class Unit : std::uint8_t { metre, stored };
 
-/// What became of cells that the file does not declare as no-data.
+/// Cells replaced by no data although the file does not declare them.
 struct TakenAway {
-    std::int64_t named = 0; ///< of the value that params names
+    std::int64_t named = 0; ///< cells with the value that params names
     std::int64_t nan = 0;
 };
 
@@ -305,7 +305,7 @@ std::string wkt_of(std::string const& crs) {
     return wkt;
 }
 
-/// The lattice cells of a grid that hold all of a data set.
+/// The cells of a grid's lattice that cover a data set.
 Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, std::string const& what,
                Driver const& driver) {
     CPLStringList options;
@@ -355,7 +355,7 @@ Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::stri
     Grid const frame = frame_for(*source, grid, wkt, what, driver);
     CPLStringList words;
     auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
-    // Each place is transformed by itself (-et 0), not between some along a row.
+    // Each position is transformed exactly (-et 0), not interpolated along a row.
     for (std::string const& word :
          {std::string("-of"), std::string("MEM"), std::string("-ot"), std::string("Float32"), std::string("-dstnodata"),
           std::string("nan"), std::string("-r"), std::string("bilinear"), std::string("-et"), std::string("0"),

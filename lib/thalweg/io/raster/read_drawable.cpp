@@ -75,7 +75,7 @@ OGRSpatialReference projection_for(GDALDataset& dataset, Frame const& frame, std
     return equal_area_around(middle.x, middle.y);
 }
 
-/// The same for a raster in metres by which lengths are off; nothing where no other projection is better.
+/// The same for a raster in metres with wrong lengths; nothing: no other projection is better.
 std::optional<OGRSpatialReference> less_distorted_for(GDALDataset& dataset, Frame const& frame,
                                                       std::string const& what) {
     OGRSpatialReference const& own = *reference_of(dataset);
@@ -93,12 +93,12 @@ std::optional<OGRSpatialReference> less_distorted_for(GDALDataset& dataset, Fram
     try {
         OGRSpatialReference other = projection_for(dataset, frame, what);
         return is_better(other, own, box) ? std::optional(std::move(other)) : std::nullopt;
-    } catch (BadInput const&) { // a corner lies off the globe, as on maps of all of it
+    } catch (BadInput const&) { // a corner is off the globe, as on world maps
         return std::nullopt;
     }
 }
 
-using Target = OGRSpatialReference const*; ///< the projection to warp into; null: only onto north-up squares
+using Target = OGRSpatialReference const*; ///< the projection to warp to; null: only to north-up squares
 
 std::string exported_wkt(OGRSpatialReference const& reference) {
     char* text = nullptr;
@@ -108,13 +108,13 @@ std::string exported_wkt(OGRSpatialReference const& reference) {
     return wkt;
 }
 
-/// Squares that cover what a raster becomes.
+/// Squares that cover a raster after warping.
 struct Squares {
     Frame frame{};
-    double wide = 0.0; ///< [m], as the other lengths
+    double wide = 0.0; ///< [m], like the other lengths
     double high = 0.0;
-    double finest = 0.0; ///< as GDAL suggests
-    double cell = 0.0;   ///< so that there are no more than the most a side
+    double finest = 0.0; ///< as suggested by GDAL
+    double cell = 0.0;   ///< so that no side exceeds the limit
 };
 
 Squares squares_for(GDALDataset& source, Target target, std::int64_t most_side, std::string const& what,
@@ -160,7 +160,7 @@ CPLStringList warp_arguments(Squares const& squares, Target target) {
     return arguments;
 }
 
-/// Older GDAL warps every band: a virtual copy of the first one leaves the others out.
+/// Older GDAL warps every band: a virtual copy of the first one avoids that.
 Dataset first_band_of(GDALDataset& source, std::string const& what, Driver const& driver,
                       std::vector<std::string> const& more = {}) {
     CPLStringList first;
@@ -184,7 +184,7 @@ struct Warped {
     double cell = 1.0;
 };
 
-/// Onto north-up squares, in another projection where one is given.
+/// Warps to north-up squares, in another projection if one is given.
 Warped warp(GDALDataset& source, Target target, std::int64_t most_side, std::string const& what, Driver const& driver,
             Run const& run) {
     double const own_cell = frame_of(source).value_or(Frame{})[1];
@@ -194,7 +194,7 @@ Warped warp(GDALDataset& source, Target target, std::int64_t most_side, std::str
     Watch watch(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const warp_options(
         GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
-    if (warp_options == nullptr) { // what GDAL reads in the arguments is not what was meant
+    if (warp_options == nullptr) { // GDAL misread the arguments
         throw BadInput(
             fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}", what,
                         own_cell, driver.take()));
@@ -269,14 +269,14 @@ Raster<float> read_means(GDALDataset& dataset, Grid const& grid, std::int64_t k,
     return dem;
 }
 
-/// What the first band holds of cells that the file does not declare as no-data.
+/// Cells of the first band that the file does not declare as no-data.
 struct StoredNodata {
-    std::int64_t named = 0;      ///< cells of the value that params names
-    std::optional<double> value; ///< this value as it is stored
+    std::int64_t named = 0;      ///< cells with the value that params names
+    std::optional<double> value; ///< this value as stored
     std::int64_t nan = 0;
 };
 
-/// Reads all of the first band: means and warped heights no longer tell.
+/// Reads all of the first band: means and warped heights no longer show undeclared no-data.
 StoredNodata stored_nodata_in(GDALDataset& source, ReadDrawableParams const& params, std::string const& path,
                               std::string const& what, Driver const& driver, Run const& run) {
     GDALRasterBand& band = *source.GetRasterBand(1);
@@ -331,7 +331,7 @@ void require_heights(GDALDataset& source, std::string const& what) {
                         "{} holds complex numbers, not heights", what);
 }
 
-/// The raster as north-up squares of metres, where it is not that already; null where it is. Notes what was done.
+/// Converts the raster to north-up squares of metres; null: it is that already. Records the changes in notes.
 Dataset made_drawable(GDALDataset& source, ReadDrawableParams const& params, std::vector<std::string>& notes,
                       std::string const& what, Driver const& driver, Run const& run) {
     std::int64_t const most_side = params.most_side;
@@ -367,7 +367,7 @@ Dataset made_drawable(GDALDataset& source, ReadDrawableParams const& params, std
     return warped;
 }
 
-/// The grid of a raster whose cells are taken k x k at a time. is_placed: whether what was read has a position.
+/// The grid of a raster read in blocks of k x k cells. is_placed: whether it has a position.
 Grid grid_of_means(GDALDataset& ready, std::int64_t k, bool is_placed) {
     std::int64_t const width = ready.GetRasterXSize();
     std::int64_t const height = ready.GetRasterYSize();

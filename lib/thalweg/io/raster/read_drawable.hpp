@@ -12,10 +12,10 @@
 
 namespace thalweg::io {
 
-/// Which metres are taken as such.
+/// Which metres are accepted.
 enum class MetresOf : std::uint8_t {
-    the_ground, ///< those of a CRS whose lengths are off by 1 % at most
-    any_crs     ///< those of every CRS that is projected in metres
+    the_ground, ///< of a CRS whose lengths are wrong by at most 1 %
+    any_crs     ///< of every CRS projected in metres
 };
 
 /// Options of read_drawable().
@@ -25,22 +25,23 @@ struct ReadDrawableParams {
     std::optional<double> nodata = {};      ///< as in ReadDemParams
 };
 
-/// A DEM in a form that can be drawn, and in words what was done to it.
+/// A DEM that can be drawn, with notes on its conversion.
 struct Drawable {
     Raster<float> dem;
     std::vector<std::string> notes;
 };
 
-/// Reads any raster of heights for pictures, where read_dem would refuse: larger than most_side cells a side becomes
-/// means of k x k cells (what fills no block at the east and south edge is left out); a CRS that is geographic or not
-/// in metres, or whose lengths are off by more than 1 % (Web Mercator), is warped (bilinear) into the UTM zone of
-/// its centre, or, wider than 12 degrees or near a pole, into an equal-area projection centred on it; cells that are no
-/// squares, rotated or south-up are made north-up squares; of several bands the first is taken; without a CRS
-/// coordinates count as metres.
-/// \param path path of the file
-/// \return notes, one for each such change; no-data and masked cells as NaN, scale and offset applied.
-/// \throws BadInput no such file, not a raster, complex numbers, no heights at all, a height beyond 1e30, undeclared
-/// no-data as in read_dem, a place without projection, params.nodata beside another value that the file declares
+/// Reads any raster of heights for pictures, even if read_dem would reject it: one larger than most_side cells a side
+/// is reduced to means of k x k cells (incomplete blocks at the east and south are dropped); one in a CRS that is
+/// geographic or not in metres, or whose lengths are wrong by more than 1 % (Web Mercator), is warped (bilinear) to the
+/// UTM zone of its centre, or, if wider than 12 degrees or near a pole, to an equal-area projection centred on it;
+/// cells that are not square, rotated or south-up become north-up squares; of several bands the first is used; without
+/// a CRS coordinates count as metres.
+/// \param path of the file
+/// \return with one note per change; NaN: no-data and masked cells; scale and offset are applied
+/// \throws BadInput for a missing file, one that is not a raster, complex numbers, no heights at all, a height beyond
+/// 1e30, undeclared no-data as in read_dem, a position without a projection, or params.nodata if the file declares
+/// another value
 Drawable read_drawable(std::string const& path, ReadDrawableParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::io

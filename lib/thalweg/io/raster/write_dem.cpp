@@ -32,7 +32,7 @@ void require(bool done, Driver const& driver, std::string const& what) {
     }
 }
 
-/// A new tiled GeoTIFF of one band.
+/// Writes a new tiled GeoTIFF of one band.
 template <class T>
 void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<double> no_data, char const* verb,
                  std::string const& path, Run const& run) {
@@ -65,7 +65,7 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
     for (int row = 0; row < height; row += tile_height) {
         run.at(static_cast<double>(row) / height, "write");
         int const rows = std::min(tile_height, height - row);
-        // GDAL's one call reads and writes and therefore takes no const buffer.
+        // GDAL uses one function for reading and writing, which takes no const buffer.
         void* const cells = const_cast<T*>(raster.values().data()) + static_cast<std::int64_t>(row) * width;
         require(target->GetRasterBand(1)->RasterIO(GF_Write, 0, row, width, rows, cells, width, rows, type, 0, 0,
                                                    nullptr) == CE_None,

@@ -8,30 +8,30 @@ class OGRSpatialReference;
 
 namespace thalweg::io {
 
-// CRS as GDAL holds them.
+// CRS as GDAL objects.
 
 /// Reads "EPSG:n" or WKT (never a URL or file) in traditional axis order: x or longitude first.
-/// Throws BadInput when it is none.
+/// \throws BadInput when it is not a CRS
 OGRSpatialReference read_reference(std::string const& text);
 
-/// Lambert's azimuthal equal-area projection (WGS 84) around a place.
+/// Lambert's azimuthal equal-area projection (WGS 84) centred on a position.
 OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg);
 
-/// "EPSG:n" where it has a code, else WKT.
+/// "EPSG:n" if it has a code, else WKT.
 std::string name_of(OGRSpatialReference const& reference);
 
 /// Whether it is projected with both axes in metres.
 bool is_projected_in_metres(OGRSpatialReference const& reference);
 
-// A CRS as formats other than GDAL's hold it.
+// A CRS for formats other than GDAL's.
 
-/// The code of "EPSG:n", 0 for any other CRS.
+/// The code of "EPSG:n"; 0: any other CRS.
 int epsg_code(std::string const& crs);
 
-/// A CRS in a message: WKT would fill the screen.
+/// A CRS in a message, abbreviated: WKT would fill the screen.
 std::string in_message(std::string const& crs);
 
-/// Text for a comment, which must end where its line does.
+/// Text for a comment, which ends with its line.
 std::string one_line(std::string text);
 
 } // namespace thalweg::io

@@ -16,24 +16,26 @@ class OGRSpatialReference;
 
 namespace thalweg::io {
 
-// What a file's coordinates are in, and the way from there to metres.
+// The CRS of a file's coordinates, and the transformation to metres.
 
-/// Whether a layer has no CRS, or one that says so (a GeoPackage without CRS has one that is named "Undefined").
+/// Whether a layer has no CRS, or an undefined one (a GeoPackage without a CRS has one named "Undefined").
 bool is_missing(OGRSpatialReference const* reference);
 
-/// The CRS that a layer's coordinates are in: its own, or where it has none the one that a user names ("" for none).
-/// Gives: an empty one where there is neither. Throws: BadInput where the user's is not a CRS, also where it is not
-/// needed.
+/// Returns the CRS of a layer's coordinates: its own, or the user's if it has none.
+/// \param own null: none
+/// \param source_crs the user's; "": none
+/// \return empty: neither
+/// \throws BadInput when the user's is not a CRS, even if it is not needed
 OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string const& source_crs);
 
-/// What is read of a file, in its coordinates.
+/// Bounding box of the data read from a file, in its coordinates.
 struct FileBox {
     Vec2 low;
     Vec2 high;
-    std::optional<Vec2> across_180 = {}; ///< [degrees] low.x and high.x if these are longitudes, from 0 to 360
+    std::optional<Vec2> across_180 = {}; ///< [degrees] low.x and high.x as longitudes from 0 to 360
 };
 
-/// The box of places, as they are added.
+/// Accumulates the bounding box of positions.
 class FilePlaces {
 public:
     void add(double x, double y);
@@ -48,19 +50,24 @@ private:
     Vec2 turned_{far, -far};
 };
 
-/// What becomes of a file's own CRS that is projected in metres.
+/// Treatment of a file's own CRS that is projected in metres.
 enum class OwnMetres : std::uint8_t {
-    judged, ///< it is left where lengths are off by more than 1 % and another CRS is better: Web Mercator
+    judged, ///< not used if lengths are wrong by more than 1 % and another CRS is better: Web Mercator
     kept
 };
 
-/// A projection from a file's CRS into one in metres. Needs a Driver that outlives it.
+/// A transformation from a file's CRS to one in metres. Needs a Driver that outlives it.
 class IntoMetres {
 public:
-    /// Takes: the file's CRS; the one wanted, "" for the file's own when it is projected in metres and these are metres
-    /// on the ground (OwnMetres), else the UTM zone of the middle of what is read, in the file's coordinates; where
-    /// that lengthens lines by more than 4 %, Lambert's azimuthal equal-area projection around the middle. Throws:
-    /// BadInput when there is none, or more than 180 degrees of longitude are read: "io.into_metres: name ...".
+    /// Chooses the target CRS.
+    /// \param own the file's CRS
+    /// \param wanted the target; "": the file's own if it is projected in metres that are metres on the ground
+    /// (OwnMetres), else the UTM zone of the middle of the box; if that lengthens lines by more than 4 %, Lambert's
+    /// azimuthal equal-area projection centred there
+    /// \param box of the data, in the file's coordinates
+    /// \param name of the file, for messages
+    /// \throws BadInput when there is no CRS, or the data span more than 180 degrees of longitude: "io.into_metres:
+    /// name ..."
     IntoMetres(OGRSpatialReference const& own, std::string const& wanted, FileBox const& box, std::string const& name,
                OwnMetres metres = OwnMetres::judged);
     ~IntoMetres();
@@ -68,12 +75,12 @@ public:
     IntoMetres& operator=(IntoMetres const&) = delete;
 
     std::string const& crs() const { return crs_; }
-    /// Whether apply() changes anything in plan.
+    /// Whether apply() changes positions in plan.
     bool moves() const;
-    /// What 1 in the file's heights is.
+    /// \return [m] the unit of the file's heights.
     double height_unit_m() const { return height_unit_m_; }
-    /// Projects positions in plan, to 1e-6 m; heights stay. Gives: by point 1 where it could be projected, else 0, and
-    /// the point keeps its place.
+    /// Projects positions in plan, to 1e-6 m; heights stay.
+    /// \return by point: 1: projected, 0: impossible, the point keeps its position
     std::vector<int> apply(std::span<Vec3> points) const;
 
 private:
@@ -83,16 +90,16 @@ private:
     double height_unit_m_ = 1.0;
 };
 
-// How long metres of a projected CRS are on the ground.
+// Lengths on the ground of metres of a projected CRS.
 
-/// Metres of a projected CRS at one place.
+/// The scale of a projected CRS at one position.
 struct PointScale {
-    double side_m = 1.0; ///< [m] of a square on the ground as large as a square metre of the CRS
-    double error = 0.0; ///< by how much the length of a line is off, in the direction where it is off most: 0.01 is 1 %
+    double side_m = 1.0; ///< [m] side of the square on the ground with the area of a square metre of the CRS
+    double error = 0.0;  ///< largest relative error of lengths in any direction: 0.01 is 1 %
 };
 
-/// The point scale of a projected CRS, on its ellipsoid (Tissot's indicatrix).
-/// Source: \cite snyder1987, Map Projections, ch. 4. Needs a Driver that outlives it.
+/// The point scale of a projected CRS, on its ellipsoid (Tissot's indicatrix). Source: \cite snyder1987, Map
+/// Projections, ch. 4. Needs a Driver that outlives it.
 class GroundScale {
 public:
     explicit GroundScale(OGRSpatialReference const& projected);
@@ -100,7 +107,7 @@ public:
     GroundScale(GroundScale const&) = delete;
     GroundScale& operator=(GroundScale const&) = delete;
 
-    /// Nothing where a place has no longitude and latitude.
+    /// \return nothing if a position has no longitude and latitude.
     std::optional<PointScale> at(Vec2 place) const;
 
 private:
@@ -108,15 +115,14 @@ private:
     std::unique_ptr<Turn> turn_;
 };
 
-/// Whether lengths in a CRS that is projected in metres are off by more than 1 % on average over a box.
+/// Whether lengths in a CRS projected in metres are wrong by more than 1 % on average over a box.
 bool is_distorted(OGRSpatialReference const& own, FileBox const& box);
 
-/// Whether lengths in the other CRS are at most half as much off as in the own one.
+/// Whether lengths in the other CRS have at most half the error of the own one.
 bool is_better(OGRSpatialReference const& other, OGRSpatialReference const& own, FileBox const& box);
 
-/// The CRS into which what fills a box is brought because lengths in its own, projected in metres, are off by more than
-/// 1 %; nothing where they are not, or no other is better. Throws: BadInput like zone_of, where they are off by more
-/// than 10 %.
+/// Finds a better CRS for data whose own, projected in metres, has lengths wrong by more than 1 %; nothing: they are
+/// not, or no other is better. Throws BadInput as zone_of when they are wrong by more than 10 %.
 std::optional<std::string> less_distorted(OGRSpatialReference const& own, FileBox const& box, std::string const& name);
 
 } // namespace thalweg::io

@@ -13,9 +13,8 @@
 
 namespace thalweg::io {
 
-/// The format of a name, or where it is "" of a path's ending, in any case of letters.
-/// Takes: the formats there are, each with name and ending ("" for none); who asks, for the message.
-/// Throws: BadParameter that lists the names.
+/// Finds a format by its name, or, if that is "", by a path's extension, ignoring case. all: the formats with name and
+/// extension ("": none); the caller, for the message. Throws BadParameter that lists the names.
 template <class Named>
 auto format_of(std::vector<Named> const& formats, std::string const& name, std::string const& path,
                std::string const& who) {
@@ -33,18 +32,22 @@ auto format_of(std::vector<Named> const& formats, std::string const& name, std::
                                     : who + ": '" + name + "' is not a format; the formats are " + known);
 }
 
-/// The letters, in lower case, and digits of a name: "US survey foot", "us_survey_foot" and "US-survey-foot" are one.
+/// The letters, in lower case, and digits of a name: "US survey foot", "us_survey_foot" and "US-survey-foot" are equal.
 std::string simple_name(std::string_view name);
 
-/// A file that is not there yet, written piece by piece.
+/// A new file, written piece by piece.
 class NewFile {
 public:
-    /// Takes: the path; who writes ("io.write_text: PATH"), for messages. Throws: IoError with the system's reason,
-    /// also when the file exists.
+    /// Creates the file.
+    /// \param path of the file
+    /// \param who "io.write_text: PATH", for messages
+    /// \throws IoError with the system's reason, also when the file exists
     NewFile(std::string const& path, std::string who);
-    /// Throws: IoError.
+    /// Appends bytes.
+    /// \throws IoError when writing fails
     void append(std::string_view bytes);
-    /// To be called at the end: only then is all known to be written. Throws: IoError.
+    /// Must be called at the end: only then is everything known to be written.
+    /// \throws IoError when writing fails
     void close();
 
 private:

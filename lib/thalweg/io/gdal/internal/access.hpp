@@ -4,15 +4,14 @@
 
 #include <string>
 
-/// What GDAL may reach.
+/// What GDAL may access.
 namespace thalweg::io {
 
-/// Takes GDAL's doors to the network away: drivers that connect, addresses as file names, fetches by HTTP. Pipes and
-/// devices are not opened either, wherever a name comes from. To be called once, when the drivers are registered.
+/// Blocks GDAL's access to the network: drivers that connect, addresses as file names, fetches by HTTP. Pipes and
+/// devices are not opened either, whatever their name comes from. Call it once, after the drivers are registered.
 void guard_gdal();
 
-/// While one lives, a server may be reached: one that the user names. A server that does not answer within 10 s is
-/// given up.
+/// While an object lives, one server that the user names may be contacted. It must respond within 10 s.
 class Connection {
 public:
     Connection();
@@ -21,7 +20,7 @@ public:
     Connection& operator=(Connection const&) = delete;
 };
 
-/// While one lives, GDAL opens files in the folder of this file only, and its own tables.
+/// While an object lives, GDAL opens only files in the folder of this file, and its own tables.
 class Confined {
 public:
     explicit Confined(std::string const& path);
@@ -30,14 +29,14 @@ public:
     Confined& operator=(Confined const&) = delete;
 
 private:
-    std::string near_; ///< the folder by the path's own words
-    std::string real_; ///< and where links lead
+    std::string near_; ///< the folder as in the path
+    std::string real_; ///< the folder after resolving links
 };
 
-/// While one lives, GDAL reads netCDF. Its library connects by itself, where a name is an address.
+/// While an object lives, GDAL reads netCDF, whose library connects on its own if a name is an address.
 class WithNetcdf {
 public:
-    explicit WithNetcdf(std::string const& path); ///< nothing changes unless the file is one
+    explicit WithNetcdf(std::string const& path); ///< has no effect unless the file is netCDF
     ~WithNetcdf();
     WithNetcdf(WithNetcdf const&) = delete;
     WithNetcdf& operator=(WithNetcdf const&) = delete;
@@ -46,17 +45,17 @@ private:
     bool added_ = false;
 };
 
-/// What a source named and the guard refused; "" for nothing.
+/// An access that a source requested and the guard refused; "": none.
 struct Refusal {
     std::string address = {};
     std::string pipe = {}; ///< or a device
     std::string grid = {}; ///< of a datum, outside PROJ's folders
 };
 
-/// What was refused in this thread since the last call.
+/// Returns and clears this thread's last refusal.
 Refusal take_refusal();
 
-/// Throws: BadInput that begins with what, where something was refused.
+/// Throws BadInput that begins with `what` if something was refused.
 void throw_refusal(Refusal const& refusal, std::string const& what);
 
 } // namespace thalweg::io

@@ -15,24 +15,27 @@ class GDALDataset;
 namespace thalweg::io {
 
 struct CloseDataset {
-    std::shared_ptr<void const> keeps = {}; ///< goes after the data set is closed
+    std::shared_ptr<void const> keeps = {}; ///< released after the data set is closed
     void operator()(GDALDataset* dataset) const;
 };
 /// A GDAL data set that closes with its scope; needs a Driver that outlives it.
 using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 
-/// What stands for a cell without height in files.
+/// Value of cells without heights in files.
 inline constexpr float nodata_height = -9999.0F;
 
-/// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only, so that neither a file nor its
-/// folder is changed (see Undisturbed); null when no driver reads it, with the reason in GDAL's errors. What may be
-/// opened: see RecipeFiles. Throws: BadInput when it may not be opened; IoError like Undisturbed.
+/// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only and without changing the file or
+/// its folder (see Undisturbed). RecipeFiles restricts what may be opened.
+/// \return null if no driver reads it, with the reason in GDAL's errors
+/// \throws BadInput when it may not be opened
+/// \throws IoError as Undisturbed
 Dataset open_undisturbed(std::string const& path, unsigned kinds);
 
-/// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
+/// Opens an existing file in the same way.
+/// \throws BadInput when it does not exist or no driver reads it
 Dataset open_file(std::string const& path, unsigned kinds, std::string const& what);
 
-/// A file that GDAL writes in memory: on a full disk it may say nothing (3.10). Needs a Driver that outlives it.
+/// A file that GDAL writes in memory: on a full disk GDAL may report no error (3.10). Needs a Driver that outlives it.
 class MemoryFile {
 public:
     MemoryFile();
@@ -40,7 +43,7 @@ public:
     MemoryFile(MemoryFile const&) = delete;
     MemoryFile& operator=(MemoryFile const&) = delete;
 
-    /// The name that GDAL knows.
+    /// The name for GDAL.
     std::string const& path() const { return path_; }
     std::string_view bytes() const;
 
@@ -48,22 +51,23 @@ private:
     std::string path_;
 };
 
-/// Sets position and CRS of a data set. Throws: BadInput when the CRS is none.
+/// Sets position and CRS of a data set.
+/// \throws BadInput when the CRS is invalid
 void set_frame(GDALDataset& dataset, Grid const& grid);
 
-/// Throws: BadInput when a raster is empty or GDAL cannot count its cells.
+/// \throws BadInput when a raster is empty or has too many cells for GDAL.
 void require_size(Grid const& grid, std::string const& what);
 
-/// A copy of heights for GDAL to work on, nodata_height for NaN.
-/// Throws: BadInput at an infinite height or one that equals nodata_height, or like require_size.
+/// Copies heights to a GDAL data set, with nodata_height for NaN.
+/// \throws BadInput when a height is infinite or equals nodata_height, or as require_size
 Dataset in_memory(Raster<float> const& dem, std::string const& what);
 
-/// The name by which GDAL opens what a zip archive holds: the archive itself, or the only folder in it where its files
-/// lie there. Any other path is given back. Needs a Driver that outlives it.
+/// The name by which GDAL opens the content of a zip archive: the archive itself, or its only folder if its files are
+/// there. Other paths are returned unchanged. Needs a Driver that outlives it.
 std::string inside_archive(std::string const& path);
 
-/// Carries a Run through GDAL, which knows no exceptions: pass &Watch::step and the watch as GDAL's progress function
-/// and argument, then call settle() before asking GDAL whether it worked.
+/// Passes a Run through GDAL, which does not support exceptions: pass &Watch::step and the watch as GDAL's progress
+/// function and argument, then call settle() before checking whether GDAL succeeded.
 class Watch {
 public:
     Watch(Run const& run, char const* what) : run_(run), what_(what) {}
@@ -78,7 +82,7 @@ public:
             return 0;
         }
     }
-    /// Throws what stopped the work.
+    /// Rethrows the exception that stopped the work.
     void settle() const {
         if (stopped_) {
             std::rethrow_exception(stopped_);

@@ -17,7 +17,7 @@
 
 namespace thalweg::io {
 
-/// Appends a number to a file's bytes, lowest byte first on every machine.
+/// Appends a number to a file's bytes, little-endian on every machine.
 template <class T> void put_number(std::string& bytes, T value) {
     std::array<char, sizeof(T)> raw{};
     std::memcpy(raw.data(), &value, sizeof(T));
@@ -27,19 +27,17 @@ template <class T> void put_number(std::string& bytes, T value) {
     bytes.append(raw.data(), raw.size());
 }
 
-// The parts of a binary PLY file that points and triangles share.
-// Source: Turk 1994, The PLY polygon file format.
+// Parts of binary PLY files, common to points and triangles. Source: Turk 1994, The PLY polygon file format.
 
-/// Appends the header. Takes: the CRS, a comment, "" for none; faces: how many, of vertices alone nothing; the unit of
-/// heights, a comment, of metres none.
+/// Appends the header. crs: a comment; "": none; faces: their number; nothing: vertices only; the unit of heights: a
+/// comment unless metres.
 void put_ply_header(std::string& bytes, std::string const& crs, std::uint64_t vertices,
                     std::optional<std::uint64_t> faces = {}, HeightUnit unit = HeightUnit::metre);
 
 /// Appends a vertex: three doubles.
 void put_ply_vertex(std::string& bytes, Vec3 vertex);
 
-// The parts of a LAS 1.2 file with points of format 0.
-// Source: ASPRS, LAS specification version 1.2.
+// Parts of a LAS 1.2 file with points of format 0. Source: ASPRS, LAS specification version 1.2.
 
 /// The smallest box around points.
 struct PointExtent {
@@ -63,23 +61,27 @@ struct LasAxis {
     double read(std::int32_t whole) const { return static_cast<double>(whole) * scale + offset; }
 };
 
-/// What a file says of all its points.
+/// The common header values of all points.
 struct LasFrame {
     LasAxis x;
     LasAxis y;
     LasAxis z;
-    PointExtent extent; ///< of the coordinates as the file has them
+    PointExtent extent; ///< of the coordinates as stored
     std::uint32_t count = 0;
 };
 
-/// Takes: the box around the points and their number; what counts as a short way between them [m] > 0.
-/// Gives: scales of 0.001, or the power of ten below a thousandth of that way, or the least one that fits the box.
+/// Chooses scales and offsets.
+/// \param extent of the points
+/// \param count number of points
+/// \param short_way [m] > 0, a short distance between points
+/// \return scales of 0.001, or the power of ten below a thousandth of that distance, or the least one that fits the box
 LasFrame las_frame(PointExtent const& extent, std::uint32_t count, double short_way);
 
-/// Appends the header, with GeoTIFF keys where crs is "EPSG:n", projected in metres. The date is always 1 January 2000.
+/// Appends the header, with GeoTIFF keys if crs is "EPSG:n", projected in metres. The date is always 1 January 2000, so
+/// that files are reproducible.
 void put_las_header(std::string& bytes, LasFrame const& frame, std::string const& crs);
 
-/// Appends a point within the frame's box, the only return of its pulse.
+/// Appends a point within the frame's box, as the only return of its pulse.
 void put_las_point(std::string& bytes, LasFrame const& frame, Vec3 point, std::uint8_t classification);
 
 } // namespace thalweg::io

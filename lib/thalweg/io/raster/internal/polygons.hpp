@@ -11,9 +11,13 @@
 
 namespace thalweg::io {
 
-/// Outlines of the cells of equal number, for each of the numbers [0, count); what is below 0 belongs to none.
-/// Gives: by number its parts, cells that touch in corners only being several; each a valid polygon of corners of
-/// cells, its outer ring first. Throws: BadInput when a number is count or more; IoError; Cancelled.
+/// Outlines the cells of equal number, for each number in [0, count); negative cells belong to none.
+/// \param numbers by cell
+/// \param count limit of the numbers
+/// \return by number: its parts (cells that touch only at corners are several), each a valid polygon along cell
+/// borders, its outer ring first
+/// \throws BadInput when a number is count or more
+/// \throws IoError when GDAL fails
 std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers, std::int64_t count,
                                              Run const& run = {});
 
