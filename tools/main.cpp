@@ -39,15 +39,15 @@ namespace {
 using namespace thalweg;
 using namespace thalweg::tools;
 
-// Ready before memory is exhausted.
+// Allocated before memory is exhausted.
 constexpr std::string_view out_of_memory = "error: out of memory: make the grid smaller or the cell larger\n";
 
 void complain(std::string const& text) {
     write_to_stderr(fmt::format("{} {}\n", toned(Tone::bad, "error:", stderr), printable(text)));
 }
 
-/// Ends the process in words where an exception can reach no handler: in a thread of a library, or while another is
-/// handled.
+/// Ends the process with a message where no handler can catch an exception: in a library's thread, or while another
+/// exception is handled.
 [[noreturn]] void end_without_handler() {
     try {
         if (std::exception_ptr const fault = std::current_exception()) {
@@ -66,7 +66,7 @@ void complain(std::string const& text) {
     _exit(Exit::failed);
 }
 
-/// Libraries say in words only that memory was short; what was read is then not wrong.
+/// Libraries report lack of memory only in text; the input is then not at fault.
 int code_of_refusal(std::string const& words) {
     for (char const* const of_memory : {"ut of memory", "annot allocate", "bad_alloc"}) {
         if (words.find(of_memory) != std::string::npos) {
@@ -103,7 +103,7 @@ void tell_time(Run const& run, std::string const& stage, double seconds) {
     run.tell(stage, fmt::format("{:<56}{:6.1f} s", "", seconds));
 }
 
-/// What ends a command: the time of all, and with -v that of each stage and the memory.
+/// Logs the total time, and with -v the time of each stage and the memory.
 void tell_times(Session const& session, Terminal& terminal, double seconds) {
     if (session.verbose) {
         session.run.say("time by stage");
@@ -115,7 +115,7 @@ void tell_times(Session const& session, Terminal& terminal, double seconds) {
     tell_time(session.run, "total", seconds);
 }
 
-/// A run that was made but whose results did not arrive has failed.
+/// A run whose output could not be written has failed.
 int end_of_results(int code) {
     std::string const fault = fault_of_stdout();
     if (fault.empty() || (code != Exit::done && code != Exit::check_failed)) {
@@ -127,7 +127,7 @@ int end_of_results(int code) {
 
 using Commands = std::map<CLI::App*, Command>;
 
-/// The options every command of work has.
+/// The options of every command that does work.
 void add_options_of_all(CLI::App& sub, Session& session) {
     sub.add_option("--threads", session.threads, "Use this many threads; 0 takes every core.")
         ->check(CLI::Range(0, 1024));
@@ -165,7 +165,7 @@ Commands add_commands(CLI::App& app, Session& session) {
     CLI::App* const man = app.add_subcommand("man", "Write the manual pages.");
     CLI::App* const help = app.add_subcommand("help", "Explain a command.");
     commands[completion] = add_completion(*completion);
-    commands[man] = add_man(*man); // these two know every command that is there already
+    commands[man] = add_man(*man); // these two list all commands added before them
     commands[help] = add_help(*help);
     return commands;
 }
@@ -179,8 +179,8 @@ void describe_program(CLI::App& app) {
     app.fallthrough(false);
 }
 
-/// Reads the words of the command line. Gives: the exit code where there is nothing more to do: help, a version, a
-/// complaint.
+/// Parses the command line.
+/// \return an exit code if nothing remains to be done: help, a version, an error
 std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     if (argc == 1) {
         write_to_stderr(app.help());
@@ -201,8 +201,8 @@ std::optional<int> parse(CLI::App& app, int argc, char** argv) {
     return std::nullopt;
 }
 
-/// Whether the system lets a run with so many threads (0: one a core) start all that it needs: those of oneTBB, and as
-/// many again of GDAL. GDAL waits for ever for one that could not be started.
+/// Whether the system allows the threads of a run (0: one per core): those of oneTBB, and as many of GDAL. GDAL waits
+/// forever for a thread that could not be started.
 bool can_start_threads(int wanted) {
     if (wanted == 1) {
         return true;
@@ -216,9 +216,9 @@ bool can_start_threads(int wanted) {
         while (threads.size() < threads.capacity()) {
             threads.emplace_back([&done] { done.wait(false); });
         }
-    } catch (std::system_error const&) { // a limit on processes
+    } catch (std::system_error const&) { // limit on processes
         all = false;
-    } catch (std::bad_alloc const&) { // or on memory
+    } catch (std::bad_alloc const&) { // limit on memory
         all = false;
     }
     done = true;
@@ -229,7 +229,7 @@ bool can_start_threads(int wanted) {
     return all;
 }
 
-/// Sets up what a run needs besides its words.
+/// Prepares the environment of a run.
 void prepare(Session& session, Terminal& terminal) {
     session.run.threads = can_start_threads(session.threads) ? session.threads : 1;
     session.run.progress = &Terminal::progress;
@@ -267,7 +267,7 @@ int run(int argc, char** argv) {
                "  thalweg make\n"
                "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
                "  thalweg check out/walker\n"
-               "  thalweg help make\n"); // after the commands: they would take it over
+               "  thalweg help make\n"); // added after the commands, which would inherit it
     if (std::optional<int> const code = parse(app, argc, argv)) {
         return *code;
     }
@@ -279,7 +279,7 @@ int run(int argc, char** argv) {
 
 } // namespace
 
-/// GDAL ends the process where memory for an error message is short. What it says of that is on standard error already.
+/// GDAL aborts if there is no memory for an error message. It has already reported that on standard error.
 extern "C" {
 static void end_of_abort(int /*number*/) {
     constexpr char text[] = "error: a library could not go on, which happens when memory is short\n";
@@ -287,10 +287,10 @@ static void end_of_abort(int /*number*/) {
     _exit(thalweg::tools::Exit::failed);
 }
 
-/// A library that writes where memory was refused; any other fault keeps its signal.
+/// Handles a library that writes to memory it was refused; any other fault keeps its signal.
 [[maybe_unused]] static void end_of_fault(int number) {
-    alarm(2);                                   // the fault may lie within malloc
-    constexpr std::size_t most_asked = 1 << 20; // at once, as by libgeotiff, which does not look at the answer
+    alarm(2);                                   // the fault may be inside malloc
+    constexpr std::size_t most_asked = 1 << 20; // faults immediately, e.g. libgeotiff, which does not check the result
     if (std::malloc(most_asked) == nullptr) {
         [[maybe_unused]] auto const written = write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
         _exit(thalweg::tools::Exit::failed);
@@ -301,9 +301,9 @@ static void end_of_abort(int /*number*/) {
 
 namespace {
 
-#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // they report faults themselves
-/// Handles faults on a stack of their own: Cairo, where memory is refused, jumps by a buffer that was never set and
-/// leaves no stack.
+#if !defined(__SANITIZE_ADDRESS__) && !defined(__SANITIZE_THREAD__) // sanitizers report faults themselves
+/// Handles faults on a separate stack: if memory is refused, Cairo jumps through an uninitialised buffer and leaves no
+/// stack.
 void handle_faults() {
     static char stack[1 << 16];
     stack_t own{};

@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// GDAL makes a context of PROJ in each thread, keeps it to itself and has no setting for the files it may open. In a
-// program this function is found before PROJ's own of the same name; a library must not do so to those who link it.
+// GDAL creates a context of PROJ in each thread, keeps it private and has no setting for the files it may open. In a
+// program this function is found before PROJ's own of the same name; a library must not impose that on programs that
+// link it.
 #include <dlfcn.h>
 
 #include <thalweg/io/gdal/access.hpp>

@@ -94,7 +94,7 @@ void take_numbers(BlendOptions& options) {
     options.params.holes = options.fills ? blend::Holes::fill : blend::Holes::leave;
 }
 
-/// Options that count cells or name them mean nothing for a mesh.
+/// Options for cells or handles do not apply to a mesh.
 void refuse_options_of_dems(BlendOptions const& options) {
     for (auto const& [name, given] :
          {std::pair{"--window", !options.window.empty()}, std::pair{"--mask", !options.params.mask.empty()},

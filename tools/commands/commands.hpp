@@ -14,7 +14,7 @@ class App;
 namespace thalweg::tools {
 
 /// Exit codes (contract).
-enum Exit : int { done = 0, failed = 1, wrong = 2, check_failed = 3 }; // and of signals: interrupt.hpp
+enum Exit : int { done = 0, failed = 1, wrong = 2, check_failed = 3 }; // exit codes of signals: interrupt.hpp
 
 /// How a command runs: options every command has.
 struct Session {
@@ -26,8 +26,8 @@ struct Session {
     Run run; ///< ready when the command is called
 };
 
-/// A command adds its options to the app and leaves what to do when it is chosen. help.hpp says how help, manual
-/// and completion read them.
+/// A command adds its options to the app and returns its action. help.hpp describes how help, manual and completion
+/// read the options.
 using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);
 Command add_check(CLI::App& app, Session& session);
@@ -42,7 +42,7 @@ Command add_blend(CLI::App& app, Session& session);
 Command add_deform(CLI::App& app, Session& session);
 Command add_measure(CLI::App& app, Session& session);
 Command add_grow(CLI::App& app, Session& session);
-// Of the command line itself: they read the other commands.
+// Commands about the command line itself: they read the other commands.
 Command add_completion(CLI::App& app);
 Command add_man(CLI::App& app);
 Command add_help(CLI::App& app);

@@ -27,7 +27,7 @@ std::string quoted(std::string const& text) {
     return out + "'";
 }
 
-/// With a backslash before each of some characters.
+/// Puts a backslash before each of some characters.
 std::string escaped(std::string const& text, std::string_view characters) {
     std::string out;
     for (char const c : text) {
@@ -51,7 +51,7 @@ std::string kind(OptionHelp const& option) {
     return "";
 }
 
-/// Lines of a case: what stands behind "COMMAND OPTION" or "COMMAND 1", its first positional.
+/// Lines of a case: the completions after "COMMAND OPTION" or "COMMAND 1", its first positional.
 std::string takes_of(CommandHelp const& command) {
     std::string out;
     for (OptionHelp const& option : command.options) {
@@ -208,12 +208,12 @@ std::string bash_completion(CommandHelp const& program) {
                        pipeline::version(), keys, values, offers, names, takes, bash_machine);
 }
 
-/// Text in single quotes as fish reads them.
+/// Text in single quotes for fish.
 std::string fish_quoted(std::string const& text) {
     return "'" + escaped(text, "'\\") + "'";
 }
 
-/// Switches of `complete` for what an option takes: nothing, or words, files, folders.
+/// Switches of `complete` for an option's argument: none, words, files or folders.
 std::string switches(OptionHelp const& option) {
     switch (option.takes) {
     case Takes::nothing: return "";
@@ -289,7 +289,7 @@ std::string action(OptionHelp const& option) {
     switch (option.takes) {
     case Takes::word: return fmt::format("({})", fmt::join(option.words, " "));
     case Takes::file:
-        // *.(toml) would be read as qualifiers of the pattern.
+        // *.(toml) would be read as a glob qualifier.
         return option.words.empty()       ? "_files"
                : option.words.size() == 1 ? fmt::format("_files -g \"*.{}\"", option.words.front())
                                           : fmt::format("_files -g \"*.({})\"", fmt::join(option.words, "|"));
@@ -301,7 +301,7 @@ std::string action(OptionHelp const& option) {
     return "";
 }
 
-/// One spec of _arguments an option: its names exclude one another unless it repeats.
+/// One spec of _arguments per option: its names exclude one another unless it repeats.
 std::string spec(OptionHelp const& option) {
     bool const flag = option.takes == Takes::nothing;
     std::string const tail =

@@ -39,7 +39,7 @@ network::SideRule rule_of(std::string const& word) {
                               : network::SideRule::tokunaga;
 }
 
-/// What was counted, beside what the closed forms promise.
+/// Measured statistics, and those predicted by the closed forms.
 struct Count {
     network::StreamCounts streams;
     network::TokunagaLaws laws;
@@ -113,7 +113,7 @@ void write_picture(GrowOptions const& options, std::vector<std::vector<Vec2>> co
     file.commit();
 }
 
-/// Rewrites the word of a rules file: draws it, or prints it.
+/// Rewrites the word of a rules file and draws or prints it.
 int rewrite_rules(GrowOptions const& options, Session const& session) {
     constexpr std::int64_t most_bytes = 1 << 20;
     refuse_if<BadParameter>(options.shapes_tree,
@@ -146,7 +146,7 @@ int grow(GrowOptions const& options, Session const& session) {
     params.rule = rule_of(options.rule);
     if (options.lsystem) {
         refuse_if<BadParameter>(session.json, "thalweg grow prints a word or JSON: give --lsystem or --json, not both");
-        params.banks = network::BankRule::alternating; // as the rules are written
+        params.banks = network::BankRule::alternating; // the rules define the sides
         fmt::print("{}\n", network::lsystem(params, session.run));
         return Exit::done;
     }

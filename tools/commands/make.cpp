@@ -49,8 +49,7 @@ std::string as_json(pipeline::Forecast const& forecast) {
     return json.dump(2) + "\n";
 }
 
-/// A forecast as lines of words, or as one JSON object: stages, grid (null where it is unknown), cells, memory_bytes,
-/// seconds.
+/// A forecast as text, or as one JSON object: stages, grid (null: unknown), cells, memory_bytes, seconds.
 std::string forecast_in_words(pipeline::Forecast const& forecast, bool json) {
     if (json) {
         return as_json(forecast);
@@ -84,7 +83,7 @@ struct MakeOptions {
     bool dry_run = false;
 };
 
-/// Without a recipe: where keys of a cluster are set, one is wanted; else rivers that suit the grid.
+/// The recipe if no file is given: if keys of the cluster are set, a cluster; else rivers that suit the grid.
 pipeline::Recipe recipe_without_file(MakeOptions const& options) {
     bool const of_cluster = std::ranges::any_of(options.set, [](std::string const& assignment) {
         return assignment.starts_with("network.dla.") || assignment.starts_with("network.source=dla") ||
@@ -100,7 +99,7 @@ pipeline::Recipe recipe_without_file(MakeOptions const& options) {
     return pipeline::default_recipe_on(asked.grid.width, asked.grid.height);
 }
 
-/// The columns of a line file that have a role in the network: those of the same words in `thalweg check`.
+/// The columns of a line file that have a role in the network, named as for `thalweg check`.
 pipeline::Recipe with_fields(pipeline::Recipe recipe, std::vector<std::string> const& fields) {
     static std::map<std::string, char const*> const keys{{"arc_id", "network.lines.id_field"},
                                                          {"ds_arc", "network.lines.down_field"},

@@ -26,11 +26,11 @@ namespace {
 /// A page of the manual in man(7), plain ASCII, without a date.
 struct ManPage {
     std::string name; ///< thalweg-make
-    char section;     ///< '1' a command, '5' a file format
+    char section;     ///< '1': a command, '5': a file format
     std::string roff;
 };
 
-/// Text as man(7) shows it to the letter: hyphens can be copied into a shell, no line is taken for a request.
+/// Escapes text for man(7): hyphens can be copied into a shell, no line is read as a request.
 std::string roff(std::string const& text) {
     std::string out;
     bool line_begins = true;
@@ -58,12 +58,12 @@ std::string bold_line(std::string const& text) {
     return ".B " + roff(text) + "\n";
 }
 
-/// Lines shown as they are.
+/// Lines in verbatim form.
 std::string verbatim(std::string const& lines) {
     return ".RS 4\n.nf\n" + roff(lines) + ".fi\n.RE\n";
 }
 
-/// A tag and, indented below it, what it means. tag: roff.
+/// A tag and its indented description. tag: roff.
 std::string tagged(std::string const& tag, std::string const& text) {
     return ".TP\n" + tag + "\n" + roff(wrapped(text, 76, 0)) + "\n";
 }
@@ -95,7 +95,7 @@ Rows const environment{
                               "accelerator, else the CPU."},
 };
 
-/// What make leaves.
+/// Files written by make.
 Rows const made{
     {"dem.tif", "Heights: a cloud-optimised GeoTIFF of 32-bit floats with its CRS and no-data value."},
     {"network.gpkg", "The layers arcs (lines with heights, drawn downstream) and nodes, and the table run."},
@@ -128,7 +128,7 @@ std::string heading(std::string const& name, char number, std::string const& man
                        pipeline::version(), manual);
 }
 
-/// A sentence as NAME has it: "make a terrain".
+/// A sentence as in NAME: "make a terrain".
 std::string clause(std::string text) {
     if (text.size() > 1 && std::islower(static_cast<unsigned char>(text[1])) != 0) {
         text[0] = static_cast<char>(std::tolower(static_cast<unsigned char>(text[0])));
@@ -275,8 +275,8 @@ std::string recipe_page(CommandHelp const& program) {
     return out + see_also("thalweg-recipe5", program);
 }
 
-/// thalweg(1), one page a command, and thalweg-recipe(5). They follow from the parser's description and the keys of a
-/// recipe.
+/// thalweg(1), one page per command, and thalweg-recipe(5), generated from the parser's description and the recipe's
+/// keys.
 std::vector<ManPage> man_pages(CommandHelp const& program) {
     std::vector<ManPage> pages{{"thalweg", '1', program_page(program)}};
     for (CommandHelp const& command : program.commands) {
@@ -286,7 +286,7 @@ std::vector<ManPage> man_pages(CommandHelp const& program) {
     return pages;
 }
 
-/// As man(1) lays them out: FOLDER/man1/thalweg-make.1.
+/// Writes pages in the layout of man(1): FOLDER/man1/thalweg-make.1.
 void write_pages(std::vector<ManPage> const& pages, std::string const& folder) {
     for (ManPage const& page : pages) {
         std::string const of_section = fmt::format("{}/man{}", folder, page.section);
@@ -295,7 +295,7 @@ void write_pages(std::vector<ManPage> const& pages, std::string const& folder) {
     }
 }
 
-/// "thalweg", a command's name, or with its section, "recipe.5".
+/// Matches "thalweg", a command's name, or a name with its section, "recipe.5".
 bool is_called(ManPage const& page, std::string const& name) {
     return page.section == '1' ? name == page.name || "thalweg-" + name == page.name
                                : fmt::format("thalweg-{}", name) == fmt::format("{}.{}", page.name, page.section);

@@ -45,8 +45,8 @@ template <class Wanted> std::vector<KeyHelp> keys_where(std::vector<KeyHelp> con
     return found;
 }
 
-/// The keys a word stands for: all for "", one for its path, all of a section for the section's name (with or without
-/// brackets), or all of that name in any section. Throws BadParameter for another word, with what was probably meant.
+/// The keys that a word selects: all for "", one for its path, all of a section for the section's name (with or without
+/// brackets), or all with that name in any section. Throws BadParameter with a suggestion for another word.
 std::vector<KeyHelp> keys_named(std::string const& word) {
     std::vector<KeyHelp> const all = pipeline::recipe_keys();
     std::string const name = without_brackets(word);
@@ -90,7 +90,7 @@ std::string keys_as_list(std::vector<KeyHelp> const& keys) {
     return text;
 }
 
-/// One key with all that is known of it.
+/// One key with all its attributes.
 std::string key_as_text(KeyHelp const& key) {
     std::string text = key.path + "\n";
     auto const line = [&](char const* what, std::string const& words) {

@@ -92,7 +92,7 @@ void print_recipe(pipeline::DemRecipe const& made) {
 int stats(StatsOptions const& options, Session const& session) {
     refuse_if<BadParameter>(options.recipe && session.json,
                             "thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
-    // A recipe has cells of its own: recipe_of_dem says how large.
+    // A recipe has its own cells: recipe_of_dem determines their size.
     io::ReadDemParams const reading{.nodata = options.nodata};
     pipeline::MetricDem const read = options.recipe
                                          ? pipeline::MetricDem{io::read_dem(options.path, reading, session.run), {}}

@@ -55,7 +55,8 @@ std::string tin_in_words(pipeline::MadeTin const& made) {
     if (made.left_out > 0) {
         words += fmt::format("; {} isolated cells are left out", made.left_out);
     }
-    if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) { // arcs of a network meet anyway
+    // arcs of a network always share vertices
+    if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) {
         words += fmt::format("; {} duplicate point{} merged", made.merged, made.merged == 1 ? " is" : "s are");
         if (made.averaged > 0) {
             words += fmt::format(", at {} place{} into the mean of heights up to {:.3f} m apart", made.averaged,

@@ -15,8 +15,8 @@ std::string limit_in_words(Check const& check);
 /// A check with its value and limit: "trace_recall 0.43 (at least 0.95)".
 std::string in_words(Check const& check);
 
-/// The result of all checks in one line, to be shown last: "walker.gpkg: ok, 30 checks" or
-/// "walker.gpkg: FAILED, 2 of 30 checks".
+/// The result of all checks in one line, shown last: "walker.gpkg: ok, 30 checks" or "walker.gpkg: FAILED, 2 of 30
+/// checks".
 std::string verdict(std::string const& of, std::vector<Check> const& checks);
 
 } // namespace thalweg::tools

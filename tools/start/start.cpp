@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What users call as `thalweg`: it prepares the process and becomes the program, whose libraries take the linker longer
-// to load than a script takes to send a signal. It needs the C library alone.
+// The program that users call as `thalweg`: it prepares the process and replaces itself with the main program, whose
+// libraries take the linker longer to load than a script takes to send a signal. It needs only the C library.
 #include <array>
 #include <cerrno>
 #include <csignal>
@@ -14,7 +14,7 @@
 
 namespace {
 
-/// They wait until the program can end in order.
+/// Blocks signals until the program can end in order.
 void hold_signals() {
     sigset_t signals;
     sigemptyset(&signals);
@@ -24,26 +24,26 @@ void hold_signals() {
     sigprocmask(SIG_BLOCK, &signals, nullptr);
 }
 
-/// What cannot be written is then an error of the call that writes, not the end of the process.
+/// A failed write is then an error of the call, not the end of the process.
 void ignore_signals_of_writing() {
     std::signal(SIGXFSZ, SIG_IGN);
     std::signal(SIGPIPE, SIG_IGN);
 }
 
-/// A closed stream's number would go to the next file that is opened. Writing to a standard output that was closed
-/// stays an error; what goes to standard error is dropped.
+/// Otherwise the next opened file would get a closed stream's number. Writing to a closed standard output remains an
+/// error; writes to standard error are dropped.
 void open_closed_streams() {
     constexpr std::array modes{O_RDONLY, O_RDONLY, O_WRONLY};
     for (int stream = 0; stream < static_cast<int>(modes.size()); ++stream) {
         if (fcntl(stream, F_GETFD) == -1 && errno == EBADF) {
-            open("/dev/null", modes[static_cast<std::size_t>(stream)]); // takes the lowest number that is free
+            open("/dev/null", modes[static_cast<std::size_t>(stream)]); // uses the lowest free number
         }
     }
 }
 
 using Path = std::array<char, 4096>;
 
-/// The path of this file, without links; "" where the system does not tell.
+/// The path of this file, without links; "": unknown.
 void find_this_file(Path& path) {
     ssize_t const length = readlink("/proc/self/exe", path.data(), path.size() - 1);
     path[length > 0 ? static_cast<std::size_t>(length) : 0] = '\0';
@@ -57,7 +57,7 @@ void find_this_file(Path& path) {
     }
 }
 
-/// Puts the program's path, which is relative to this file's folder, in place of this file's.
+/// Replaces this file's path by the main program's, which is relative to this file's folder.
 bool turn_to_program(Path& path) {
     char* const slash = std::strrchr(path.data(), '/');
     if (slash == nullptr) {

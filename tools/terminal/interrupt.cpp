@@ -17,14 +17,14 @@ std::stop_source* source = nullptr;
 volatile std::sig_atomic_t signal_seen = 0;
 
 constexpr int status_of(int number) {
-    return 128 + number; // as shells count
+    return 128 + number; // as shells do
 }
 
 } // namespace
 
 extern "C" {
-// A handler and not a thread that waits: where no thread can be started a run must end in order, too. Requesting a stop
-// from here is one exchange of an atomic without a lock, because nothing in thalweg registers a stop_callback.
+// A handler, not a waiting thread: a run must end in order even if no thread can be started. Requesting a stop here is
+// one lock-free atomic exchange, because nothing in thalweg registers a stop_callback.
 static void stop_in_order(int number) {
     if (signal_seen != 0) {
         wipe_last_line();
@@ -42,7 +42,7 @@ std::stop_token stop_at_signals() {
     source = &only;
     struct sigaction action {};
     action.sa_handler = stop_in_order;
-    action.sa_flags = SA_RESTART; // libraries need not know of it
+    action.sa_flags = SA_RESTART; // libraries need not handle it
     sigset_t signals;
     sigemptyset(&signals);
     for (int const number : {SIGINT, SIGTERM, SIGHUP}) {

@@ -6,9 +6,8 @@
 
 namespace thalweg::tools {
 
-/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into a stop token, also those that came before and were held (see
-/// start/start.cpp): call it first. SIGHUP stays ignored where the caller ignores it (nohup). A second signal ends at
-/// once.
+/// Turns Ctrl-C (SIGINT), SIGTERM and SIGHUP into a stop token, including those held before (see start/start.cpp): call
+/// it first. SIGHUP stays ignored if the caller ignores it (nohup). A second signal ends the process immediately.
 std::stop_token stop_at_signals();
 
 /// The exit status of a run that such a signal stopped: 130, 143 or 129.

@@ -12,7 +12,7 @@ namespace thalweg::tools {
 
 namespace {
 
-/// Three figures and a letter: "12.3 M".
+/// Three digits and a letter: "12.3 M".
 std::string short_number(double value) {
     constexpr std::array<char const*, 4> letters{"", " k", " M", " G"};
     std::size_t step = 0;
@@ -35,7 +35,7 @@ std::string rate_text(BarState const& state) {
     return fmt::format("{:.{}f} %/s", percent, percent < 9.95 ? 1 : 0);
 }
 
-/// Steps as coarse as the guess: seconds, from ten minutes on whole minutes.
+/// Rounds like an estimate: seconds, from ten minutes whole minutes.
 std::string left_text(double seconds) {
     if (seconds < 0.0) {
         return "";
@@ -59,7 +59,7 @@ void Pace::at(double share, double elapsed_s) {
         return;
     }
     constexpr double memory_s = 3.0;
-    constexpr double known_from_s = 0.5; // what the first moments say is mostly chance
+    constexpr double known_from_s = 0.5; // earlier values are mostly noise
     double const weight = step / (memory_s + step);
     if (elapsed_s < 2.0 * memory_s) {
         rate_ = share / elapsed_s;
@@ -79,7 +79,7 @@ std::string bar_text(BarState const& state, int columns, Colour colour) {
     std::size_t const room = static_cast<std::size_t>(std::max(columns, 2)) - 1;
     double const share = std::clamp(state.share, 0.0, 1.0);
     std::string const head = fmt::format("{:<10} ", state.what);
-    // Rounded down: 100 % is what is done.
+    // Rounded down: 100 % means done.
     std::string const percent = fmt::format("{:>3} %", static_cast<int>(share * 100.0));
     std::string const left = left_text(state.left_s);
     std::string rate = rate_text(state);
@@ -123,7 +123,7 @@ void StageTimes::at(std::string_view stage, bool done, double now_s) {
     auto known = std::ranges::find(seconds_, stage, [](auto const& one) { return std::string_view(one.first); });
     auto const place = static_cast<std::size_t>(known - seconds_.begin());
     auto const runs = std::ranges::find(running_, place);
-    if (runs != running_.end()) { // whatever began within it has ended without saying so
+    if (runs != running_.end()) { // stages started within it have ended without a report
         running_.erase(done ? runs : runs + 1, running_.end());
         return;
     }

@@ -23,7 +23,7 @@ constexpr std::string_view to_the_lines_begin = "\r\033[K";
 
 constexpr std::array<std::string_view, 5> tone_codes{"\033[32m", "\033[33m", "\033[1;31m", "\033[1m", "\033[0m"};
 
-/// A line whose tones stay where the stream takes them, and nothing else that acts on a terminal.
+/// A line that keeps its tones if the stream supports them, without any other control characters.
 std::string shown_line(std::string_view text, bool colours) {
     std::string out;
     while (colours) {
@@ -134,7 +134,7 @@ void Terminal::show(double share) {
     auto const now = std::chrono::steady_clock::now();
     std::chrono::duration<double> const gone = now - begin_;
     if (gone < std::chrono::milliseconds(300) || now - last_ < std::chrono::milliseconds(100)) {
-        return; // what is over at once needs no bar
+        return; // a short stage needs no bar
     }
     last_ = now;
     pace_.at(share, gone.count());

@@ -14,13 +14,13 @@
 
 namespace thalweg::tools {
 
-/// What may be written to a stream besides plain lines.
+/// What a stream supports besides plain lines.
 struct Abilities {
-    bool moves = false; ///< the cursor: a line may be written over
+    bool moves = false; ///< the cursor: a line can be overwritten
     bool colours = false;
 };
 
-/// A terminal moves unless TERM is "dumb" or unset, and colours unless NO_COLOR says anything; nothing else does.
+/// A terminal moves unless TERM is "dumb" or unset, and has colours unless NO_COLOR is set; other streams have neither.
 Abilities abilities(bool is_terminal, char const* term, char const* no_color);
 
 /// Of stdout or stderr as they are now.
@@ -28,15 +28,15 @@ Abilities abilities(std::FILE* stream);
 
 enum class Tone { good, careful, bad, name };
 
-/// Text in the tone's colour (green, yellow, red, bold) where the stream takes colours; else as it is.
+/// Text in the tone's colour (green, yellow, red, bold) if the stream has colours; else unchanged.
 std::string toned(Tone tone, std::string_view text, std::FILE* stream);
 
-/// Writes to stderr; what cannot be written is dropped, for no work is worth less because nobody can be told of it.
-/// Takes no lock and no memory.
+/// Writes to stderr; failures are ignored, because the work matters more than its messages. Takes no lock and no
+/// memory.
 void write_to_stderr(std::string_view text) noexcept;
 
-/// What a person sees on stderr: finished lines, and below them a bar with rate and time left, on a terminal only. A
-/// stage that is over within 0.3 s shows none.
+/// Output to stderr: finished lines, and on a terminal a bar with rate and time left below them. Stages shorter than
+/// 0.3 s show no bar.
 class Terminal {
 public:
     enum class Manner { talk, quiet };
@@ -46,7 +46,7 @@ public:
     Terminal& operator=(Terminal const&) = delete;
 
     void line(std::string_view text);
-    /// Takes the bar away; another report brings it back.
+    /// Removes the bar; the next report shows it again.
     void wipe();
     /// Seconds by stage so far, as StageTimes.
     std::vector<std::pair<std::string, double>> times();
@@ -56,7 +56,7 @@ public:
 private:
     void take_bar_away();
     void begin_stage(std::string_view what);
-    double seconds() const; ///< since the beginning
+    double seconds() const; ///< since construction
     void show(double share);
 
     std::mutex mutex_;
@@ -71,10 +71,10 @@ private:
     std::chrono::steady_clock::time_point last_;
 };
 
-/// Writes what stdout still holds; why something written to it did not arrive, or "".
+/// Flushes stdout; returns why output was lost, or "".
 std::string fault_of_stdout();
 
-/// Takes whatever stands on stderr's last line away, where that is a terminal: for an end without unwinding.
+/// Clears stderr's last line on a terminal: for an end without unwinding.
 void wipe_last_line();
 
 } // namespace thalweg::tools
