@@ -31,11 +31,10 @@ bool are_neighbours(Cell a, Cell b) {
     return std::abs(a.col - b.col) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-/// The cells an arc runs through, downstream, without the ways round that bring it back to one or across its own
-/// diagonal.
+/// The cells of an arc, downstream, without detours that return to a cell or cross the arc's own diagonal.
 std::vector<Cell> simple_way(std::vector<Cell> const& cells, Grid const& grid) {
     std::vector<Cell> way;
-    std::unordered_map<std::int64_t, std::size_t> place; // looked up only, never walked
+    std::unordered_map<std::int64_t, std::size_t> place; // only looked up, never iterated
     auto const cut_after = [&](std::size_t last) {
         while (way.size() > last + 1) {
             place.erase(grid.index(way.back()));
@@ -61,7 +60,7 @@ std::vector<Cell> simple_way(std::vector<Cell> const& cells, Grid const& grid) {
     return way;
 }
 
-/// The channels while they are drawn: downstream before upstream.
+/// The channels during drawing: downstream before upstream.
 class Drawing {
 public:
     explicit Drawing(Grid const& grid) : number_(grid, -1) {}
@@ -98,7 +97,7 @@ public:
         }
     }
 
-    /// Of the channel that the step from a to b would cross, the downstream cell; -1 where it crosses none.
+    /// The downstream cell of the channel that a step from a to b would cross; -1: none.
     std::int64_t crossed(Cell a, Cell b) const {
         if (!is_diagonal(a, b)) {
             return -1;
@@ -111,7 +110,7 @@ public:
         return receiver(p) == q ? q : receiver(q) == p ? p : -1;
     }
 
-    /// Numbers without those left out, -1 for these.
+    /// New numbers without removed cells; -1: removed.
     Indexed<ChannelId, ChannelId> renumbered(Channels& out) const {
         Indexed<ChannelId, ChannelId> now(cell_.size(), -1);
         for (std::size_t i = 0; i < cell_.size(); ++i) {
@@ -125,14 +124,14 @@ public:
     }
 
 private:
-    Raster<std::int32_t> number_; ///< by cell, -1 where no channel is
+    Raster<std::int32_t> number_; ///< by cell; -1: no channel
     Indexed<ChannelId, CellIndex> cell_;
-    Indexed<ChannelId, ChannelId> receiver_; ///< less than the number itself
+    Indexed<ChannelId, ChannelId> receiver_; ///< less than the cell's own number
     Indexed<ChannelId, std::int64_t> donors_;
     Indexed<ChannelId, std::uint8_t> gone_;
 };
 
-/// The arcs by steps to their outlet, then number: a cell belongs to the first that comes.
+/// The arcs by steps to their outlet, then number: a cell belongs to the first.
 std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
     std::vector<std::int64_t> steps(network.arc_count(), 0);
     std::vector<std::size_t> order;
@@ -148,7 +147,7 @@ std::vector<std::size_t> downstream_first(StreamNetwork const& network) {
     return order;
 }
 
-/// Draws the arcs, and keeps who drew what.
+/// Draws the arcs and records which arc drew which cell.
 class Drawer {
 public:
     Drawer(StreamNetwork const& network, Grid const& grid)
@@ -178,7 +177,7 @@ public:
         std::stable_sort(notes_.begin(), notes_.end(), [](auto const& p, auto const& q) { return p.first < q.first; });
         std::vector<Finding> out;
         for (std::size_t k = 0; k < notes_.size(); ++k) {
-            // The first place downstream is the last that was found.
+            // Entries are sorted from upstream: the last found is the first place downstream.
             if (k + 1 == notes_.size() || notes_[k + 1].first != notes_[k].first) {
                 out.push_back(std::move(notes_[k].second));
             }
@@ -217,8 +216,8 @@ private:
     std::vector<std::pair<std::size_t, Finding>> notes_;
 };
 
-/// By channel cell whether a river begins there. Ways that begin where rivers share cells begin there too, but the
-/// short ones, which are left out.
+/// By channel cell: whether a river begins there. Paths that begin where rivers share cells begin there too, except
+/// short ones, which are removed.
 Indexed<ChannelId, std::uint8_t> sources(Drawer& drawer, StreamNetwork const& network, std::int64_t stub_cells) {
     Drawing& drawing = drawer.drawing;
     Indexed<ChannelId, std::uint8_t> begins(drawing.size(), 0);
@@ -247,7 +246,7 @@ Indexed<ChannelId, std::uint8_t> sources(Drawer& drawer, StreamNetwork const& ne
     return begins;
 }
 
-/// The farthest of the next cells downstream that is a neighbour and may be reached without crossing a channel.
+/// The farthest of the next cells downstream that is a neighbour and can be reached without crossing a channel.
 std::int64_t farthest_neighbour(Drawing const& drawing, std::int64_t i, std::int64_t look_cells) {
     Cell const here = drawing.at(i);
     std::int64_t best = drawing.receiver(i);
@@ -261,7 +260,7 @@ std::int64_t farthest_neighbour(Drawing const& drawing, std::int64_t i, std::int
     return best;
 }
 
-/// Takes short cuts until there are none. Each brings a cell nearer to its outlet, so this ends.
+/// Takes shortcuts until there are none. Each brings a cell closer to its outlet, so the loop ends.
 void take_short_cuts(Drawing& drawing, Indexed<ChannelId, std::uint8_t> const& begins, std::int64_t look_cells,
                      Run const& run) {
     for (bool changed = true; changed;) {

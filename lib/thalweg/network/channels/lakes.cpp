@@ -24,7 +24,7 @@
 namespace thalweg::network {
 namespace {
 
-// Calls visit(index) for the neighbours of a cell, by side or corner.
+// Calls visit(index) for the 8 neighbours of a cell.
 template <class Visit> void each_neighbour(Grid const& grid, std::int64_t cell, Visit visit) {
     Cell const c = grid.at(cell);
     for (Cell const step : d8_steps) {
@@ -34,14 +34,14 @@ template <class Visit> void each_neighbour(Grid const& grid, std::int64_t cell, 
     }
 }
 
-// A lake before it is flooded.
+// A lake before flooding.
 struct Basin {
     std::int32_t label = 0;
-    std::int64_t cut = 0; // cells that its label lost
+    std::int64_t cut = 0; // number of cells removed from its label
     std::vector<std::int64_t> cells;
 };
 
-// Labels without cells on the grid's edge, or beside a lesser label. Throws: BadInput for a label below 0.
+// Labels without cells on the grid's border or beside a smaller label. Throws BadInput for a label below 0.
 Raster<std::int32_t> kept_apart(Raster<std::int32_t> const& labels) {
     Grid const& grid = labels.grid();
     Raster<std::int32_t> out = labels;
@@ -62,9 +62,9 @@ Raster<std::int32_t> kept_apart(Raster<std::int32_t> const& labels) {
     return out;
 }
 
-// The lakes of a raster of labels of which some cells are kept, in the order of their first cells.
+// The lakes of a raster of labels of which some cells remain, in the order of their first cells.
 std::vector<Basin> basins_of(Raster<std::int32_t> const& labels, Raster<std::int32_t> left) {
-    std::unordered_map<std::int32_t, std::int64_t> cut; // looked up only, never walked
+    std::unordered_map<std::int32_t, std::int64_t> cut; // only looked up, never iterated
     for (std::int64_t i = 0; i < labels.cells(); ++i) {
         cut[labels[i]] += labels[i] != left[i] ? 1 : 0;
     }
@@ -110,13 +110,13 @@ public:
 
     Raster<std::int32_t> labels;
 
-    /// Grows a lake around a place of an arc; nothing where others are.
+    /// Grows a lake around a position on an arc; does nothing if other lakes are there.
     void grow(std::size_t arc, std::int64_t cells, double along) {
         Grid const& grid = labels.grid();
         auto const& way = drawn_.of_arc[arc];
         auto const at = static_cast<std::size_t>(along * static_cast<double>(way.size()));
         std::int64_t const first = drawn_.channels.cell[way[at]];
-        std::unordered_set<std::int64_t> river; // looked up only, never walked
+        std::unordered_set<std::int64_t> river; // only looked up, never iterated
         for (std::int64_t const i : way) {
             river.insert(drawn_.channels.cell[i]);
         }
@@ -124,7 +124,7 @@ public:
         double const wave = std::max(3.0, 0.6 * std::sqrt(static_cast<double>(cells)));
         using Entry = std::pair<double, std::int64_t>;
         std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
-        std::unordered_set<std::int64_t> done; // looked up only, never walked
+        std::unordered_set<std::int64_t> done; // only looked up, never iterated
         std::vector<std::int64_t> lake;
         queue.emplace(0.0, first);
         while (!queue.empty() && static_cast<std::int64_t>(lake.size()) < cells) {
@@ -158,9 +158,9 @@ private:
                c.col < grid.width - lakes_apart && c.row < grid.height - lakes_apart;
     }
 
-    /// Its shores without single cells: what most of its neighbours are.
+    /// Smooths the shore: each cell becomes what most of its neighbours are.
     std::vector<std::int64_t> rounded(std::vector<std::int64_t> const& lake) const {
-        std::unordered_map<std::int64_t, int> count; // looked up only, never walked
+        std::unordered_map<std::int64_t, int> count; // only looked up, never iterated
         std::vector<std::int64_t> near;
         for (std::int64_t const cell : lake) {
             auto const add = [&](std::int64_t n) {
@@ -208,7 +208,7 @@ Raster<std::int32_t> choose_lakes(ChannelsOfArcs const& drawn, std::vector<doubl
         }
         auto const least = static_cast<double>(fewest_lake_cells);
         double const most = std::max(least, std::min(area / 50.0, static_cast<double>(params.max_cells)));
-        // Small lakes are many, large ones few: the logarithm is uniform.
+        // Small lakes are frequent, large ones rare: the logarithm is uniform.
         double const size = least * portable::pow(most / least, unit(words[1]));
         shores.grow(a, static_cast<std::int64_t>(size), 0.2 + 0.6 * unit(words[2]));
     }
@@ -220,7 +220,7 @@ namespace {
 constexpr std::int64_t no_cell = -1;
 constexpr std::int64_t fewest_flooded_cells = 4;
 
-/// Channels while lakes are laid into them.
+/// Channel network while lakes are being inserted.
 class Lakes {
 public:
     Lakes(ChannelsOfArcs const& drawn, Run const& run)
@@ -271,9 +271,9 @@ public:
     }
 
     Indexed<ChannelId, CellIndex> cell;        ///< new ones at the end
-    Indexed<ChannelId, ChannelId> receiver;    ///< likewise
-    Indexed<ChannelId, std::uint8_t> is_gone;  ///< likewise
-    Indexed<ChannelId, std::uint8_t> is_level; ///< likewise
+    Indexed<ChannelId, ChannelId> receiver;    ///< new ones at the end
+    Indexed<ChannelId, std::uint8_t> is_gone;  ///< new ones at the end
+    Indexed<ChannelId, std::uint8_t> is_level; ///< new ones at the end
     std::vector<Lake> lakes;
     std::vector<Finding> notes;
 
@@ -285,7 +285,7 @@ private:
 
     bool is_in(std::int64_t channel) const { return lake_[cell[channel]] != 0; }
 
-    /// Whether the water of a channel cell comes into the lake below it.
+    /// Whether the water of a channel cell enters the lake downstream of it.
     bool comes_in(std::int64_t channel) const {
         for (std::int64_t i = receiver[channel]; i >= 0; i = receiver[i]) {
             if (is_in(i)) {
@@ -308,12 +308,12 @@ private:
         return best;
     }
 
-    /// Takes cells beside rivers that do not flow into the lake off it, until there are none: water would leave there.
+    /// Removes lake cells beside rivers that do not flow into the lake, until there are none: water would leave there.
     std::int64_t keep_from_rivers(Basin const& basin, std::int64_t outlet) {
         std::int64_t taken = 0;
         for (bool changed = true; changed;) {
             changed = false;
-            std::unordered_map<std::int64_t, bool> passes; // looked up only, never walked
+            std::unordered_map<std::int64_t, bool> passes; // only looked up, never iterated
             for (std::int64_t const c : basin.cells) {
                 if (lake_[c] == 0 || c == cell[outlet]) {
                     continue;
@@ -340,7 +340,7 @@ private:
         return taken;
     }
 
-    /// Whether all that flows into a channel cell comes from the lake, not by its outlet: it will be taken off.
+    /// Whether all inflow of a channel cell comes from the lake, but not through its outlet: such a cell is removed.
     bool is_dry_below(std::int64_t channel, std::int64_t outlet) const {
         if (receiver[outlet] == channel) {
             return false;
@@ -353,7 +353,7 @@ private:
         return from_lake > 0 && from_lake == donors_[channel];
     }
 
-    /// The cells of the lake that hang together with its outlet, nearest first, each with the next on its way there.
+    /// The lake's cells connected to its outlet, nearest first, each with the next cell on its path there.
     std::vector<Link> links_to(std::int64_t outlet) {
         std::vector<Link> out;
         std::vector<std::int64_t> front{cell[outlet]};
@@ -397,8 +397,9 @@ private:
         }
     }
 
-    /// Rivers below the lake that its water no longer reaches: those that come back are left out, others as far as
-    /// they touch it. Gives: how many there were.
+    /// Removes rivers below the lake that its water no longer reaches: completely if they return to it, otherwise as
+    /// far as they touch it.
+    /// \return their number
     std::int64_t take_off_dry(std::vector<Link> const& links, std::int64_t outlet) {
         for (Link const& link : links) {
             lake_[link.cell] = 1;
@@ -440,14 +441,15 @@ private:
 
     Run const& run_;
     Grid grid_;
-    Raster<std::int32_t> number_;            ///< by cell, -1 where no channel is
-    Mask lake_;                              ///< the lake that is being laid
-    Indexed<ChannelId, std::int64_t> above_; ///< channel cells that flow into each, before there were lakes; itself too
+    Raster<std::int32_t> number_; ///< by cell; -1: no channel
+    Mask lake_;                   ///< the current lake
+    /// by channel cell: number of channel cells upstream before there were lakes, itself included
+    Indexed<ChannelId, std::int64_t> above_;
     Indexed<ChannelId, std::int64_t> donors_;
-    std::vector<std::int64_t> left_; ///< cells that the lake's water flowed into
+    std::vector<std::int64_t> left_; ///< cells into which the lake's water flowed
 };
 
-/// Old numbers in an order in which receivers come first.
+/// Old numbers, receivers before donors.
 std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
     Indexed<ChannelId, ChannelId> first(lakes.cell.size(), no_cell); // donor, and the next one of the same receiver
     Indexed<ChannelId, ChannelId> next(lakes.cell.size(), no_cell);
@@ -470,10 +472,10 @@ std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
     return order;
 }
 
-/// Level cells beside a river that does not flow into their lake: what it ran into before may have become another's.
+/// Lake cells beside a river that does not flow into their lake: its former receiver may now belong to another lake.
 std::vector<std::int64_t> leaks(Lakes const& lakes, std::vector<std::int64_t> const& order, Grid const& grid) {
     Indexed<ChannelId, ChannelId> outlet(lakes.cell.size(), no_cell); // by level cell
-    std::unordered_map<std::int64_t, std::int64_t> number;            // looked up only, never walked
+    std::unordered_map<std::int64_t, std::int64_t> number;            // only looked up, never iterated
     for (std::int64_t const i : order) {
         number[lakes.cell[i]] = i;
         if (lakes.is_level[i] != 0) {
@@ -502,7 +504,7 @@ std::vector<std::int64_t> leaks(Lakes const& lakes, std::vector<std::int64_t> co
     return out;
 }
 
-/// Lakes at their outlet's height, what flows into them no lower.
+/// Sets lakes to their outlet's height and raises their inflows to it.
 void raise_to_lakes(Channels& channels) {
     for (std::size_t i = 0; i < channels.z.size(); ++i) {
         if (channels.receiver[i] < 0) {
@@ -563,7 +565,7 @@ Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& lab
         if (leaking.empty()) {
             return with_lakes(drawn, std::move(lakes), order);
         }
-        for (std::int64_t const cell : leaking) { // there are ever fewer cells
+        for (std::int64_t const cell : leaking) { // terminates: the number of cells decreases
             kept[cell] = 0;
         }
     }

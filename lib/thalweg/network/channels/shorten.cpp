@@ -24,7 +24,7 @@ namespace {
 using Flags = std::vector<std::uint8_t>;
 using ChannelFlags = Indexed<ChannelId, std::uint8_t>;
 
-/// By channel cell whether it is gone.
+/// By channel cell: whether it is removed.
 ChannelFlags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
     ChannelFlags is_gone(channels.cell.size(), 0);
     for (std::int64_t const i : gone) {
@@ -43,7 +43,7 @@ ChannelFlags flags_of(std::vector<std::int64_t> const& gone, Channels const& cha
     return is_gone;
 }
 
-/// The middle of a segment's way through a cell; nothing where it does not run through it.
+/// The midpoint of a segment's part inside a cell; nothing: it does not pass through.
 std::optional<Vec2> middle_in(Cell cell, Vec2 a, Vec2 b, Grid const& grid) {
     double begin = 0.0;
     double end = 1.0;
@@ -67,10 +67,10 @@ std::optional<Vec2> middle_in(Cell cell, Vec2 a, Vec2 b, Grid const& grid) {
     return at;
 }
 
-/// A line from its first place in a cell that stays, which lies after those that go; empty where that is its end.
+/// The rest of a line from its first position in a remaining cell after the removed ones; empty: only its end remains.
 std::vector<Vec2> rest_of(std::vector<Vec2> const& line, Grid const& grid, Mask const& goes, Mask const& stays) {
     std::vector<Cell> const cells = cells_of_vertices(line, grid);
-    std::size_t segment = 0; // of the last cell that goes
+    std::size_t segment = 0; // of the last removed cell
     std::int64_t step = -1;
     for (std::size_t i = 0; i + 1 < cells.size(); ++i) {
         walk_cells(cells[i], cells[i + 1], [&](Cell c, std::int64_t k, std::int64_t) {
@@ -100,7 +100,7 @@ std::vector<Vec2> rest_of(std::vector<Vec2> const& line, Grid const& grid, Mask 
     return {};
 }
 
-/// A line from its place nearest to another; empty where that is its end.
+/// The rest of a line from its point nearest to a position; empty: only its end remains.
 std::vector<Vec2> rest_from_nearest(std::vector<Vec2> const& line, Vec2 place) {
     std::size_t segment = 0;
     Vec2 nearest = line.front();
@@ -123,7 +123,7 @@ std::vector<Vec2> rest_from_nearest(std::vector<Vec2> const& line, Vec2 place) {
     return rest.size() > 1 ? rest : std::vector<Vec2>{};
 }
 
-/// Marks some of an arc's channel cells in a mask, or clears them.
+/// Marks or clears an arc's selected channel cells in a mask.
 void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const& numbers, ChannelFlags const& is_gone,
           std::uint8_t which, std::uint8_t value) {
     for (std::int64_t const i : numbers) {
@@ -133,7 +133,7 @@ void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const&
     }
 }
 
-/// What is left of the channels, and the new numbers; -1 for those that are gone.
+/// The remaining channels, and the new numbers; -1: removed.
 Channels left_of(Channels const& channels, ChannelFlags const& is_gone, Indexed<ChannelId, ChannelId>& now) {
     Channels out;
     out.grid = channels.grid;
@@ -155,7 +155,7 @@ Channels left_of(Channels const& channels, ChannelFlags const& is_gone, Indexed<
     return out;
 }
 
-/// The network while its tips are taken off.
+/// The network during the removal of tips.
 class Tips {
 public:
     Tips(StreamNetwork const& network, ChannelsOfArcs const& drawn, ChannelFlags const& is_gone)
@@ -165,7 +165,7 @@ public:
     Flags kept; ///< by arc
     std::vector<Finding> notes;
 
-    /// Sources first: an arc without water above loses the cells at its beginning that are gone.
+    /// Sources first: an arc without water upstream loses the removed cells at its beginning.
     void take_off() {
         for (auto n = network_.upstream_order().rbegin(); n != network_.upstream_order().rend(); ++n) {
             if (network_.out(*n) != no_arc) {
@@ -177,13 +177,13 @@ public:
     NetworkDraft const& shortened() const { return draft_; }
 
 private:
-    /// Whether cells that are rivers flow into an arc's first; arcs without cells of their own are passed through.
+    /// Whether river cells flow into an arc's first cell; arcs without cells of their own are passed through.
     bool has_water_above(std::size_t a) const {
         auto const above = network_.in(network_.from(a));
         return std::any_of(above.begin(), above.end(), [&](ArcId b) { return has_water_[b] != 0; });
     }
 
-    /// Whether the rivers above an arc are gone, and passed by the cell of the node in which it begins.
+    /// Whether the rivers upstream of an arc, and the cell of its upper node, are removed.
     bool lost_its_node(std::size_t a) const {
         Grid const& grid = drawn_.channels.grid;
         Cell const first = cells_of_vertices({draft_.arcs[a].arc.line.front()}, grid).front();
@@ -208,7 +208,7 @@ private:
         return grid.centre(grid.at(drawn_.channels.cell[channel]));
     }
 
-    /// The line of an arc by its cells, where it lies too far beside them.
+    /// The line of an arc through cell centres, if it lies too far beside its cells.
     template <class Iterator> std::vector<Vec2> through_cells(Iterator first, Iterator last, Vec2 end) const {
         std::vector<Vec2> line;
         std::transform(first, last, std::back_inserter(line), [&](std::int64_t i) { return centre_of(i); });
@@ -218,7 +218,7 @@ private:
         return line.size() > 1 ? line : std::vector<Vec2>{};
     }
 
-    /// The first of an arc's cells that flows to the next one: those before are another river's.
+    /// The first of an arc's cells that flows to the next one; those before belong to another river.
     auto first_own(std::size_t a) const {
         auto const& cells = drawn_.of_arc[a];
         return std::adjacent_find(cells.begin(), cells.end(), [&](std::int64_t i, std::int64_t next) {
@@ -275,12 +275,12 @@ private:
     }
 
     StreamNetwork const& network_;
-    NetworkDraft draft_; ///< the network as far as it is shortened
+    NetworkDraft draft_; ///< the shortened network so far
     ChannelsOfArcs const& drawn_;
     ChannelFlags const& is_gone_;
     Mask goes_;
     Mask stays_;
-    Flags has_water_; ///< by arc, where sources first have come to it
+    Flags has_water_; ///< by arc, complete for arcs whose upstream arcs were processed
 };
 
 } // namespace

@@ -21,7 +21,7 @@
 namespace thalweg::network {
 namespace {
 
-// A place on a given arc.
+// A position on an input arc.
 struct PlaceOnArc {
     std::size_t arc = 0;
     std::size_t segment = 0;
@@ -41,7 +41,7 @@ std::size_t segments_of(StreamNetwork const& plan) {
     return segments;
 }
 
-// The drawn lines of given rivers, to find what is near.
+// Index of the lines of input rivers.
 class DrawnLines {
 public:
     DrawnLines(StreamNetwork const& plan, Grid const& grid)
@@ -62,7 +62,7 @@ public:
                                [&](std::size_t n) { return squared_distance(segments_[n], s) > margin * margin; });
     }
 
-    // The place nearest to p (ties: the first); none within a few cells.
+    // The position nearest to p (ties: the first); nothing within a few cells.
     std::optional<PlaceOnArc> nearest(Vec2 p) const {
         for (double reach = first_reach_cells; reach <= last_reach_cells; reach *= 2.0) {
             double best = reach * cell_m_;
@@ -85,12 +85,12 @@ public:
     }
 
 private:
-    // The nearest line is looked for within these, doubling, so that few segments are looked at.
+    // The search radius doubles from this, so that few segments are examined.
     static constexpr double first_reach_cells = 1.5;
     static constexpr double last_reach_cells = 12.0;
-    static constexpr double same_cells = 1e-3; // places as near are one
+    static constexpr double same_cells = 1e-3; // positions closer than this are equal
 
-    // The place moved to the vertex it is next to.
+    // The position, moved to an adjacent vertex.
     PlaceOnArc settled(PlaceOnArc place) const {
         std::vector<Vec2> const& line = plan_.arc(place.arc).line;
         double const near = same_cells * cell_m_;
@@ -105,27 +105,27 @@ private:
     StreamNetwork const& plan_;
     double cell_m_;
     SegmentGrid segments_;
-    std::vector<std::pair<std::size_t, std::size_t>> owners_; // by segment: arc and segment of it
+    std::vector<std::pair<std::size_t, std::size_t>> owners_; // by segment: its arc and index there
 };
 
-constexpr double on_line_cells = 0.3; ///< a cell whose centre is as near to a drawn line is that river's
+constexpr double on_line_cells = 0.3; ///< a cell whose centre is this close to a drawn line belongs to that river
 constexpr double least_fall_m = 1e-3;
 
 enum CellKind : std::uint8_t { nothing, valley, last, outlet };
 
-/// A valley that the land has grown, between nodes.
+/// A valley grown by the terrain, between nodes.
 struct Grown {
-    std::vector<std::int64_t> cells; ///< downstream; the last is a node or, where it joins, the cell before the line
+    std::vector<std::int64_t> cells; ///< downstream; the last is a node or, at a confluence, the cell before the line
     std::optional<PlaceOnArc> join;
 };
 
-/// Where the water of a land runs.
+/// A DEM and its flow.
 struct LandWater {
     Raster<float> const& dem;
     flow::FlowField const& flow;
 };
 
-/// Which cells are valleys, and what becomes of their water.
+/// The cells of valleys, and where their water goes.
 class Valleys {
 public:
     Valleys(Channels const& channels, LandWater const& water, DrawnLines const& lines, std::int64_t support,
@@ -199,7 +199,7 @@ private:
     std::int64_t cut_ = 0;
 };
 
-/// Puts given arcs and grown valleys together.
+/// Joins input arcs and grown valleys.
 class Grafting {
 public:
     Grafting(ElevatedNetwork const& given, LandWater const& water) : given_(given), water_(water) {}
@@ -252,7 +252,7 @@ private:
                     if (node == from) {
                         continue;
                     }
-                    if (place->along > 0.0) { // else the vertex is there
+                    if (place->along > 0.0) { // otherwise the vertex exists
                         piece.line.push_back(place->at);
                         heights.push_back(out_.node_z[node]);
                     }
@@ -261,7 +261,7 @@ private:
                 piece.line.push_back(arc.line[k + 1]);
                 heights.push_back(z[k + 1]);
             }
-            for (; place != places.end() && place->arc == a; ++place) { // in its last vertex
+            for (; place != places.end() && place->arc == a; ++place) { // at its last vertex
                 nodes_[key_of(*place)] = given_.plan.to(a);
             }
             plan_.add_arc(from, given_.plan.to(a), std::move(piece));
@@ -272,7 +272,7 @@ private:
     using Key = std::tuple<std::size_t, std::size_t, double>;
     static Key key_of(PlaceOnArc const& p) { return {p.arc, p.segment, p.along}; }
 
-    /// The node in which a valley joins an arc; from, the last one on it, where that is the same place.
+    /// The node at which a valley joins an arc; reuses `from`, the last one on it, at the same position.
     NodeId node_at(PlaceOnArc const& place, std::size_t a, NodeId from, std::vector<double> const& z) {
         bool const at_source = place.segment == 0 && place.along == 0.0;
         auto const [entry, is_new] = nodes_.try_emplace(key_of(place), given_.plan.from(a));
@@ -299,7 +299,7 @@ private:
             return entry->second;
         };
         std::vector<std::pair<NodeId, NodeId>> ends;
-        std::vector<std::size_t> order; // downstream first: what is downstream drains more
+        std::vector<std::size_t> order; // downstream first: contributing areas decrease
         for (std::size_t g = 0; g < grown.size(); ++g) {
             NodeId const from = node_of(grown[g].cells.front());
             ends.emplace_back(from, grown[g].join ? nodes_.at(key_of(*grown[g].join)) : node_of(grown[g].cells.back()));
@@ -341,7 +341,7 @@ private:
     std::map<Key, NodeId> nodes_;
 };
 
-/// Of the arcs that meet where they should not, those the land has grown: numbers among the grown, ascending.
+/// Grown arcs that meet others away from nodes: their numbers among the grown, ascending.
 std::vector<std::size_t> offenders(StreamNetwork const& plan, std::size_t grown, Run const& run) {
     std::vector<std::vector<Vec2>> lines;
     std::vector<geometry::EndNodes> ends;
@@ -361,7 +361,7 @@ std::vector<std::size_t> offenders(StreamNetwork const& plan, std::size_t grown,
     return found;
 }
 
-/// With every valley that flows into one that is left out.
+/// With every valley that flows into a removed one.
 std::vector<std::size_t> with_upstream(std::vector<Grown> const& grown, std::vector<std::size_t> out) {
     std::map<std::int64_t, std::vector<std::size_t>> ends_in;
     for (std::size_t g = 0; g < grown.size(); ++g) {

@@ -60,7 +60,7 @@ Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double
         double& below = node_z[network.to(a)];
         below = std::min(below, low);
     }
-    // The last vertex of an arc takes the height that its node got from all of them.
+    // The last vertex of an arc takes the common height of its node.
     for (std::size_t a = 0; a < arc_z.size(); ++a) {
         double& last = lowered.network.arc_z[a].back();
         double const z = node_z[network.to(a)];
@@ -93,7 +93,7 @@ ElevatedNetwork drape(StreamNetwork const& network, Raster<float> const& dem) {
         double& end = raised.node_z[network.to(a)];
         end = std::min(end, z);
     }
-    for (std::size_t a = 0; a < network.arc_count(); ++a) { // another arc may have come to the node lower
+    for (std::size_t a = 0; a < network.arc_count(); ++a) { // another arc may be lower at the node
         raised.arc_z[a].back() = raised.node_z[network.to(a)];
     }
     return raised;
@@ -103,7 +103,7 @@ namespace {
 
 constexpr double unknown = std::numeric_limits<double>::quiet_NaN();
 
-/// The nearest known height in one direction, and how far away it is.
+/// The nearest known height in one direction, and its distance.
 struct Known {
     double z = unknown;
     double away_m = 0.0;
@@ -164,7 +164,7 @@ private:
         return z;
     }
 
-    /// The heights that the land says itself. The last vertex of an arc is its node's business.
+    /// Records heights given by the terrain. The last vertex of an arc is handled with its node.
     void know(std::size_t a, Mask const& is_channel) {
         auto const& cells = cells_[a];
         bool const is_source = network_.in(network_.from(a)).empty();
@@ -181,13 +181,13 @@ private:
         }
     }
 
-    /// Whether a height says nothing beside the one above it: it is higher; or as high, of the same cell, to which
-    /// lines may come back from below, or off a lake, where the water took another way.
+    /// Whether a height adds no information to the one upstream: it is higher; or equal, in the same cell, to which
+    /// lines may return from downstream, or off a lake, where the water took another path.
     bool says_nothing(double z, Cell cell, Known above) const {
         return z > above.z || (z == above.z && (cell == above.cell || !lake_.contains(land_.grid().index(cell))));
     }
 
-    /// Sources first: the nearest known height above each vertex; of several arcs' the lowest.
+    /// Sources first: finds the nearest known height upstream of each vertex; of several arcs the lowest.
     void look_up() {
         std::vector<Known> above(network_.node_count());
         for (auto n = network_.upstream_order().rbegin(); n != network_.upstream_order().rend(); ++n) {
@@ -211,10 +211,10 @@ private:
         }
     }
 
-    /// Outlets first: what is not known lies between the heights above and below it.
+    /// Outlets first: interpolates unknown heights between those upstream and downstream.
     void look_down() {
         struct Node {
-            Known below; ///< itself included
+            Known below; ///< the vertex itself included
             double z = unknown;
         };
         std::vector<Node> nodes(network_.node_count());
@@ -231,7 +231,7 @@ private:
             for (std::size_t i = z_[a].size() - 1; i-- > 0;) {
                 at = farther(at, distance(line(a)[i], line(a)[i + 1]));
                 if (std::isnan(z_[a][i])) {
-                    // At a node the arcs above agree on the lowest of what is known above them.
+                    // At a node the arcs upstream share the lowest of their known heights.
                     z_[a][i] = between(up_[a][i], at);
                 } else {
                     at = {z_[a][i], 0.0, cells_[a][i]};
@@ -244,9 +244,9 @@ private:
     StreamNetwork const& network_;
     Raster<float> const& land_;
     std::unordered_set<std::int64_t> lake_; ///< cells of lakes and of their outlets
-    std::vector<std::vector<Cell>> cells_;  ///< by arc and vertex
-    std::vector<std::vector<double>> z_;    ///< likewise
-    std::vector<std::vector<Known>> up_;    ///< likewise: the nearest known height above, itself included
+    std::vector<std::vector<Cell>> cells_;  ///< by arc, by vertex
+    std::vector<std::vector<double>> z_;    ///< by arc, by vertex
+    std::vector<std::vector<Known>> up_;    ///< by arc, by vertex: the nearest known height upstream, itself included
 };
 
 } // namespace
@@ -260,7 +260,7 @@ ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& c
 
 namespace {
 
-/// How a river falls over its last stretch of known heights, while it is followed downstream.
+/// Tracks the slope of a river over its last stretch of known heights, downstream.
 class OwnSlope {
 public:
     explicit OwnSlope(double slope) : slope_(slope) {}
@@ -281,10 +281,10 @@ public:
     double value() const { return slope_; }
 
 private:
-    static constexpr double long_enough_m = 1000.0; // noise of heights does not count
+    static constexpr double long_enough_m = 1000.0; // shorter stretches are dominated by noise
     struct Known {
         double z;
-        double way_m; ///< from the one before
+        double way_m; ///< from the previous one
     };
     std::deque<Known> stretch_;
     double length_m_ = 0.0;
@@ -342,7 +342,8 @@ ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const
             slope_above[network.to(a)] = slope.value();
         }
     }
-    for (std::size_t a = 0; a < network.arc_count(); ++a) { // several arcs may carry on to one node: its lowest counts
+    // several arcs may be extended to one node: the lowest counts
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
         out.arc_z[a].back() = out.node_z[network.to(a)];
     }
     return out;

@@ -16,7 +16,7 @@
 namespace thalweg::network {
 namespace {
 
-constexpr double least = 0.001;   // of the classes open below: water must flow
+constexpr double least = 0.001;   // for classes open below: water must flow
 constexpr double greatest = 0.20; // of Aa+, open above
 
 struct Class {

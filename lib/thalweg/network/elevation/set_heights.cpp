@@ -18,12 +18,12 @@
 namespace thalweg::network {
 namespace {
 
-// A height just above another one, as far as doubles tell them apart; 0 above 0.
+// The next larger double; 0 counts as the least height above 0.
 double next_above(double below) {
     return below * (1.0 + 0x1p-52);
 }
 
-// Makes sure that heights can be set. Takes: as require_trees. Throws: BadInput like it, and for an arc of no length.
+// Checks that heights can be assigned: as require_trees, and no arc has length 0.
 void require_raisable(StreamNetwork const& network, std::string_view who) {
     require_trees(network, who);
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
@@ -35,7 +35,7 @@ void require_raisable(StreamNetwork const& network, std::string_view who) {
     }
 }
 
-// The way from a line's first vertex to each of them [m].
+// Distances [m] of a line's vertices from its first.
 std::vector<double> way_along(std::vector<Vec2> const& line) {
     std::vector<double> way{0.0};
     for (std::size_t i = 1; i < line.size(); ++i) {
@@ -44,8 +44,8 @@ std::vector<double> way_along(std::vector<Vec2> const& line) {
     return way;
 }
 
-// Heights of a line's vertices, from z_up to z_down as `way` grows from 0 to its last value, which is above 0. Gives:
-// the ends bit for bit; no vertex above the one before where z_up > z_down.
+// Interpolates heights of a line's vertices, from z_up to z_down as `way` grows from 0 to its last value, above 0.
+// Returns the ends bit for bit; no vertex is above the previous one if z_up > z_down.
 std::vector<double> between(std::vector<double> const& way, double z_up, double z_down) {
     std::vector<double> z;
     double const lower = std::min(z_up, z_down);
@@ -58,7 +58,7 @@ std::vector<double> between(std::vector<double> const& way, double z_up, double 
     return z;
 }
 
-// Throws: BadInput, naming the node, where a height is no number (lengths or slopes beyond the range of doubles).
+// Throws BadInput naming the node when a height is not a number (lengths or slopes beyond the range of double).
 void require_heights(StreamNetwork const& network, std::vector<double> const& node_z, std::string_view who) {
     for (std::size_t n = 0; n < node_z.size(); ++n) {
         if (!std::isfinite(node_z[n])) {
@@ -70,7 +70,7 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
     }
 }
 
-// A network with heights of its nodes and vertices linear by length along the arcs. Throws: like require_heights.
+// Assigns node heights to a network, with vertices linear by length along arcs. Throws as require_heights.
 ElevatedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
     require_heights(network, node_z, who);
     ElevatedNetwork raised{network, std::move(node_z), {}};
@@ -81,7 +81,7 @@ ElevatedNetwork raise_linearly(StreamNetwork const& network, std::vector<double>
     return raised;
 }
 
-/// The least slope of a repaired arc as a share of the slope asked for (specification 0.3).
+/// The least slope of a repaired arc as a share of the wanted slope (specification 0.3).
 constexpr double least_share = 0.01;
 
 std::vector<double> straight_heights(StreamNetwork const& network, double slope) {
@@ -93,7 +93,7 @@ std::vector<double> straight_heights(StreamNetwork const& network, double slope)
     return z;
 }
 
-/// From the outlet upwards: at least `floor`, and above the node downstream by `least_slope` along the arc.
+/// From the outlet upstream: at least `floor`, and above the next node downstream by `least_slope` along the arc.
 std::vector<double> majorant(StreamNetwork const& network, std::vector<double> const& floor, double least_slope) {
     std::vector<double> z(floor);
     for (NodeId const n : network.upstream_order()) {
@@ -102,7 +102,7 @@ std::vector<double> majorant(StreamNetwork const& network, std::vector<double> c
         }
         auto const arc = network.out(n);
         double const below = z[network.to(arc)];
-        // A rise lost in rounding would leave the arc level.
+        // A rise smaller than one ulp would leave the arc level.
         z[n] = std::max({floor[n], below + least_slope * network.length_m(arc), next_above(below)});
     }
     return z;
@@ -184,7 +184,7 @@ void require_areas(StreamNetwork const& network, std::vector<double> const& us_a
     }
 }
 
-/// Points and weights of Gauss and Legendre on [-1, 1], of one side.
+/// One half of the points and weights of Gauss-Legendre quadrature on [-1, 1].
 struct Abscissa {
     double at;
     double weight;
@@ -205,10 +205,10 @@ double panel(double a, double b, double theta) {
     return half * sum;
 }
 
-/// Mean of A^-theta between two areas. By panels and not in closed form: that loses its digits where the areas or theta
-/// and 1 are nearly the same.
+/// Mean of A^-theta between two areas. Integrated by panels: the closed form loses digits if the areas, or theta and 1,
+/// are nearly equal.
 double mean_power(double a, double b, double theta) {
-    constexpr double panel_ratio = 1.5; // the error of a panel is 1e-16 there
+    constexpr double panel_ratio = 1.5; // a panel's error is then 1e-16
     if (a == b) {
         return portable::pow(a, -theta);
     }
@@ -221,7 +221,7 @@ double mean_power(double a, double b, double theta) {
     return sum / (high - low);
 }
 
-/// How far the river falls from the first vertex to each of them, were k_s 1.
+/// Fall from a line's first vertex to each vertex for k_s = 1.
 std::vector<double> fall_along(std::vector<Vec2> const& line, double us_area, double ds_area, double theta) {
     std::vector<double> const way = way_along(line);
     auto const area = [&](double so_far) {
@@ -235,13 +235,13 @@ std::vector<double> fall_along(std::vector<Vec2> const& line, double us_area, do
     return fall;
 }
 
-/// From the outlets upwards, the sum of what every arc adds.
+/// Accumulates the values of arcs from the outlets upstream.
 std::vector<double> sum_upstream(StreamNetwork const& network, std::vector<double> const& by_arc) {
     std::vector<double> sum(network.node_count(), 0.0);
     for (NodeId const n : network.upstream_order()) {
         if (network.out(n) != no_arc) {
             auto const a = network.out(n);
-            // An addition lost in rounding would leave the arc level.
+            // An increment smaller than one ulp would leave the arc level.
             sum[n] = std::max(sum[network.to(a)] + by_arc[a], next_above(sum[network.to(a)]));
         }
     }
@@ -294,7 +294,7 @@ double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
     if (params.draw == SlopeDraw::middle) {
         return range.usual;
     }
-    // Added to 0, the zero of either sign is the same place.
+    // Adding 0 makes both signed zeros one position.
     auto const word = random_word(params.seed, slope_stage, std::bit_cast<std::uint64_t>(place.x + 0.0),
                                   std::bit_cast<std::uint64_t>(place.y + 0.0));
     return std::min(range.low + (range.high - range.low) * unit(word), range.high);
@@ -317,7 +317,7 @@ ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes con
             auto const a = network.out(n);
             double const below = z[network.to(a)];
             double const slope = slope_at(network.node(n).at, types.type[a], params);
-            // A rise lost in rounding would leave the arc level.
+            // A rise smaller than one ulp would leave the arc level.
             z[n] = std::max(below + slope * network.length_m(a), next_above(below));
         }
     }

@@ -48,7 +48,7 @@ double cells_of(LinesExtent const& box, double cell_m) {
     return std::ceil(box.wide() / cell_m) * std::ceil(box.tall() / cell_m);
 }
 
-/// Round numbers of metres in order, from a millimetre on. Quotients of whole numbers are the nearest doubles.
+/// Round numbers of metres in order, from a millimetre. Quotients of integers are the nearest doubles.
 std::vector<double> round_numbers() {
     constexpr std::array<double, 11> steps{100, 125, 150, 200, 250, 300, 400, 500, 600, 750, 900};
     std::vector<double> out;
@@ -104,7 +104,7 @@ Grid grid_of(LinesExtent const& box, double cell_m) {
 
 using Place = std::pair<double, double>;
 
-/// Places where a line ends at a vertex of another: there rivers meet.
+/// Positions where a line ends at a vertex of another: confluences.
 std::vector<Vec2> joints_of(RiverLines const& rivers) {
     std::vector<Place> vertices;
     for (RiverLine const& line : rivers.lines) {
@@ -113,7 +113,7 @@ std::vector<Vec2> joints_of(RiverLines const& rivers) {
             vertices.emplace_back(p.x, p.y);
         }
         auto const own = vertices.begin() + static_cast<std::ptrdiff_t>(first);
-        std::sort(own, vertices.end()); // a vertex counts once a line
+        std::sort(own, vertices.end()); // a vertex counts once per line
         vertices.erase(std::unique(own, vertices.end()), vertices.end());
     }
     std::sort(vertices.begin(), vertices.end());
@@ -129,7 +129,7 @@ std::vector<Vec2> joints_of(RiverLines const& rivers) {
     return joints;
 }
 
-/// Calls visit(index of the cell) for the cells at most so far from one, itself among them.
+/// Calls visit(index of the cell) for the cells within a distance, the cell itself included.
 template <class Visit> void around(Grid const& grid, Cell at, std::int64_t reach, Visit visit) {
     for (std::int64_t row = std::max<std::int64_t>(0, at.row - reach); row <= std::min(grid.height - 1, at.row + reach);
          ++row) {
@@ -177,7 +177,7 @@ double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, 
     return static_cast<double>(crowded) / static_cast<double>(std::max<std::size_t>(used.size(), 1));
 }
 
-/// The least round number that is allowed by a predicate that holds for all larger ones.
+/// The least round number that satisfies a predicate that is true for all larger ones.
 template <class Allowed> std::size_t first_allowed(std::vector<double> const& rounds, Allowed allowed) {
     auto const at = std::find_if(rounds.begin(), rounds.end(), allowed);
     return static_cast<std::size_t>(std::min(at, rounds.end() - 1) - rounds.begin());

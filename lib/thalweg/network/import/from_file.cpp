@@ -25,12 +25,12 @@ constexpr char const* remedy = "run thalweg check on the file; its --fix writes 
     throw BadInput(fmt::format("network.from_file: {}; {}", fault, remedy));
 }
 
-/// The number by which the file itself calls an arc.
+/// The file's own number of an arc.
 std::int64_t number_in(NetworkFile const& file, FileArc const& arc) {
     return arc.id - file.id_shift;
 }
 
-/// Places of the items in ascending order of their ids. Throws where an id repeats. shift: of these in the file.
+/// Indices of the items in ascending order of their ids. Throws if an id repeats. shift: of the ids in the file.
 template <class Item>
 std::vector<std::size_t> by_id(std::vector<Item> const& items, char const* noun, std::int64_t shift = 0) {
     std::vector<std::size_t> order(items.size());
@@ -46,7 +46,7 @@ std::vector<std::size_t> by_id(std::vector<Item> const& items, char const* noun,
     return order;
 }
 
-/// The nodes of a file: their numbers, and which they are by their ids.
+/// The nodes of a file: their numbers, and lookup by id.
 class Nodes {
 public:
     explicit Nodes(NetworkFile const& file)
@@ -56,13 +56,13 @@ public:
         }
     }
 
-    /// Places of the nodes in the file, in the order of their numbers.
+    /// Indices of the nodes in the file, in the order of their numbers.
     std::vector<std::size_t> const& order() const { return order_; }
-    /// The number of the node that an end of an arc names.
+    /// The number of the node at an end of an arc.
     NodeId of(std::int64_t id, FileArc const& arc) const { return number_[place_of(id, arc)]; }
 
-    /// Numbers nodes as the arcs come to name them: ids that were made for places follow the order of features, which
-    /// is the format's own affair.
+    /// Numbers nodes in the order in which arcs use them: ids derived from positions follow the order of features,
+    /// which depends on the format.
     void number_by(std::vector<std::size_t> const& arcs) {
         constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
         std::vector<std::size_t> number(sorted_.size(), none);
@@ -85,7 +85,7 @@ public:
     }
 
 private:
-    /// The place of an id among all, sorted.
+    /// The position of an id among the sorted ids.
     std::size_t place_of(std::int64_t id, FileArc const& arc) const {
         auto const at = std::ranges::lower_bound(sorted_, id, {}, [&](std::size_t i) { return file_.nodes[i].id; });
         if (at == sorted_.end() || file_.nodes[*at].id != id) {
@@ -95,9 +95,9 @@ private:
     }
 
     NetworkFile const& file_;
-    std::vector<std::size_t> sorted_; ///< nodes of the file by their ids
-    std::vector<std::size_t> number_; ///< of the node at a place in sorted_
-    std::vector<std::size_t> order_;  ///< nodes of the file by their numbers
+    std::vector<std::size_t> sorted_; ///< nodes of the file, sorted by id
+    std::vector<std::size_t> number_; ///< number of the node at a position in sorted_
+    std::vector<std::size_t> order_;  ///< nodes of the file, by number
 };
 
 void require_line(NetworkFile const& file, FileArc const& arc) {
@@ -124,7 +124,7 @@ void require_end(NetworkFile const& file, FileArc const& arc, NetworkFile::FileN
     }
 }
 
-/// That the arcs downstream are those which the file says.
+/// Checks that the arcs downstream are those of the file.
 void require_downstream(NetworkFile const& file, std::vector<std::size_t> const& order, StreamNetwork const& network) {
     for (std::size_t a = 0; a < order.size(); ++a) {
         ArcId const below = network.out(network.to(a));
@@ -139,7 +139,7 @@ void require_downstream(NetworkFile const& file, std::vector<std::size_t> const&
     }
 }
 
-/// Adds an arc with its heights and what the file says of it.
+/// Adds an arc with its heights and attributes.
 void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, NetworkDraft& drawing,
              FileNetwork& made) {
     bool const heights = file.says.heights;
@@ -165,7 +165,7 @@ void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, Ne
     made.records.push_back(arc.record);
 }
 
-/// By arc the stretches of features it was made of.
+/// By arc: the stretches of features it consists of.
 std::vector<std::vector<Stretch>> stretches_of(NetworkFile const& file, std::vector<std::size_t> const& order,
                                                StreamNetwork const& plan) {
     std::vector<std::vector<Stretch>> stretches;

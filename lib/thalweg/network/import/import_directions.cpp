@@ -14,18 +14,18 @@
 namespace thalweg::network::import_steps {
 namespace {
 
-// Constants of the trial, see docs/algorithms/river_directions.md.
+// Constants of the evaluation, see docs/algorithms/river_directions.md.
 constexpr std::array<double, 9> shares_drawn{0.03, 0.06, 0.1, 0.15, 0.5, 0.85, 0.9, 0.94, 0.97};
-constexpr double vote_weight = 0.5; // of a reach's drawn direction: neighbours are drawn by the same hand
-constexpr double most_votes = 3.0;  // drawings err by whole rivers
-constexpr double belief = 0.25;     // that lines are drawn downstream
+constexpr double vote_weight = 0.5; // of a reach's drawn direction: neighbours are usually drawn alike
+constexpr double most_votes = 3.0;  // drawings are wrong for whole rivers
+constexpr double belief = 0.25;     // prior probability that lines are drawn downstream
 constexpr double most_wrong = 0.05; // expected share of a group
 constexpr double second_gain = 5.0;
 constexpr double conflict_gain = 8.0;
 constexpr double telling = 0.85; // share drawn downstream from which the drawn direction is used inside loops
 constexpr std::size_t telling_confluences = 3;
-constexpr double most_contradicted = 0.1;   // share of what an evidence says
-constexpr double most_distributaries = 0.2; // likewise, where it may lead away from one place
+constexpr double most_contradicted = 0.1;   // share of the length with this evidence
+constexpr double most_distributaries = 0.2; // the same for evidence that may lead away from one place
 
 constexpr char const* by_angles = "angles at confluences";
 constexpr char const* by_dem = "the DEM";
@@ -36,21 +36,21 @@ double logit(double p) {
     return portable::log(p / (1.0 - p));
 }
 
-/// How the drawn lines of a group agree.
+/// Consistency of the drawn lines of a group.
 struct Drawing {
     std::size_t sources = 0;
     std::size_t sinks = 0;
-    std::size_t confluences = 0;  ///< where more lines arrive than leave
-    std::size_t divergences = 0;  ///< where more leave than arrive
+    std::size_t confluences = 0;  ///< nodes where more lines arrive than leave
+    std::size_t divergences = 0;  ///< nodes where more leave than arrive
     std::size_t inner = 0;        ///< nodes of several lines
-    std::size_t contradicted = 0; ///< of them, which nothing leaves or nothing reaches
-    bool leads_down = true;       ///< from everywhere a way leads to a sink
-    bool leads_up = true;         ///< from a source to everywhere
+    std::size_t contradicted = 0; ///< of these: nothing leaves or nothing reaches them
+    bool leads_down = true;       ///< a sink can be reached from everywhere
+    bool leads_up = true;         ///< everything can be reached from a source
     bool is_downstream() const { return leads_down && sinks == 1; }
     bool is_upstream() const { return leads_up && sources == 1 && confluences == 0; }
 };
 
-/// Of the group that a node belongs to; visits its pieces.
+/// The drawings of the groups of nodes; visits their pieces.
 class Drawings {
 public:
     explicit Drawings(Pieces const& p) : p_(p), in_(p.nodes.size(), 0), out_(p.nodes.size(), 0) {
@@ -79,7 +79,7 @@ private:
                 group_[n] = groups_.size();
                 groups_.emplace_back();
             }
-            group_[n] = group_[sets.of(n)]; // which is the first of its set
+            group_[n] = group_[sets.of(n)]; // the first of its set
             Drawing& g = groups_[group_[n]];
             g.sources += in_[n] == 0 && out_[n] > 0 ? 1 : 0;
             g.sinks += out_[n] == 0 && in_[n] > 0 ? 1 : 0;
@@ -93,7 +93,7 @@ private:
         reach(1, &Drawing::leads_up);
     }
 
-    /// Notes where some node lies on no way to an end (-1: sinks, 1: sources) of its group.
+    /// Records whether some node lies on no path to an end (-1: sinks, 1: sources) of its group.
     void reach(int way, bool Drawing::*leads) {
         auto const& last = way < 0 ? out_ : in_;
         std::vector<char> seen(p_.nodes.size(), 0);
@@ -131,8 +131,8 @@ struct RootedGroup {
     ReachGroup const* reaches;
     std::vector<Root> roots;
     double votes = 0.0;   ///< reaches whose drawn direction counts
-    double said = 0.0;    ///< likewise, of which the file tells the direction
-    bool is_said = false; ///< the file tells the direction of all of it
+    double said = 0.0;    ///< the same for reaches whose direction the file gives
+    bool is_said = false; ///< the file gives the direction of all of it
     std::vector<double> score = {};
 };
 
@@ -146,7 +146,7 @@ double log_sum(std::vector<double> const& x) {
     return high + portable::log(sum);
 }
 
-/// The share of reaches that are drawn downstream, from what the geometry makes of them.
+/// Estimates the share of reaches drawn downstream, from their geometry.
 double share_drawn(std::vector<RootedGroup> const& groups, double certain_weight) {
     double best = -std::numeric_limits<double>::infinity();
     double share = 0.5;
@@ -229,7 +229,7 @@ private:
             }
             speaks_ = std::move(now);
         }
-        std::vector<std::pair<double, double>> drawn_m(speaks_.size()); // as the file says, and against it
+        std::vector<std::pair<double, double>> drawn_m(speaks_.size()); // with the file's direction, and against it
         for (std::size_t k = 0; k < p_.pieces.size(); ++k) {
             std::size_t const g = drawings_.group(p_.pieces[k].from);
             (found_.said[k] > 0 ? drawn_m[g].first : drawn_m[g].second) +=
@@ -246,7 +246,7 @@ private:
         }
     }
 
-    /// Whether a test holds of every group of which some direction is not said.
+    /// Whether a test holds for every group with an unknown direction.
     template <class Test> bool all_unsaid(Test const& test) const {
         for (std::size_t g = 0; g < is_silent_.size(); ++g) {
             if (is_silent_[g] != 0 && !test(drawings_.groups()[g])) {
@@ -256,8 +256,8 @@ private:
         return true;
     }
 
-    /// Reports evidence of which much contradicts the rest of it. A column then is one vote among others; links,
-    /// heights and ranks lead away from one place at distributaries, too, and stay.
+    /// Reports evidence of which a large part contradicts the rest. A direction column then counts as one vote among
+    /// others; links, heights and ranks stay, because they also lead away from one place at distributaries.
     void doubt_evidence(std::vector<RootedGroup>& groups) {
         for (Evidence const& e : std::vector<Evidence>(evidence_)) {
             double said = 0.0;
@@ -305,15 +305,15 @@ private:
         }
     }
 
-    /// A DEM is weighed whatever the drawing looks like.
+    /// A DEM is used regardless of the drawing.
     void judge_drawing() {
         is_drawn_well_ = params_.dem == nullptr &&
                          (is_hardly_contradicted() || all_unsaid([](Drawing const& g) { return g.is_downstream(); }));
         is_drawn_upstream_ = params_.dem == nullptr && !is_drawn_well_ && is_drawn_upstream();
     }
 
-    /// Whether one hand drew the lines downstream, loops among them. Of nodes of three lines drawn at random a quarter
-    /// is contradicted, of two lines a half; lines drawn upstream fork more than they meet.
+    /// Whether lines were consistently drawn downstream, with loops. Of nodes of three lines drawn at random a quarter
+    /// is contradicted, of two lines a half; lines drawn upstream fork more often than they meet.
     bool is_hardly_contradicted() const {
         constexpr std::size_t enough = 5;
         constexpr std::size_t one_in = 40;
@@ -374,7 +374,7 @@ private:
         }
     }
 
-    /// Puts the pieces of a group into the directions of its ways; in loops as they are drawn where that is consistent.
+    /// Sets the directions of a group's pieces along the paths to its root; in loops as drawn if that is consistent.
     void turn(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores) {
         char const* const by = params_.dem != nullptr ? by_dem : share_ <= 1.0 - telling ? by_upstream : by_angles;
         int const drawn = share_ >= telling ? 1 : share_ <= 1.0 - telling ? -1 : 0;
@@ -398,7 +398,7 @@ private:
         }
     }
 
-    /// Marks the reaches whose block, drawn as it is (or all turned), leads from everywhere to where its water leaves.
+    /// Marks the reaches whose block as drawn (or all reversed) leads from everywhere to the exit of its water.
     void keep_drawn_blocks(RootedGroup const& g, ReachGraph const& graph, RootScores const& scores, int drawn) {
         is_drawn_.resize(graph.reaches.size(), 0);
         std::vector<std::size_t> blocks;
@@ -410,7 +410,7 @@ private:
         auto const forth = [&](Way const& way) { return way.sign * drawn * scores.drawn()[way.reach] > 0.0; };
         for (std::size_t const b : blocks) {
             auto const& nodes = graph.block_nodes[b];
-            std::size_t ends = 0; // nodes that nothing in the block leaves
+            std::size_t ends = 0; // nodes without an outflow in the block
             std::vector<std::pair<std::size_t, int>> arriving;
             bool is_whole = nodes.size() > 1;
             for (std::size_t const n : nodes) {
@@ -439,7 +439,7 @@ private:
         }
     }
 
-    /// Whether nothing in a block runs in a circle.
+    /// Whether a block has no cycle.
     template <class Forth>
     static bool empties(ReachGraph const& graph, std::vector<std::pair<std::size_t, int>> arriving,
                         Forth const& forth) {
@@ -492,7 +492,7 @@ private:
         }
     }
 
-    /// Where the file says one outlet and the geometry clearly another.
+    /// Reports a conflict if the file's outlet is clearly not that of the geometry.
     void find_conflict(RootedGroup const& g) {
         std::vector<double> geometry;
         std::vector<double> said;
@@ -505,7 +505,7 @@ private:
         if (one == other || geometry[other] - geometry[one] < conflict_gain) {
             return;
         }
-        // The ways lead to the root of the highest score, which here is what the file says or close to it.
+        // The paths lead to the root of the highest score, here the file's outlet or one close to it.
         double const share =
             std::fabs(ways_.way_m[g.roots[other].node] - ways_.way_m[g.roots[one].node]) / g.reaches->length_m;
         if (share < most_wrong) {
@@ -531,13 +531,13 @@ private:
     FoundDirections& found_;
     Drawings drawings_;
     std::vector<char const*> speaks_; ///< by group of drawings: evidence
-    std::vector<char> confirms_;      ///< by group of drawings: evidence says of some lines what is drawn
-    std::vector<char> is_silent_;     ///< by group of drawings: of some lines neither is known
+    std::vector<char> confirms_;      ///< by group of drawings: evidence confirms the drawn direction of some lines
+    std::vector<char> is_silent_;     ///< by group of drawings: some lines have neither evidence
     bool any_said_ = false;
     bool is_drawn_well_ = false;
     bool is_drawn_upstream_ = false;
     double share_ = 0.5;
-    double certain_weight_ = vote_weight * logit(shares_drawn.back()); ///< of a reach whose direction the file tells
+    double certain_weight_ = vote_weight * logit(shares_drawn.back()); ///< of a reach whose direction the file gives
     RootScores::Ways ways_;
     std::vector<char> is_drawn_; ///< by reach
 };
@@ -563,7 +563,7 @@ Directions review_directions(Pieces const& p, std::vector<RiverLine> const& line
         double turned_m = 0.0;
         double said_m = 0.0;
         double against_m = 0.0;
-        std::size_t against = no_piece; ///< the first piece that runs against it
+        std::size_t against = no_piece; ///< the first piece that contradicts it
     };
     std::vector<Tally> tallies;
     for (std::size_t n = 0; n < p.nodes.size(); ++n) {

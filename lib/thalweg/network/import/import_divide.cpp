@@ -31,7 +31,7 @@ template <class Test> std::size_t count_if(Pieces const& p, std::size_t node, Te
     return static_cast<std::size_t>(std::ranges::count_if(p.at_node[node], test));
 }
 
-/// From a node along a piece, as far as a length: the direction in which it leads there.
+/// The direction from a node to the point at a distance along a piece.
 Vec2 chord(Piece const& piece, RiverLine const& line, std::size_t node, double length_m) {
     auto const at = [&](std::size_t i) {
         auto const& v = line.vertices[piece.from == node ? piece.first + i : piece.last - i];
@@ -49,7 +49,7 @@ Vec2 chord(Piece const& piece, RiverLine const& line, std::size_t node, double l
     return {end.x - begin.x, end.y - begin.y};
 }
 
-/// 1 straight on, -1 straight back.
+/// 1: straight on, -1: straight back.
 double straightness(Pieces const& p, std::vector<RiverLine> const& lines, std::size_t node, std::size_t in,
                     std::size_t out) {
     auto const& a = p.pieces[in];
@@ -61,8 +61,7 @@ double straightness(Pieces const& p, std::vector<RiverLine> const& lines, std::s
     return product > 0.0 ? -(back.x * on.x + back.y * on.y) / product : 0.0;
 }
 
-// [m] By node: total length of the pieces upstream, which a place with several ways down shares out equally among them;
-// without what runs in a circle.
+// [m] By node: total length of the pieces upstream, divided equally at bifurcations; without cycles.
 std::vector<double> lengths_above(Pieces const& p, Divided const& divided) {
     std::vector<double> above(p.nodes.size(), 0.0);
     std::vector<std::size_t> awaited(p.nodes.size(), 0);
@@ -89,8 +88,8 @@ std::vector<double> lengths_above(Pieces const& p, Divided const& divided) {
     return above;
 }
 
-// The piece that is the main branch among those that leave a node: see import_lines. Takes: lengths_above of it; the
-// branches, one at least, whose directions are known.
+// Chooses the main branch among the pieces that leave a node: see import_lines. above: from lengths_above; branches: at
+// least one, with known directions.
 std::size_t main_of(Pieces const& p, std::vector<RiverLine> const& lines, Divided const& divided,
                     std::vector<double> const& length_above, std::size_t node,
                     std::vector<std::size_t> const& branches) {
@@ -121,15 +120,15 @@ std::size_t main_of(Pieces const& p, std::vector<RiverLine> const& lines, Divide
     return *std::ranges::max_element(branches, {}, key);
 }
 
-// Every node gets one main branch out of it. These make trees but for circles, which are opened; of the other branches
-// those stay that nobody knows the direction of for certain and that close no loop: orient may turn them round.
+// Every node gets one main branch. These form trees except for cycles, which are opened; of the other branches those
+// stay whose direction is uncertain and that close no loop: orient may reverse them.
 
 constexpr char const* minor_channel = "minor channel";
 constexpr char const* closes_loop = "closes a loop";
 constexpr char const* circle = "runs in a circle";
 constexpr char const* ring = "closed ring";
 
-/// Pieces and nodes that hang together, both ascending.
+/// Connected pieces and nodes, both ascending.
 struct Component {
     std::vector<std::size_t> pieces;
     std::vector<std::size_t> nodes;
@@ -252,7 +251,7 @@ private:
         }
     }
 
-    /// The nodes of the circle that the mains from a node lead into; empty where they end.
+    /// The nodes of the cycle reached from a node along main branches; empty: there is none.
     std::vector<std::size_t> circle_from(std::size_t start) {
         std::vector<std::size_t> way;
         std::size_t n = start;
@@ -278,7 +277,7 @@ private:
         }
     }
 
-    /// Takes another way out of a circle where there is one, else its smallest piece away.
+    /// Opens a cycle: takes another branch out of it if there is one, otherwise removes its smallest piece.
     void open(std::vector<std::size_t> on) {
         std::ranges::sort(on);
         std::size_t exit = no_piece;
@@ -335,12 +334,12 @@ private:
         }
     }
 
-    /// Drawn away from others and linked to none: no tributary, which would name what it flows into.
+    /// Whether a piece is drawn away from others and has no link: not a tributary, which would name its receiver.
     bool ends_the_links(std::size_t k, Evidence const& by) const {
         return by.kind == Evidence::Kind::links && lines_[p_.pieces[k].line].down == 0;
     }
 
-    /// Heights and ranks that lead from one place into two pits are wrong in one of them.
+    /// Throws if heights or ranks lead from one place into two pits: one of them is wrong.
     void refuse_pit(std::size_t k, Evidence const& by) {
         if (by.kind != Evidence::Kind::height && by.kind != Evidence::Kind::rank) {
             return;
@@ -368,7 +367,7 @@ private:
                         file_.name, at.x, at.y, by.name, pit.x, pit.y, by.name));
     }
 
-    /// Drawn directions that contradict one another say nothing.
+    /// Ignores drawn directions that contradict one another.
     void doubt(Component const& c) {
         constexpr std::int64_t share = 4; // a quarter
         std::int64_t total = 0;
@@ -381,7 +380,7 @@ private:
         }
     }
 
-    /// The end of the component's tree as it stands that turns the least, and how much.
+    /// The end of the component's tree that reverses the least length, and that length.
     std::pair<std::size_t, std::int64_t> least_turned(Component const& c) {
         std::vector<std::vector<std::size_t>> whole;
         for (std::size_t const n : c.nodes) {
@@ -407,20 +406,20 @@ private:
         return {tree.nodes[best], turned[best]};
     }
 
-    /// An end of a line where there is one, the nearest to the border of the box.
+    /// The outermost node: nearest to the border of the box, an end of a line if there is one.
     std::size_t outermost(Component const& c) const {
         return *std::ranges::min_element(
             c.nodes, {}, [&](std::size_t n) { return std::tuple(p_.at_node[n].size() > 1, border_m_[n], n); });
     }
 
-    /// Keeps the tree of the largest, then shortest ways to an outlet (Prim 1957; Dijkstra 1959).
+    /// Keeps the tree of the largest, then shortest paths to an outlet (Prim 1957; Dijkstra 1959).
     void span(Component const& c, std::size_t outlet) {
         struct Step {
             std::vector<double> const* size;
             double way_m;
             std::size_t piece;
             std::size_t to;
-            bool operator<(Step const& o) const { // the queue gives the greatest
+            bool operator<(Step const& o) const { // the queue returns the greatest
                 return std::forward_as_tuple(*size, -way_m, o.piece) < std::forward_as_tuple(*o.size, -o.way_m, piece);
             }
         };
@@ -456,14 +455,14 @@ private:
     RiverLines const& file_;
     Orientation orientation_;
     std::vector<Evidence> const& evidence_;
-    std::vector<std::size_t> main_; ///< by node: the piece that leaves it and stays
-    std::vector<char> state_ = {};  ///< by node: 1 on the way that is walked, 2 known to lead out
+    std::vector<std::size_t> main_; ///< by node: the remaining piece that leaves it
+    std::vector<char> state_ = {};  ///< by node: 1: on the current path, 2: known to lead out
     std::vector<double> length_above_ = {};
     std::vector<double> border_m_ = {};
-    std::vector<char> reached_ = {};      ///< by node, while its component is spanned
-    std::vector<PieceId> towards_ = {};   ///< room for a tree
-    std::vector<std::int64_t> cost_ = {}; ///< likewise
-    Votes const& drawn_;                  ///< or found
+    std::vector<char> reached_ = {};      ///< by node, for the current component
+    std::vector<PieceId> towards_ = {};   ///< buffer for a tree
+    std::vector<std::int64_t> cost_ = {}; ///< buffer for a tree
+    Votes const& drawn_;                  ///< or estimated
     Sets kept_;
     Divided divided_ = {};
 };
@@ -479,7 +478,7 @@ namespace {
 
 constexpr char const* unfed = "goes on from a minor channel";
 
-/// By node: the pieces out of the network that touch it, rings left aside.
+/// By node: the pieces outside the network that touch it, without rings.
 std::vector<std::vector<std::size_t>> outside_at(Pieces const& p, Divided const& divided) {
     std::vector<std::vector<std::size_t>> at(p.nodes.size());
     for (std::size_t k = 0; k < p.pieces.size(); ++k) {

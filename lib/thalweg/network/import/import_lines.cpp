@@ -43,11 +43,11 @@ void refuse_unusable(RiverLines const& file) {
     }
 }
 
-// The pieces, each with the direction in which it runs.
+// The pieces with their directions.
 struct Flow {
     Pieces const& pieces;
     std::vector<RiverLine> const& lines;
-    std::vector<PieceId> leaves; // by node: the piece that leaves it, no_piece at outlets
+    std::vector<PieceId> leaves; // by node: the piece that leaves it; no_piece: an outlet
 
     // Its vertices, upstream first.
     std::vector<Vec3> vertices(std::size_t node) const {
@@ -85,8 +85,8 @@ std::vector<std::size_t> upstream_order(Flow const& flow) {
     return order;
 }
 
-// One height for each node: the lowest of those that meet there, so that nothing rises into it, but not below the next
-// vertex of the river that leaves it.
+// Chooses one height per node: the lowest of those that meet there, so that nothing rises into it, but not below the
+// next vertex of the river that leaves it.
 std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs) {
     std::vector<double> z(flow.leaves.size(), 0.0);
     for (std::size_t const n : upstream_order(flow)) {
@@ -115,7 +115,7 @@ std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs
     return z;
 }
 
-// Nodes where one river ends and another goes on vanish, unless its type changes.
+// Nodes between two rivers end to end are removed, unless the type changes.
 std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     std::size_t const nodes = flow.leaves.size();
     std::vector<std::size_t> above(nodes, 0);
@@ -148,20 +148,20 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
     return result;
 }
 
-constexpr double slip_in_near = 20.0; // what is longer is no slip of the hand
+constexpr double slip_in_near = 20.0; // longer overshoots are not drawing errors
 
-/// An arc as it is put together; without spikes, since nothing else meets it between its ends.
+/// An arc under construction; spikes are removed, because nothing else meets it between its ends.
 class Course {
 public:
     Course(double near_m, std::int64_t id_shift, import_steps::Left& left)
         : near_m_(near_m), id_shift_(id_shift), left_(left) {}
 
-    /// Adds the vertex where a segment of a feature begins.
+    /// Adds the vertex at which a segment of a feature begins.
     void add(Vec2 at, double z, std::int64_t feature) {
         while (line_.size() > 1 && geometry::is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
             Vec2 const tip = line_.back();
             Vec2 const before = line_[line_.size() - 2];
-            bool const comes_back = distance(tip, at) <= distance(tip, before); // else it has gone back already
+            bool const comes_back = distance(tip, at) <= distance(tip, before); // otherwise it has already turned back
             Vec2 const base = comes_back ? at : before;
             double const back_m = distance(tip, base);
             if (back_m > slip_in_near * near_m_) {
@@ -216,7 +216,7 @@ private:
     std::vector<std::int64_t> features_;
 };
 
-// Of several as long the most upstream.
+// The longest; of several the most upstream.
 std::int64_t longest_of(std::vector<Stretch> const& stretches) {
     return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
 }
@@ -225,7 +225,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
               import_steps::Left& left) {
     auto const inner = join ? vanishing(flow, imported.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
-        std::vector<std::size_t> by_piece; // arcs are numbered in the order of the file
+        std::vector<std::size_t> by_piece; // arcs are numbered in the file's order
         for (std::size_t n = 0; n < flow.leaves.size(); ++n) {
             if (flow.leaves[n] != no_piece && inner[n] == 0) {
                 by_piece.push_back(n);
@@ -337,7 +337,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
 
 namespace {
 
-// Says where in the file it is that the segment ab of an arc, drawn downstream, rises from za to zb.
+// Describes where in the file segment ab of an arc, drawn downstream, rises from za to zb.
 std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb) {
     Vec2 const middle{0.5 * (a.x + b.x), 0.5 * (a.y + b.y)};
     double least = INFINITY;
@@ -363,7 +363,7 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
     }
     double const drawn_upper = river->vertices[upper].z;
     double const drawn_lower = river->vertices[lower].z;
-    if (drawn_upper < drawn_lower) { // else it is the common height of rivers that meet which makes it rise
+    if (drawn_upper < drawn_lower) { // otherwise the common height of meeting rivers causes the rise
         za = drawn_upper;
         zb = drawn_lower;
     }

@@ -84,8 +84,8 @@ Votes by_height(Pieces const& p, std::vector<RiverLine> const& lines) {
     return votes;
 }
 
-// A node is left by the piece of least rank that touches it; the others run into it. (One that is above its neighbours
-// at both ends votes for one of them: the other neighbour contradicts it.)
+// The piece of least rank at a node leaves it; the others flow into it. (A piece whose rank is above its neighbours' at
+// both ends votes for one of them: the other neighbour contradicts it.)
 Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines) {
     auto const rank = [&](std::size_t k) { return lines[p.pieces[k].line].rank; };
     auto const least = [&](std::size_t node) {
@@ -108,13 +108,13 @@ Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines) {
         if (rank(k) != 0) {
             bool const at_to = some(piece.to, lower);
             bool const at_from = some(piece.from, lower);
-            if (at_to && at_from) { // a channel beside others: where the least of them is
+            if (at_to && at_from) { // a channel beside others: towards the lowest rank
                 vote = least(piece.from) < least(piece.to) ? -1 : 1;
             } else if (at_to) {
                 vote = 1;
             } else if (at_from) {
                 vote = -1;
-            } else { // the last reach runs away from what runs into it
+            } else { // the last reach flows away from its tributaries
                 vote = int{some(piece.from, higher)} - int{some(piece.to, higher)};
             }
         }
@@ -123,8 +123,7 @@ Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines) {
     return votes;
 }
 
-// A line ends where it meets the line that the file names as the next downstream, and begins where it meets those that
-// name it.
+// A line ends where it meets the line that the file names as downstream, and begins where it meets those that name it.
 Votes by_links(Pieces const& p, std::vector<RiverLine> const& lines) {
     constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
     std::vector<std::size_t> first(lines.size(), none);
@@ -195,8 +194,8 @@ std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const&
 
 namespace {
 
-// A component is a tree, so its outlet alone says which way every piece runs. Each kind of evidence is a vote of every
-// piece for one of its ends; the outlet is the node against which the least length votes.
+// A component is a tree, so that its outlet determines the direction of every piece. Each kind of evidence is a vote of
+// every piece for one of its ends; the outlet is the node with the least length of opposing votes.
 
 [[noreturn]] void refuse_bifurcation(Pieces const& p, std::vector<RiverLine> const& lines, Tree const& tree,
                                      Votes const& votes, std::string const& name, char const* evidence) {
@@ -210,7 +209,7 @@ namespace {
         if (vote == 0 || (vote > 0) == (piece.from == n)) {
             continue;
         }
-        std::size_t const place = other_end(piece, n); // left by this piece and by the one towards the outlet
+        std::size_t const place = other_end(piece, n); // both this piece and the one towards the outlet leave it
         auto const& next = p.pieces[tree.towards[place]];
         Vec2 const at = p.nodes[place];
         throw BadInput(

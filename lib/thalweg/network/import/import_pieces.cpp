@@ -25,23 +25,23 @@ double greatest_distance(std::vector<Vec3> const& a, std::vector<Vec3> const& b,
     return most;
 }
 
-// Where an end goes.
+// The target of an end.
 struct Goal {
     Vec2 at;
     double moved_m = 0.0;
     std::int64_t onto = 0;             // number of the river
-    std::optional<Insertion> addition; // where it meets the line between two vertices
+    std::optional<Insertion> addition; // the insertion, if it lies between two vertices
 };
 
 struct Ends {
     std::vector<RiverLine> const& lines;
-    std::vector<char> settled; // two a line
+    std::vector<char> settled; // two per line
 
     static std::size_t number(std::size_t line, std::size_t vertex) { return 2 * line + (vertex == 0 ? 0 : 1); }
     bool is_end(std::size_t line, std::size_t vertex) const {
         return vertex == 0 || vertex + 1 == lines[line].vertices.size();
     }
-    // An end that has not had its turn is no goal: it will come to this one.
+    // An end not yet processed is not a target: it will move to this one.
     bool fixed(std::size_t line, std::size_t vertex) const {
         return !is_end(line, vertex) || settled[number(line, vertex)] != 0;
     }
@@ -84,14 +84,14 @@ std::optional<Goal> nearest_foot(Ends const& ends, std::size_t own, Vec2 p, doub
         if (foot.along <= 0.0 || foot.along >= 1.0 || d > snap_m || (best && d >= best->moved_m)) {
             continue;
         }
-        // An end that lies on the line stays where it is drawn; the line takes it up as a vertex.
+        // An end on the line stays in place; the line gets a vertex there.
         Vec2 const at = d <= same_point_m ? p : rounded(foot.at);
         best = Goal{at, distance(p, at), ends.lines[s.line].number(), Insertion{s.line, s.segment, foot.along, at}};
     }
     return best;
 }
 
-// The lines, but for one, that pass through a place.
+// The lines, except one, that pass through a position.
 std::vector<std::size_t> lines_at(std::vector<RiverLine> const& lines, std::size_t own, Vec2 p,
                                   std::vector<geometry::NearSegment> const& near) {
     std::vector<std::size_t> found;
@@ -105,7 +105,7 @@ std::vector<std::size_t> lines_at(std::vector<RiverLine> const& lines, std::size
     return found;
 }
 
-// The segments that an open end may go to: none of a line that its own meets at its other end.
+// The segments to which an open end may be joined: not of a line that its own line meets at the other end.
 std::vector<geometry::NearSegment> goals_of_open(std::vector<RiverLine> const& lines, std::size_t e,
                                                  std::vector<std::vector<geometry::NearSegment>> const& near) {
     auto const& own = lines[e / 2].vertices;
@@ -152,7 +152,7 @@ void insert(std::vector<RiverLine>& lines, std::vector<Insertion> insertions) {
                 auto const& i = insertions[next];
                 double const a = line.vertices[v].z;
                 double const b = line.vertices[v + 1].z;
-                // Rounding must not carry it past the ends: that would be a rise.
+                // Rounding must not exceed the ends, which would be a rise.
                 double const z = std::clamp(a + i.along * (b - a), std::min(a, b), std::max(a, b));
                 vertices.push_back({i.at.x, i.at.y, z});
             }
@@ -190,7 +190,7 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
             double const apart = std::min(greatest_distance(lines[l].vertices, other.vertices, false),
                                           greatest_distance(lines[l].vertices, other.vertices, true));
             if (apart <= snap_m) {
-                // Of two channels drawn as one the minor one goes.
+                // Of two channels with the same line the minor one is dropped.
                 bool const other_goes = other.channel == Channel::minor && lines[l].channel != Channel::minor;
                 std::size_t const gone = other_goes ? s.line : l;
                 std::size_t const stays = other_goes ? l : s.line;
@@ -222,11 +222,11 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
         drawn.push_back(plan(line.vertices.back()));
         as_drawn.push_back(line.vertices);
     }
-    // Twice the distance: what an end shall join may itself have moved here.
+    // Twice the distance: the target may itself have moved.
     auto const near = geometry::segments_near(drawn, plan_of(lines), 2.0 * snap_m, run);
     Ends ends{lines, std::vector<char>(drawn.size(), 0)};
     std::vector<Insertion> additions;
-    std::vector<char> meets(drawn.size(), 0); // another line, or itself: such ends stay where they are
+    std::vector<char> meets(drawn.size(), 0); // another line or itself: such ends stay in place
     for (std::size_t e = 0; e < drawn.size() && snapped == SnappedEnds::open; ++e) {
         meets[e] = drawn[e] == drawn[e ^ 1U] || !lines_at(lines, e / 2, drawn[e], near[e]).empty() ? 1 : 0;
         ends.settled[e] = meets[e];
@@ -286,8 +286,8 @@ bool inside(Crossing const& c, std::vector<std::vector<Vec2>> const& plans) {
     return c.at != plans[c.line][c.segment] && c.at != plans[c.line][c.segment + 1];
 }
 
-// The vertex where the lines of one crossing shall meet: one of theirs or an earlier crossing where it lies that close,
-// so that no segment becomes shorter than coordinates are exact.
+// The vertex for the lines of one crossing: an existing one or an earlier crossing if one is that close, so that no
+// segment is shorter than the precision of coordinates.
 Vec2 meeting(std::vector<Crossing const*> const& group, std::vector<std::vector<Vec2>> const& plans,
              std::vector<Vec2> const& earlier) {
     Vec2 const at = group.front()->at;
@@ -314,8 +314,8 @@ Vec2 meeting(std::vector<Crossing const*> const& group, std::vector<std::vector<
 } // namespace
 
 void split(std::vector<RiverLine>& lines, Run const& run) {
-    // Rounding a crossing bends its lines by less than a millionth of a millimetre, which can only matter where a third
-    // line passes as close: each round is nearly always the last but one.
+    // Rounding a crossing bends its lines by less than a millionth of a millimetre, which matters only if a third line
+    // is as close: the second round nearly always finds nothing.
     constexpr int rounds = 16;
     Vec2 unsettled;
     for (int round = 0; round < rounds; ++round) {
@@ -375,7 +375,7 @@ struct Hash {
     std::size_t operator()(std::pair<std::size_t, std::size_t> e) const { return mix(e.first, e.second); }
 };
 
-// Vertices by number in the order of the lines; positions equal bit for bit are one vertex.
+// Vertices numbered in the order of lines; bitwise equal positions are one vertex.
 struct Numbering {
     std::vector<Vec2> at;
     std::vector<std::vector<std::size_t>> of_line;
@@ -397,7 +397,7 @@ Numbering number(std::vector<RiverLine> const& lines) {
     return numbering;
 }
 
-// For every segment of every line the line that has it first.
+// For every segment of every line: the first line with that segment.
 std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
     std::unordered_map<std::pair<std::size_t, std::size_t>, std::size_t, Hash> known;
     std::vector<std::vector<std::size_t>> owners;
@@ -412,11 +412,11 @@ std::vector<std::vector<std::size_t>> owners_of(Numbering const& numbering) {
     return owners;
 }
 
-/// The vertices of all lines, and how the lines meet there.
+/// The vertices of all lines, and how lines meet there.
 struct Junctions {
     Numbering numbering;
     std::vector<std::vector<std::size_t>> owners;
-    std::vector<int> degree;  ///< by vertex: segments, each counted for the line that has it first
+    std::vector<int> degree;  ///< by vertex: number of segments, each counted for the first line that has it
     std::vector<char> is_end; ///< by vertex: whether a line ends there
 };
 
@@ -438,7 +438,7 @@ Junctions junctions_of(std::vector<RiverLine> const& lines) {
     return j;
 }
 
-/// Vertices first ... last of a line, up to where rivers meet or the line begins or ceases to repeat another.
+/// Vertices first ... last of a line, between confluences and the ends of duplicated parts.
 struct Part {
     std::size_t first;
     std::size_t last;
@@ -472,7 +472,7 @@ void leave_out(RiverLine const& line, Part const& part, RiverLine const& owner, 
                                         owner.number(), part.length)});
 }
 
-/// Drops the end at the front of a line where it passes the first river that it meets by most_m or less.
+/// Drops the beginning of a line that passes the first river it meets by at most most_m.
 void drop_overshoot(RiverLine& line, std::vector<std::size_t>& numbers, Junctions const& j, double most_m, Left& left) {
     std::size_t i = 0;
     double length_m = 0.0;
@@ -519,7 +519,7 @@ void refuse_cycles(Pieces const& p, std::vector<RiverLine> const& lines, std::st
         if (sets.join(piece.from, piece.to)) {
             continue;
         }
-        // The way round: breadth first through the pieces before the closing one.
+        // The rest of the cycle: breadth-first through the pieces before the closing one.
         std::vector<std::size_t> came_by(p.nodes.size(), no_owner);
         std::vector<std::size_t> queue{piece.from};
         auto const other = [&](std::size_t k, std::size_t n) {

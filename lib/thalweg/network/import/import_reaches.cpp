@@ -23,7 +23,7 @@ double median_of(std::vector<double> values) {
     return 0.5 * (values[(n - 1) / 2] + values[n / 2]);
 }
 
-/// Whether a cell around a place is no data, or none.
+/// Whether a cell around a position, or the position itself, has no data.
 bool lies_at_no_data(Raster<float> const& dem, Vec2 at) {
     Cell const c = dem.grid().cell_of(at);
     for (std::int64_t row = c.row - 1; row <= c.row + 1; ++row) {
@@ -36,18 +36,18 @@ bool lies_at_no_data(Raster<float> const& dem, Vec2 at) {
     return false;
 }
 
-/// Whether the file lets all that meets in a node end there.
+/// Whether the file makes everything at a node end there.
 bool is_said_outlet(Pieces const& p, Votes const& certain, std::size_t n) {
     return !certain.empty() && std::ranges::all_of(p.at_node[n], [&](std::size_t k) {
         return certain[k] != 0 && (certain[k] > 0 ? p.pieces[k].to : p.pieces[k].from) == n;
     });
 }
 
-/// By node: whether it lies on a side of the file on which other lines end, as those of a clipped file do, or at the
-/// border of the DEM, or is an outlet by the file.
+/// By node: whether it lies on a side of the file where other lines end, as in clipped files, or at the border of the
+/// DEM, or is an outlet in the file.
 std::vector<char> likely_outlets(Pieces const& p, std::vector<RiverLine> const& lines, Votes const& certain,
                                  Raster<float> const* dem) {
-    std::array<double, 4> far{}; // west, east, south, north, counted outward
+    std::array<double, 4> far{}; // west, east, south, north, outward
     far.fill(-std::numeric_limits<double>::infinity());
     auto const outward = [](double x, double y) { return std::array<double, 4>{-x, x, -y, y}; };
     for (RiverLine const& line : lines) {
@@ -161,8 +161,8 @@ private:
     Pieces const& p_;
     std::vector<RiverLine> const& lines_;
     std::vector<char> used_;
-    std::vector<std::vector<std::size_t>> at_; ///< by node: pieces that are no rings
-    std::vector<char> is_inner_;               ///< by node: reaches go on through it
+    std::vector<std::vector<std::size_t>> at_; ///< by node: pieces that are not rings
+    std::vector<char> is_inner_;               ///< by node: reaches continue through it
     std::vector<Reach> reaches_;
 };
 
@@ -202,7 +202,7 @@ void find_groups(Pieces const& p, ReachGraph& graph) {
     });
 }
 
-// Depth first; a reach is a bridge where nothing above it is reached from below (Tarjan 1974).
+// Depth-first; a reach is a bridge if nothing upstream of it is reached from downstream (Tarjan 1974).
 void find_bridges(ReachGraph& graph) {
     graph.is_bridge.assign(graph.reaches.size(), 0);
     std::vector<std::size_t> number(graph.at.size(), 0); // from 1
@@ -315,15 +315,15 @@ Vec2 point_along(std::vector<Vec2> const& line, double along_m) {
 
 namespace {
 
-// Found by trial on 16 networks, the logarithm of the odds of the true root: docs/algorithms/river_directions.md.
-constexpr double near_scale = 0.1; // of the median reach
+// Log-odds of the true root, fitted to 16 networks: docs/algorithms/river_directions.md.
+constexpr double near_scale = 0.1; // relative to the median reach
 constexpr double far_scale = 1.0;
 constexpr double near_weight = 1.05;
 constexpr double far_weight = 0.99;
 constexpr double border_weight = 1.84;
 constexpr double own_border_weight = 0.82;
 constexpr double free_weight = 1.02;
-constexpr double free_reach = 3.0;     // of the median reach
+constexpr double free_reach = 3.0;     // relative to the median reach
 constexpr double climb_per_unit = 3.0; // [m]
 constexpr double most_climb_m = 12.0;  // of a reach
 
@@ -349,7 +349,7 @@ Vec2 unit(Vec2 v) {
     return m > 0.0 ? (1.0 / m) * v : Vec2{};
 }
 
-/// For each way out of a node how far it lies opposite the others, their mean taken off.
+/// By branch at a node: how far it is opposite the others, minus the mean.
 std::vector<double> opposed(std::vector<Vec2> const& out) {
     std::vector<double> result(out.size(), 0.0);
     double sum = 0.0;
@@ -365,7 +365,7 @@ std::vector<double> opposed(std::vector<Vec2> const& out) {
     return result;
 }
 
-/// The lowest of the cells around a place.
+/// The lowest cell around a position.
 double low_at(Raster<float> const& dem, Vec2 at) {
     Cell const c = dem.grid().cell_of(at);
     double low = std::numeric_limits<double>::infinity();
@@ -471,7 +471,7 @@ void RootScores::measure_votes(Votes const& certain) {
 }
 
 void RootScores::sample() {
-    constexpr double step = 0.25; // of the median reach
+    constexpr double step = 0.25; // relative to the median reach
     constexpr double least = 2.0;
     constexpr double most = 20.0;
     double const side_m = free_reach * graph_.median_m;
@@ -546,7 +546,7 @@ RootScores::Sums RootScores::along(std::size_t reach, int sign) const {
 }
 
 void RootScores::search(std::size_t from, bool in_block, Ways& ways, std::vector<std::size_t>& reached) const {
-    using Entry = std::tuple<double, double, double, std::size_t>; // way, position, node
+    using Entry = std::tuple<double, double, double, std::size_t>; // distance, position, node
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
     auto const push = [&](std::size_t n) { queue.emplace(ways.way_m[n], p_.nodes[n].x, p_.nodes[n].y, n); };
     reached = {from};
@@ -575,9 +575,10 @@ void RootScores::search(std::size_t from, bool in_block, Ways& ways, std::vector
     }
 }
 
-/// All that a block gives when its water leaves at a node of it; angles there left aside.
+/// The scores of a block whose water leaves at one of its nodes, without the angles there.
 RootScores::Sums const& RootScores::inside(std::size_t exit) {
-    constexpr std::size_t most_visits = 50'000'000; // a braid with thousands of tributaries: its angles say nothing
+    // a braid with thousands of tributaries: its angles are uninformative
+    constexpr std::size_t most_visits = 50'000'000;
     if (known_[exit] != 0) {
         return inside_[exit];
     }
@@ -608,7 +609,7 @@ RootScores::Sums const& RootScores::inside(std::size_t exit) {
     return sums;
 }
 
-/// All that a block gives when its water leaves a node over a bridge.
+/// The scores of a block whose water leaves a node over a bridge.
 RootScores::Sums RootScores::leaving(std::size_t node, std::size_t reach, int sign) {
     Sums sums = inside(node);
     sums += along(reach, sign);
@@ -619,7 +620,7 @@ RootScores::Sums RootScores::leaving(std::size_t node, std::size_t reach, int si
 std::vector<Root> RootScores::of(ReachGroup const& group) {
     struct Step {
         std::size_t block;
-        std::size_t before; ///< place of the block that it was reached from
+        std::size_t before; ///< index of the block from which it was reached
         std::size_t reach = none;
         std::size_t near = none; ///< end of the reach in that block
         std::size_t far = none;
@@ -637,7 +638,7 @@ std::vector<Root> RootScores::of(ReachGroup const& group) {
             }
         }
     }
-    std::vector<Sums> at{first}; // by place: of all other blocks, when the root is in this one
+    std::vector<Sums> at{first}; // by index: scores of all other blocks if the root is in this one
     std::vector<std::pair<std::size_t, std::size_t>> place{{order.front().block, 0}};
     for (std::size_t i = 1; i < order.size(); ++i) {
         Step const& step = order[i];
@@ -698,7 +699,7 @@ RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_
     }
     struct Visit {
         std::size_t node;
-        Way down; ///< of the reach below, as it leaves the node; unused for the root
+        Way down; ///< the reach downstream, as it leaves the node; unused for the root
     };
     std::vector<Visit> order{{root, {none, none, 0}}};
     for (std::size_t i = 0; i < order.size(); ++i) {
@@ -708,7 +709,7 @@ RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_
             }
         }
     }
-    // By node: the best end above it for its water to leave by, were it cut off below.
+    // By node: the best outlet upstream if the node were cut off downstream.
     above_.resize(p_.nodes.size());
     for (std::size_t const n : group.nodes) {
         above_[n] = {-std::numeric_limits<double>::infinity(), none};
@@ -721,7 +722,7 @@ RootScores::Second RootScores::second_outlet(ReachGroup const& group, std::size_
             above_[n].gain -= angle(n, down.reach);
             best = above_[n].gain > best.gain ? above_[n] : best;
         }
-        // Over the reach below: what turning it round gives, and the node below sending its water up it.
+        // Over the reach downstream: the gain of reversing it, with the node downstream draining up it.
         std::size_t const below = down.to;
         if (below == root) {
             continue;

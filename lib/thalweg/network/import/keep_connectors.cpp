@@ -34,7 +34,7 @@ private:
     std::map<std::pair<double, double>, std::size_t> known_;
 };
 
-/// Ends of lines, two a line.
+/// Ends of lines, two per line.
 std::vector<Vec2> ends_of(std::vector<RiverLine> const& lines) {
     std::vector<Vec2> ends;
     for (RiverLine const& line : lines) {
@@ -44,7 +44,7 @@ std::vector<Vec2> ends_of(std::vector<RiverLine> const& lines) {
     return ends;
 }
 
-/// Rivers, in groups that touch, and where they end.
+/// Rivers in connected groups, and their ends.
 struct Rivers {
     Sets groups; ///< of lines
     struct Sink {
@@ -57,8 +57,8 @@ struct Rivers {
 Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& run) {
     Rivers rivers{Sets(lines.size()), {}};
     Places places;
-    std::vector<std::size_t> first_at; // by place: a line that has it
-    std::vector<char> inside;          // by place: whether a line passes
+    std::vector<std::size_t> first_at; // by position: a line with it
+    std::vector<char> inside;          // by position: whether a line passes through
     for (std::size_t l = 0; l < lines.size(); ++l) {
         auto const& v = lines[l].vertices;
         for (std::size_t i = 0; i < v.size(); ++i) {
@@ -73,7 +73,7 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
     }
     std::vector<Vec2> const ends = ends_of(lines);
     auto const near = geometry::segments_near(ends, plan_of(lines), snap_m, run);
-    std::vector<char> meets(ends.size(), 0); // something else than an end of its own place, within snap_m
+    std::vector<char> meets(ends.size(), 0); // something other than an end at the same position, within snap_m
     for (std::size_t e = 0; e < ends.size(); ++e) {
         for (geometry::NearSegment const& s : near[e]) {
             if (s.line != e / 2) {
@@ -85,7 +85,7 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
             }
         }
     }
-    // Which way lines run: 1 as drawn.
+    // The direction of lines: 1: as drawn.
     std::vector<int> runs(lines.size(), 1);
     std::vector<char> by_height(lines.size(), 0);
     for (std::size_t l = 0; l < lines.size(); ++l) {
@@ -105,13 +105,14 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
         }
     };
     count();
-    std::vector<int> more_ends(lines.size(), 0); // by group: ends less sources
+    std::vector<int> more_ends(lines.size(), 0); // by group: ends minus sources
     for (std::size_t at = 0; at < places.size(); ++at) {
         int& of_group = more_ends[rivers.groups.of(first_at[at])];
         of_group += inside[at] == 0 && arriving[at] > 0 && leaving[at] == 0 ? 1 : 0;
         of_group -= inside[at] == 0 && arriving[at] == 0 && leaving[at] > 0 ? 1 : 0;
     }
-    int const in_all = std::accumulate(more_ends.begin(), more_ends.end(), 0); // tells where a group does not
+    // decides if a group's own count does not
+    int const in_all = std::accumulate(more_ends.begin(), more_ends.end(), 0);
     for (std::size_t l = 0; l < lines.size(); ++l) {
         int const of_group = more_ends[rivers.groups.of(l)];
         if (by_height[l] == 0 && (of_group > 0 || (of_group == 0 && in_all > 0))) {
@@ -186,7 +187,7 @@ public:
         }
     }
 
-    /// The segments from the end of a river to another group; none where there is no way.
+    /// The segments from the end of a river to another group; none: there is no path.
     std::vector<std::pair<std::size_t, std::size_t>> way_on(Vec3 const& from, std::size_t own, Sets& groups,
                                                             std::size_t& into) const {
         auto const begin = by_end_.find({from.x, from.y});
@@ -274,7 +275,7 @@ private:
     Places places_;
     std::vector<Vec2> at_;
     std::vector<std::vector<Edge>> edges_;
-    std::vector<std::vector<std::size_t>> rivers_at_;         ///< by place: lines of rivers that touch it
+    std::vector<std::vector<std::size_t>> rivers_at_;         ///< by position: lines of rivers that touch it
     std::map<std::pair<double, double>, std::size_t> by_end_; ///< where a river's end meets a channel
 };
 

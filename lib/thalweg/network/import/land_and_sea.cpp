@@ -18,8 +18,8 @@ namespace thalweg::network {
 namespace {
 
 constexpr std::int64_t mouth_cells = 12; ///< before an outlet, where the sea begins
-constexpr double heading_cells = 8.0;    ///< over which a river's end says where it heads
-constexpr std::int64_t near_cells = 8;   ///< within which a coastline says on which of its sides a cell lies
+constexpr double heading_cells = 8.0;    ///< length over which a river's end determines its heading
+constexpr std::int64_t near_cells = 8;   ///< distance up to which a coastline determines the side of a cell
 
 std::vector<Vec2> plan_of(RiverLine const& line) {
     std::vector<Vec2> out;
@@ -30,7 +30,7 @@ std::vector<Vec2> plan_of(RiverLine const& line) {
     return out;
 }
 
-/// On which side of the nearest coastline cells lie.
+/// The side of the nearest coastline on which cells lie.
 class CoastSides {
 public:
     CoastSides(RiverLines const& coastlines, Grid const& grid) : side_(grid) {
@@ -41,7 +41,7 @@ public:
         }
     }
 
-    /// 1 left, -1 right, 0 far from every coastline.
+    /// 1: left, -1: right, 0: far from every coastline.
     int operator[](Cell c) const { return side_[c]; }
 
 private:
@@ -60,7 +60,7 @@ private:
         }
     }
 
-    /// Of two segments that meet in the point nearest to a cell the one from which it lies farther aside counts.
+    /// If two segments meet at the point nearest to a cell, the one with the larger perpendicular distance decides.
     void ask(Segment const& s, Cell c, double reach_m2) {
         Grid const& grid = side_.grid();
         Vec2 const p = grid.centre(c);
@@ -81,14 +81,14 @@ private:
 
     struct Nearest {
         double squared_m;
-        double aside_m; ///< from the line through the segment
+        double aside_m; ///< perpendicular distance from the segment's line
     };
     Raster<std::int8_t> side_;
-    std::unordered_map<std::int64_t, Nearest> nearest_; ///< looked up only, never walked
+    std::unordered_map<std::int64_t, Nearest> nearest_; ///< only looked up, never iterated
 };
 
-/// Calls visit(begin, end, side) for the stretches of a line's cells within which no coastline is crossed; side: the
-/// one on which the stretch lies, 0 where it does not come near any.
+/// Calls visit(begin, end, side) for the stretches of a line's cells that cross no coastline; side: the side of a
+/// stretch; 0: it is near none.
 template <class Visit> void each_stretch(std::vector<Cell> const& cells, CoastSides const& sides, Visit const& visit) {
     std::size_t begin = 0;
     int side = 0;
@@ -103,7 +103,7 @@ template <class Visit> void each_stretch(std::vector<Cell> const& cells, CoastSi
     visit(begin, cells.size(), side);
 }
 
-/// The place on a line, or its upstream end, so far before its downstream end.
+/// The point on a line at a distance before its downstream end, or its upstream end.
 Vec2 before_end(std::vector<Vec2> const& line, double distance_m) {
     std::size_t i = line.size() - 1;
     while (i > 0 && distance(line[i], line.back()) < distance_m) {

@@ -25,7 +25,7 @@ struct Window {
     bool holds(Vec3 p) const { return p.x >= west && p.x <= east && p.y >= south && p.y <= north; }
 };
 
-/// The share [first, last] of segment a-b inside the box (Liang and Barsky 1984).
+/// The part of segment a-b inside the box as shares [first, last] (Liang and Barsky 1984).
 std::optional<std::pair<double, double>> inside(Vec3 a, Vec3 b, Window const& box) {
     double first = 0.0;
     double last = 1.0;
@@ -120,7 +120,7 @@ std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
     return result;
 }
 
-// Without the tips of spikes; taking one away may leave another.
+// Removes the tips of spikes; that may expose another spike.
 std::vector<Vec3> without_spikes(std::vector<Vec3> const& line, double near_m) {
     std::vector<Vec3> result;
     for (Vec3 const p : line) {
@@ -135,7 +135,7 @@ std::vector<Vec3> without_spikes(std::vector<Vec3> const& line, double near_m) {
     return result;
 }
 
-// With a vertex wherever the line meets itself.
+// Adds a vertex wherever the line meets itself.
 std::vector<Vec3> with_crossings(std::vector<Vec3> const& line) {
     auto const found = geometry::crossings({plan_of(line)}); // by segment, then along it
     std::vector<Vec3> result;
@@ -152,7 +152,7 @@ std::vector<Vec3> with_crossings(std::vector<Vec3> const& line) {
     return result;
 }
 
-// From a vertex straight on from where the line leaves it for the last time.
+// Skips from a vertex to where the line leaves it for the last time.
 std::vector<Vec3> without_returns(std::vector<Vec3> const& line) {
     std::map<std::pair<double, double>, std::size_t> last;
     for (std::size_t i = 0; i < line.size(); ++i) {
@@ -173,7 +173,7 @@ std::vector<Vec3> without_returns(std::vector<Vec3> const& line) {
 
 CutLine cut_loops(std::vector<Vec3> const& line, double near_m) {
     CutLine cut{without_spikes(line, near_m), 0.0};
-    // A crossing that is rounded bends the line a little: nearly always the first round is the last.
+    // A rounded crossing bends the line slightly: the first round nearly always suffices.
     constexpr int rounds = 16;
     for (int round = 0; round < rounds; ++round) {
         auto const crossed = with_crossings(cut.line);
@@ -194,7 +194,7 @@ bool has_heights(RiverLine const& line) {
     return std::all_of(line.vertices.begin(), line.vertices.end(), [](Vec3 const& v) { return std::isfinite(v.z); });
 }
 
-/// Lines whose heights are found one after another.
+/// Lines whose heights are determined one after another.
 class Filling {
 public:
     Filling(std::vector<RiverLine>& lines, double slope) : lines_(lines), slope_(slope) {
@@ -242,7 +242,7 @@ private:
         return found == known_.end() ? std::nullopt : std::optional(found->second);
     }
 
-    /// All lines of which so many ends are known now.
+    /// Fills all lines with this number of known ends.
     bool fill_those_with(int ends) {
         std::vector<std::size_t> now;
         std::vector<std::size_t> later;
@@ -295,7 +295,7 @@ private:
     std::vector<RiverLine>& lines_;
     double slope_;
     bool drawn_downstream_ = true;
-    std::map<Place, double> known_; ///< the lowest height at each place
+    std::map<Place, double> known_; ///< the lowest height at each position
     std::vector<std::size_t> open_; ///< lines without heights
 };
 

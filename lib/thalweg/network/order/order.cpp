@@ -16,7 +16,7 @@ namespace thalweg::network {
 
 void require_trees(StreamNetwork const& network, std::string_view who) {
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        // A sum of square roots is a finite number only if every coordinate is one.
+        // A sum of square roots is finite only if every coordinate is.
         refuse_if<BadInput>(!std::isfinite(network.length_m(a)),
                             "{}: arc {} has a coordinate that is not a number; mend the line", who, a + 1);
     }
@@ -42,7 +42,7 @@ void require_trees(StreamNetwork const& network, std::string_view who) {
 
 namespace {
 
-/// Strahler's rule for the arcs that end in one node; 0 for none.
+/// Strahler's rule for the arcs that end in one node; 0: none.
 int strahler_below(std::span<ArcId const> in, std::vector<int> const& strahler) {
     int highest = 0;
     int how_many = 0;
@@ -136,8 +136,8 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     counts.links = static_cast<std::int64_t>(links);
     std::size_t orders = 0;
     Indexed<std::int64_t, std::size_t> order(links, 1);
-    Indexed<std::int64_t, std::size_t> highest(links, 0); // of those above
-    Indexed<std::int64_t, int> equals(links, 0);          // of those above, of the highest order
+    Indexed<std::int64_t, std::size_t> highest(links, 0); // among those upstream
+    Indexed<std::int64_t, int> equals(links, 0);          // number of those upstream with the highest order
     for (std::size_t i = links; i-- > 0;) {
         refuse_if<BadInput>(down[i] >= static_cast<std::int64_t>(i),
                             "network.count_streams: link {} flows into link {}; number them from the outlet", i,
@@ -165,7 +165,7 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
         if (mouth || order[down[i]] != order[i]) {
             ++counts.streams[order[i] - 1];
         }
-        // The two that make a stream of the next order are none of its side branches.
+        // The two streams that form the next order are not its side branches.
         if (!mouth && order[down[i]] > order[i] && !(highest[down[i]] == order[i] && order[down[i]] == order[i] + 1)) {
             ++counts.branches[order[down[i]] - 1][order[down[i]] - order[i] - 1];
         }

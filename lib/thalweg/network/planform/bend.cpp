@@ -17,7 +17,7 @@ double smooth_step(double t) {
     return u * u * (3.0 - 2.0 * u);
 }
 
-/// By node the arc whose river goes on below it, no_arc at sources.
+/// By node: the largest arc upstream; no_arc: a source.
 std::vector<ArcId> main_arcs(StreamNetwork const& network, std::vector<double> const& area_m2) {
     std::vector<ArcId> out(network.node_count(), no_arc);
     for (NodeId n = 0; n < out.size(); ++n) {
@@ -38,7 +38,7 @@ void add_point(Stems& out, Vec2 at, double area_m2) {
     out.stem_of.push_back(out.stems.size() - 1);
 }
 
-/// Adds an arc's points; its first is there already where the stem goes on.
+/// Adds an arc's points; its first already exists if the stem continues.
 void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, double step_m) {
     if (out.at.size() == out.stems.back().begin) {
         add_point(out, line.front(), area_m2);
@@ -58,7 +58,7 @@ void add_arc_points(Stems& out, std::vector<Vec2> const& line, double area_m2, d
 } // namespace
 
 EvenSteps steps_between(Vec2 from, Vec2 to, double step_m) {
-    // A lattice's diagonal steps stay whole.
+    // Diagonal steps of a lattice are not subdivided.
     double const count = std::ceil(distance(from, to) / (1.5 * step_m));
     return {count, {(to.x - from.x) / count, (to.y - from.y) / count}};
 }
@@ -69,13 +69,13 @@ Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2,
     out.last_point.resize(network.arc_count());
     out.node_point.resize(network.node_count());
     std::vector<ArcId> const main = main_arcs(network, area_m2);
-    for (NodeId const mouth : network.upstream_order()) { // every stem after what it joins
+    for (NodeId const mouth : network.upstream_order()) { // every stem after its receiver
         bool const is_outlet = network.out(mouth) == no_arc;
         std::vector<ArcId> arriving(network.in(mouth).begin(), network.in(mouth).end());
         std::stable_partition(arriving.begin(), arriving.end(), [&](ArcId a) { return a == main[mouth]; });
         for (ArcId const last : arriving) {
             if (!is_outlet && last == main[mouth]) {
-                continue; // it is the middle of a stem
+                continue; // in the middle of a stem
             }
             std::vector<ArcId> arcs;
             for (ArcId a = last; a != no_arc; a = main[network.from(a)]) {
@@ -101,28 +101,28 @@ Stems stems_of(StreamNetwork const& network, std::vector<double> const& area_m2,
 
 namespace {
 
-constexpr std::uint64_t stage_plain = 0x6265'6e64;                // "bend"
-constexpr std::uint64_t stage_river = 0x7761'6e64;                // "wand"
-constexpr std::uint64_t stage_reach = 0x7265'6163;                // "reac"
-constexpr std::uint64_t stage_straight = 0x7374'7261;             // "stra"
-constexpr double floor_cells = 0.08;                              // width of a valley floor over area ^ 0.4 (cells)
-constexpr double wave_widths = 12.0;                              // a wave over the width
-constexpr double shortest_wave = 10.0;                            // [cells]
-constexpr double longest_reach = 20.0;                            // [cells]
-constexpr double straight_reach = 11.0;                           // [cells] on either side
-constexpr double amplitude = 0.16;                                // of a wave
+constexpr std::uint64_t stage_plain = 0x6265'6e64;    // "bend"
+constexpr std::uint64_t stage_river = 0x7761'6e64;    // "wand"
+constexpr std::uint64_t stage_reach = 0x7265'6163;    // "reac"
+constexpr std::uint64_t stage_straight = 0x7374'7261; // "stra"
+constexpr double floor_cells = 0.08;                  // width of a valley floor divided by area ^ 0.4 (cells)
+constexpr double wave_widths = 12.0;                  // wavelength relative to the width
+constexpr double shortest_wave = 10.0;                // [cells]
+constexpr double longest_reach = 20.0;                // [cells]
+constexpr double straight_reach = 11.0;               // [cells] on either side
+constexpr double amplitude = 0.16;                    // relative to the wavelength
 constexpr std::array<double, 3> long_waves = {160.0, 72.0, 32.0}; // [cells]
 constexpr std::uint64_t waves_each = 4;
 constexpr double shear = 0.22;  // slope of one wave
-constexpr double margin = 24.0; // [cells] in which the plain's waves fade
+constexpr double margin = 24.0; // [cells] over which the plain's waves fade
 
-/// A river's points, and what is made of them.
+/// A river's points, and their derived values.
 struct River {
     std::size_t begin;
     std::size_t end;
     std::vector<double> const& way_m;
 
-    /// The first point, and the one after the last, within a reach of a place along the river.
+    /// The first point, and the one after the last, within a distance along the river.
     std::size_t first(double way) const {
         auto const at = static_cast<std::ptrdiff_t>(begin);
         return static_cast<std::size_t>(
@@ -131,7 +131,7 @@ struct River {
     }
 };
 
-/// Unit vector to the left of a river, as it runs a quarter wave up and down from a point.
+/// Unit vector to the left of a river, from points a quarter wave upstream and downstream.
 Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
             double reach) {
     River const river{stem.begin, stem.end, way_m};
@@ -145,7 +145,7 @@ Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2
     return {-(at[down].y - at[up].y) / length, (at[down].x - at[up].x) / length};
 }
 
-/// A wave that moves places along its crests: it shears, and leaves areas as they are.
+/// A shear wave: moves positions along its crests and preserves areas.
 struct Wave {
     Vec2 across; ///< unit vector
     double number = 0.0;
@@ -170,7 +170,7 @@ std::vector<Wave> waves_of(Grid const& grid, double gain, std::uint64_t seed) {
     return out;
 }
 
-/// A raster's value at a place, linear between the middles of cells.
+/// A raster's value at a position, bilinear between cell centres.
 double between_cells(Raster<std::uint8_t> const& raster, Vec2 p) {
     Grid const& grid = raster.grid();
     double const x = (p.x - grid.west) / grid.cell_m - 0.5;
@@ -187,7 +187,7 @@ double between_cells(Raster<std::uint8_t> const& raster, Vec2 p) {
     return north * (1.0 - (y - row)) + south * (y - row);
 }
 
-/// Length of river that each point stands for [m].
+/// Length of river represented by each point [m].
 std::vector<double> weights(Stems const& stems) {
     std::vector<double> out(stems.at.size(), 0.0);
     for (Stem const& stem : stems.stems) {
@@ -200,8 +200,8 @@ std::vector<double> weights(Stems const& stems) {
     return out;
 }
 
-/// The weighted mean of values within a reach of a point, as parabolas fall off; the reach is less near the ends, so
-/// that these stay.
+/// The weighted mean of values within a distance of a point, with parabolic weights; the distance shrinks towards the
+/// ends, so that these stay.
 template <class Value>
 void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<double> const& weight, std::size_t i,
                double reach, Value add) {
@@ -225,7 +225,7 @@ void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<d
     }
 }
 
-/// Half waves along a river: extremes of chance size, at least so large, that mostly take turns, joined smoothly.
+/// Half waves along a river: extremes of random size, at least `least`, mostly on alternating sides, joined smoothly.
 double noise(double half_waves, double least, double takes_turns, std::uint64_t seed, std::uint64_t stage,
              std::uint64_t river) {
     auto const extreme = [&](std::uint64_t k) {
@@ -240,7 +240,7 @@ double noise(double half_waves, double least, double takes_turns, std::uint64_t 
     return a + (extreme(k + 1) - a) * smooth_step(half_waves - floor);
 }
 
-/// By point the wavelength of its river [m].
+/// By point: the wavelength of its river [m].
 std::vector<double> wavelengths(Stems const& stems, std::vector<double> const& weight, double cell_m) {
     std::vector<double> own;
     for (double const area_m2 : stems.area_m2) {
@@ -255,8 +255,7 @@ std::vector<double> wavelengths(Stems const& stems, std::vector<double> const& w
     return out;
 }
 
-/// [0, 1] how straight a river runs on both sides of a point: 1 within half a cell of its chord, 0 beyond one and a
-/// half.
+/// [0, 1] straightness of a river on both sides of a point: 1 within half a cell of its chord, 0 beyond one and a half.
 double straightness(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
                     double cell_m) {
     double const reach = straight_reach * cell_m;
@@ -277,7 +276,7 @@ double straightness(Stem const& stem, std::vector<double> const& way_m, std::vec
     return smooth_step(1.5 - off / cell_m);
 }
 
-/// [m] by point from its river's beginning, where points are now: bends have stretched their rivers.
+/// [m] by point from its river's beginning at the current positions: bends have lengthened the rivers.
 std::vector<double> stretched_ways(Stems const& stems, std::vector<Vec2> const& at) {
     std::vector<double> way_m(at.size(), 0.0);
     for (Stem const& stem : stems.stems) {
@@ -288,11 +287,11 @@ std::vector<double> stretched_ways(Stems const& stems, std::vector<Vec2> const& 
     return way_m;
 }
 
-/// What a kind of wandering is made of.
+/// Parameters of a kind of wandering.
 struct Kind {
     std::uint64_t stage;
-    double least;       ///< share of the largest extreme that each has
-    double takes_turns; ///< how often extremes lie on different sides
+    double least;       ///< minimum extreme relative to the largest
+    double takes_turns; ///< how often extremes alternate sides
 };
 
 Kind kind_of(Wandering which) {
@@ -380,7 +379,7 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
         out[i] = {share * (mean.x - at[i].x), share * (mean.y - at[i].y)};
     }
     if (rounding == Rounding::half_a_cell) {
-        for (std::size_t const node : stems.node_point) { // what follows a node would move by more
+        for (std::size_t const node : stems.node_point) { // points after a node would move by more
             out[node] = {};
         }
     }
@@ -420,7 +419,7 @@ constexpr std::uint64_t stage_lean = 0x6c65'616e; // "lean"
 constexpr double near_mouth = 10.0;               // [cells] over which angles are measured
 constexpr double far_from_mouth = 40.0;           // [cells]
 
-/// The nearest point of a river that lies so far above another one, or its first.
+/// The nearest point of a river at this distance upstream of another one, or its first.
 std::size_t above(Stems const& stems, std::size_t from, std::size_t begin, double way) {
     std::size_t i = from;
     while (i > begin && stems.way_m[from] - stems.way_m[i] < way) {

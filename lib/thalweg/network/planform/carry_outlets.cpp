@@ -28,28 +28,28 @@ struct Confluence {
     std::int64_t basin = 0;
 };
 
-constexpr double slack_cells = 1e-9; ///< nearer than that, lines are taken to meet
+constexpr double slack_cells = 1e-9; ///< closer lines count as meeting
 
 bool goes_diagonally(Cell a, Cell b) {
     return a.col != b.col && a.row != b.row;
 }
 
-/// The cell whose south-east corner a diagonal step cuts.
+/// The cell whose south-east corner a diagonal step crosses.
 Cell corner_cell(Cell a, Cell b) {
     return {std::min(a.col, b.col), std::min(a.row, b.row)};
 }
 
-/// Which diagonal a step takes: 1 from north-west to south-east, 2 from north-east to south-west.
+/// The diagonal of a step: 1: north-west to south-east, 2: north-east to south-west.
 std::uint8_t diagonal(Cell a, Cell b) {
     return (a.col < b.col) == (a.row < b.row) ? 1 : 2;
 }
 
-// A step into a cell d cells from a river costs 1 + repulsion / (d + 1/2)^2: a river that could run anywhere keeps to
-// the middle between others.
+// A step into a cell d cells from a river costs 1 + repulsion / (d + 1/2)^2: an unconstrained river stays midway
+// between others.
 constexpr double repulsion = 10.0;
-constexpr std::uint8_t beside_cells = 2; ///< within which water takes the other river
+constexpr std::uint8_t beside_cells = 2; ///< within this distance water may leave for the other river
 
-/// Two segments from one point meet only there; within slack the answer is no.
+/// Whether two segments from one point meet only there; within slack: false.
 bool fan_out(Vec2 from, Vec2 a, Vec2 b, double slack) {
     double const dot = (a.x - from.x) * (b.x - from.x) + (a.y - from.y) * (b.y - from.y);
     return dot < 0.0 || std::fabs(cross(from, a, b)) > slack * std::max(distance(from, a), distance(from, b));
@@ -59,7 +59,7 @@ bool apart(double a, double b, double c, double d, double slack) {
     return std::max(a, b) + slack < std::min(c, d) || std::max(c, d) + slack < std::min(a, b);
 }
 
-/// a and b lie on one side of the line through s, farther from it than slack.
+/// Whether a and b lie on one side of the line through s, farther from it than slack.
 bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
     double const least = slack * distance(s.a, s.b);
     double const left = cross(s.a, s.b, a);
@@ -67,13 +67,13 @@ bool on_one_side(Segment s, Vec2 a, Vec2 b, double slack) {
     return (left > least && right > least) || (left < -least && right < -least);
 }
 
-/// s and t do not meet; within slack [m] the answer is no.
+/// Whether s and t do not meet; within slack [m]: false.
 bool clear(Segment s, Segment t, double slack) {
     return apart(s.a.x, s.b.x, t.a.x, t.b.x, slack) || apart(s.a.y, s.b.y, t.a.y, t.b.y, slack) ||
            on_one_side(s, t.a, t.b, slack) || on_one_side(t, s.a, s.b, slack);
 }
 
-// Where rivers run: their cells, the corners they cut diagonally, and the segments near each cell.
+// The existing rivers: their cells, the corners they cross diagonally, and the segments near each cell.
 class CarryGround {
 public:
     CarryGround(Grid const& grid, CarryParams const& params)
@@ -82,7 +82,7 @@ public:
     Grid const& grid() const { return grid_; }
     double cost_of_joining() const { return params_.join_cells; }
 
-    // basin: by whose number inner vertices may be joined.
+    // basin: number of the basin whose inner vertices may be joined.
     void add(std::vector<Vec2> const& line, std::int64_t basin, std::string const& what) {
         for (std::size_t i = 1; i + 1 < line.size(); ++i) {
             Cell const cell = cells_along({line[i]}, grid_, what).front();
@@ -105,20 +105,20 @@ public:
         }
     }
 
-    // What it costs to enter a cell: rivers repel.
+    // The cost of entering a cell: rivers repel.
     double cost(Cell c) const {
         double const d = static_cast<double>(distance_[c]) + 0.5;
         return 1.0 + repulsion / (d * d) + (distance_[c] <= beside_cells ? params_.beside_cells : 0.0);
     }
 
-    // What a river may run into in a cell, or null.
+    // The confluence possible in a cell, or null.
     Confluence const* confluence_in(Cell c) const {
         auto const found = confluences_.find(grid_.index(c));
         return found == confluences_.end() ? nullptr : &found->second;
     }
 
-    // Whether a river may run from p, a point of cell `from`, to the centre of its neighbour `to`. A river that ends
-    // in p may, too.
+    // Whether a river may run from p, a point of cell `from`, to the centre of its neighbour `to`. A river that ends at
+    // p is no obstacle.
     bool open(Vec2 p, Cell from, Cell to) const {
         if (distance_[to] == 0 || cuts_a_corner(from, to)) {
             return false;
@@ -149,12 +149,12 @@ public:
 private:
     static constexpr std::uint8_t far = 255;
 
-    // Whether the step to a neighbour crosses a river that runs diagonally between the two others.
+    // Whether the step to a neighbour crosses a river that runs diagonally between the other two cells.
     bool cuts_a_corner(Cell from, Cell to) const {
         return goes_diagonally(from, to) && (corner_[corner_cell(from, to)] & ~diagonal(from, to)) != 0;
     }
 
-    /// Whether something holds for all segments that touch the cells around a step.
+    /// Whether a predicate holds for all segments that touch the cells around a step.
     template <class Holds> bool all_near(Cell from, Cell to, Holds const& holds) const {
         for (std::int64_t row = std::min(from.row, to.row); row <= std::max(from.row, to.row); ++row) {
             for (std::int64_t col = std::min(from.col, to.col); col <= std::max(from.col, to.col); ++col) {
@@ -168,7 +168,7 @@ private:
         return true;
     }
 
-    // Lowers the city-block distances around new river cells.
+    // Reduces the city-block distances around new river cells.
     void spread(std::vector<Cell> front) {
         for (std::uint8_t d = 1; d < far && !front.empty(); ++d) {
             std::vector<Cell> next;
@@ -185,7 +185,7 @@ private:
         }
     }
 
-    // Notes a segment with every cell it passes or touches.
+    // Registers a segment with every cell it passes or touches.
     void touch(Segment s) {
         std::size_t const number = segments_.size();
         segments_.push_back(s);
@@ -218,10 +218,10 @@ private:
     CarryParams params_;
     double slack_m_;
     Raster<std::uint8_t> distance_; // [cells] city-block, to the nearest river cell; 255: that far or farther
-    Raster<std::uint8_t> corner_;   // by cell, for its south-east corner: 1 where a river runs NW-SE, 2 NE-SW
+    Raster<std::uint8_t> corner_;   // by cell, for its south-east corner: 1: a river runs NW-SE, 2: NE-SW
     std::vector<Segment> segments_;
-    std::unordered_map<std::int64_t, Confluence> confluences_;            // by cell; looked up only, never walked
-    std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; // looked up only, never walked
+    std::unordered_map<std::int64_t, Confluence> confluences_;            // by cell; only looked up, never iterated
+    std::unordered_map<std::int64_t, std::vector<std::size_t>> touching_; // only looked up, never iterated
 };
 
 // Where rivers may end: on the grid's border and beside the sea.
@@ -253,7 +253,7 @@ public:
         }
     }
 
-    // King's moves to the nearest end.
+    // Chessboard distance to the nearest end.
     std::int64_t steps(Cell c) const {
         return steps_.cells() > 0 ? steps_[c]
                                   : std::min({c.col, c.row, grid_.width - 1 - c.col, grid_.height - 1 - c.row});
@@ -269,10 +269,10 @@ private:
     Raster<std::int32_t> steps_;
 };
 
-// A way of cells, the river's own first; empty where there is none.
+// A path of cells, the river's own first; empty: none.
 struct Way {
     std::vector<Cell> cells;
-    Confluence const* into = nullptr; // in the last cell; null: it ends where rivers may end
+    Confluence const* into = nullptr; // at the last cell; null: it is a valid end
 };
 
 constexpr double root_of_two = 1.41421356237309504880;
@@ -343,13 +343,13 @@ private:
         auto const [known, is_new] = reached_.try_emplace(to);
         if (is_new || cost < known->second.cost) {
             known->second = {cost, at, false, into};
-            queue_.emplace(cost, to); // beside the border it may be dearer than it looks from afar
+            queue_.emplace(cost, to); // beside the border the actual cost may exceed the estimate
         }
     }
 
     void step(std::int64_t at, Cell next, double length) {
         std::int64_t const to = grid_.index(next);
-        Reached const here = reached_[at]; // a copy: places move when more are reached
+        Reached const here = reached_[at]; // a copy: insertion moves entries
         double const cost = here.cost + ground_.cost(next) * length;
         auto const [known, is_new] = reached_.try_emplace(to);
         bool const straight = here.from >= 0 && to - at == at - here.from;
@@ -359,7 +359,7 @@ private:
         }
     }
 
-    using Entry = std::pair<double, std::int64_t>; // the least that a way through this cell costs, the cell
+    using Entry = std::pair<double, std::int64_t>; // the least cost of a path through this cell, the cell
 
     Vec2 outlet_;
     Cell start_;
@@ -367,19 +367,19 @@ private:
     Grid const& grid_;
     RiverEnds const& ends_;
     std::function<bool(Confluence const&)> const& may_join_;
-    std::unordered_map<std::int64_t, Reached> reached_; // looked up only, never walked
+    std::unordered_map<std::int64_t, Reached> reached_; // only looked up, never iterated
     std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue_;
 };
 
-// The cheapest way from a river's end, in the cell start, to where rivers may end, or into a river that it may join. Of
-// equally cheap ways the one that goes straight on. Source: A*, Hart, Nilsson and Raphael 1968: each step costs at
-// least one and comes at most one cell nearer; what is joined counts as the end.
+// The least-cost path from a river's end, in the cell start, to a valid end or into a river that it may join; of equal
+// paths the straightest. Source: A*, Hart, Nilsson and Raphael 1968: each step costs at least one and comes at most one
+// cell closer; a joined river counts as the end.
 Way way_out(Vec2 outlet, Cell start, CarryGround const& ground, RiverEnds const& ends,
             std::function<bool(Confluence const&)> const& may_join) {
     return WaySearch(outlet, start, ground, ends, may_join).find();
 }
 
-/// Which basins have become one.
+/// Union-find of basins.
 class Basins {
 public:
     explicit Basins(std::size_t count) : into_(count) { std::iota(into_.begin(), into_.end(), std::int64_t{0}); }
@@ -396,8 +396,7 @@ private:
     Indexed<std::int64_t, std::int64_t> into_;
 };
 
-/// A network in which rivers end in vertices of others: those become nodes.
-/// ends: nodes that lie on such a vertex.
+/// Turns vertices at which other rivers end into nodes. ends: nodes that lie on such a vertex.
 NetworkDraft joined(StreamNetwork const& network, std::vector<NodeId> const& ends) {
     std::map<std::pair<double, double>, NodeId> node_at;
     std::vector<std::uint8_t> is_end(network.node_count(), 0);
@@ -433,8 +432,8 @@ NetworkDraft joined(StreamNetwork const& network, std::vector<NodeId> const& end
     return out;
 }
 
-/// Outlets inside the grid, within reach of an end. The nearest to an end go first: their short ways leave the others
-/// the most room.
+/// Outlets inside the grid, within reach of an end. The nearest to an end come first: their short paths leave the most
+/// space to the others.
 std::vector<NodeId> outlets_inside(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends,
                                    std::int64_t reach_cells) {
     std::vector<std::pair<std::int64_t, NodeId>> inside;
@@ -452,7 +451,7 @@ std::vector<NodeId> outlets_inside(StreamNetwork const& network, Grid const& gri
     return outlets;
 }
 
-/// A network that is drawn on.
+/// A network under extension.
 class Carrying {
 public:
     Carrying(StreamNetwork const& network, Grid const& grid, RiverEnds const& ends, CarryParams const& params)
@@ -463,7 +462,8 @@ public:
         }
     }
 
-    /// Draws the river of an outlet on, and says so; or says that there is no way.
+    /// Extends the river of an outlet.
+    /// \return a note on it, or on a missing path
     Finding carry(NodeId outlet) {
         Vec2 const at = network_.node(outlet).at;
         std::int64_t const basin = network_.basin(outlet);
@@ -489,7 +489,7 @@ public:
             basins_.join(basin, way.into->basin);
         }
         char const* const to = joins ? "river" : ends_.at_border(way.cells.back()) ? "border" : "coast";
-        ground_.add(line, basin, "a carried outlet"); // what is joined moves no more: way is done with
+        ground_.add(line, basin, "a carried outlet"); // invalidates pointers: the path is no longer used
         note.kind = joins ? "joined_outlet" : "carried_outlet";
         note.amount = length_of(line);
         note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) was carried {:.3f} m to the {} at ({:.3f}, {:.3f})",
@@ -501,7 +501,7 @@ public:
         return note;
     }
 
-    /// The network with what was drawn; what is joined becomes two arcs.
+    /// The extended network; joined arcs are split in two.
     StreamNetwork take() {
         if (confluences_.empty()) {
             return std::move(longer_);
@@ -521,7 +521,8 @@ private:
         return line;
     }
 
-    /// Lengthens the arc that ends in an outlet, or adds one where several do. Gives: the node at the end.
+    /// Extends the arc that ends in an outlet, or adds one if there are several.
+    /// \return node at the end
     NodeId draw_on(NodeId outlet, std::vector<Vec2> line) {
         auto const arriving = network_.in(outlet);
         if (arriving.size() == 1) {

@@ -19,7 +19,7 @@ namespace {
 
 struct Gap {
     double gap_m = 0.0;
-    double along_m = 0.0; // places of one river that are nearer to one another along it may come as near as they like
+    double along_m = 0.0; // positions closer along one river than this may be arbitrarily close
 };
 
 constexpr double kept_share = 0.6; // of a distance below the gap
@@ -49,8 +49,8 @@ bool is_sea(Vec2 p, Mask const& land) {
     return land.grid().contains(c) && land[c] == 0;
 }
 
-// Whether a point, or one that stems_of would set between it and the next of its river, lies in the sea. Takes: land as
-// too_near does.
+// Whether a point, or one that stems_of would insert between it and the next of its river, lies in the sea. land: as
+// for too_near.
 bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i, Mask const& land) {
     if (land.cells() == 0) {
         return false;
@@ -70,10 +70,10 @@ bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i,
     return false;
 }
 
-// Points that came too near to a river's segment, and the upper points of these segments: both ascending. Takes: land
-// (1; sea 0), without cells where all is land; points as they were and as they are; a point is too near to a segment of
-// any river, its own included, when their distance is less than the gap and less than 0.6 of what it was; or when it
-// has left the grid or the land, or come nearer than a cell to the grid's edge.
+// Points that came too close to a river's segment, and the upper points of these segments: both ascending. land: 1; 0:
+// sea; without cells: all land; was, is: points before and after. A point is too close to a segment of any river, its
+// own included, if their distance is less than the gap and less than 0.6 of what it was; or if it has left the grid or
+// the land, or is closer than a cell to the grid's border.
 std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& was, std::vector<Vec2> const& is,
                                   Grid const& grid, Mask const& land, Gap const& gap) {
     double const gap_m = gap.gap_m;
@@ -109,7 +109,7 @@ std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& w
     return found;
 }
 
-// Where points go: by their share [0,1] of a shift; rivers that join others follow the place they end in.
+// Moves points by shares [0,1] of their shifts; rivers that join others follow their mouth.
 std::vector<Vec2> shifted(Stems const& stems, std::vector<Vec2> const& at, std::vector<Vec2> const& shift,
                           std::vector<double> const& share, double cell_m) {
     std::vector<Vec2> out(at.size());
@@ -134,8 +134,8 @@ std::vector<Vec2> shifted(Stems const& stems, std::vector<Vec2> const& at, std::
     return out;
 }
 
-// Halves the shares of points, and by less those of their neighbours within a reach along the river; small ones become
-// 0. Gives: how many points.
+// Halves the shares of points, and reduces those of their neighbours within a distance along the river by less; small
+// ones become 0. Returns the number of points.
 std::int64_t ease(Stems const& stems, std::vector<std::size_t> const& points, double reach_m,
                   std::vector<double>& share) {
     constexpr double least = 1.0 / 64.0;
@@ -163,8 +163,8 @@ std::int64_t ease(Stems const& stems, std::vector<std::size_t> const& points, do
     return eased;
 }
 
-constexpr double eased_reach = 6.0;   // [cells] along a river on either side of where it came too near
-constexpr double smoothed_near = 8.0; // [cells] along a river within which smoothing may bring it nearer to itself
+constexpr double eased_reach = 6.0;   // [cells] along a river on either side of a conflict
+constexpr double smoothed_near = 8.0; // [cells] along a river within which smoothing may bring it closer to itself
 constexpr int rounds_of_halving = 48;
 
 void check(StreamNetwork const& network, Grid const& grid, std::vector<double> const& area_m2,
@@ -208,7 +208,7 @@ Lines lines_through(Stems const& stems, StreamNetwork const& network, std::vecto
     return out;
 }
 
-/// Points at which arcs meet though they should not.
+/// Points at which arcs meet away from nodes.
 std::vector<std::size_t> meeting_points(Lines const& lines, StreamNetwork const& network, Run const& run) {
     std::vector<geometry::EndNodes> nodes;
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
@@ -222,7 +222,7 @@ std::vector<std::size_t> meeting_points(Lines const& lines, StreamNetwork const&
         found.push_back(lines.point[m.other][m.other_segment + 1]);
     }
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        if (lines.line[a].size() < 2) { // shrunk to a point
+        if (lines.line[a].size() < 2) { // collapsed to a point
             found.push_back(lines.point[a].front());
         }
     }
@@ -231,7 +231,7 @@ std::vector<std::size_t> meeting_points(Lines const& lines, StreamNetwork const&
     return found;
 }
 
-/// Points, and with those that have no shift of their own left the place on the larger river that they follow.
+/// The points, and for those without a remaining shift the position on the larger river that they follow.
 std::vector<std::size_t> with_mouths(Stems const& stems, std::vector<std::size_t> points,
                                      std::vector<double> const& share) {
     for (std::size_t k = 0; k < points.size(); ++k) {
@@ -251,13 +251,13 @@ public:
           to_fixed_(distance_to_fixed(network, grid, land)), stems_(stems_of(network, area_m2, grid.cell_m)) {}
 
     Meandered made() {
-        // Less and less of the plain's waves, then none.
+        // Reduces the plain's waves until none remain.
         for (double const bend : {1.0, 0.5, 0.25, 0.0}) {
             if (try_with(bend * params_.gain)) {
                 return with_vertices();
             }
         }
-        out_.network = network_; // rivers that touch but for a rounding
+        out_.network = network_; // rivers that touch after rounding
         return with_vertices();
     }
 
@@ -288,7 +288,7 @@ private:
         return true;
     }
 
-    /// Moves the points as far as rivers keep apart; not at all where that does not end.
+    /// Moves the points as far as rivers keep apart; not at all if that does not converge.
     void move(std::vector<Vec2> const& shift, double near_m) {
         std::vector<double> share(base_.size(), 1.0);
         for (int round = 0; round < rounds_of_halving; ++round) {
@@ -312,7 +312,7 @@ private:
         }
     }
 
-    /// Points as they are written. Those that did not move at all keep every bit.
+    /// Points rounded for output. Those that did not move keep every bit.
     std::vector<Vec2> settled(std::vector<Vec2> at) const {
         for (std::size_t i = 0; i < at.size(); ++i) {
             at[i] = at[i] == stems_.at[i] ? at[i] : rounded(at[i]);
@@ -324,7 +324,7 @@ private:
         return meeting_points(lines_through(stems_, network_, at), network_, run_).empty();
     }
 
-    /// Whether a river that kept to the land came to lie in the sea.
+    /// Whether a river that was on land now lies in the sea.
     bool went_to_sea() const {
         for (std::size_t i = 0; i < base_.size(); ++i) {
             if (leaves_land(stems_, base_, i, land_) && !leaves_land(stems_, stems_.at, i, land_)) {
@@ -334,7 +334,7 @@ private:
         return false;
     }
 
-    /// Bends have stretched rivers: points lie a cell apart again.
+    /// Bends have lengthened rivers: resamples points a cell apart.
     void refine() {
         network_ = through(base_);
         measure_shift();
@@ -365,7 +365,7 @@ private:
         return bent;
     }
 
-    StreamNetwork network_; ///< given, then bent
+    StreamNetwork network_; ///< the input, then bent
     std::vector<double> const& area_m2_;
     Grid const& grid_;
     Mask const& land_;
@@ -373,7 +373,7 @@ private:
     Run const& run_;
     Raster<std::uint8_t> to_fixed_;
     Stems stems_;
-    std::vector<Vec2> base_; ///< by point: as far as it is proven
+    std::vector<Vec2> base_; ///< by point: the last valid positions
     Meandered out_;
 };
 

@@ -48,7 +48,7 @@ Extent extent_of(NetworkDraft& network) {
     return box;
 }
 
-/// The grid around a box of cells where it has no size of its own.
+/// The grid around a box of cells if the frame has no size.
 Grid grid_around(Grid grid, double wide_cells, double high_cells) {
     double const margin = std::max(2.0, std::ceil(std::max(wide_cells, high_cells) / 20.0));
     auto const side = [&](double cells) { return static_cast<std::int64_t>(std::ceil(cells + 2.0 * margin)); };

@@ -24,30 +24,30 @@ namespace {
 
 using Line = std::vector<Vec3>;
 
-// Two lines that begin in one point and are neighbours there, and what lies near them.
+// Two lines that begin at one point and are neighbours there, with the lines near them.
 struct TrunkAndTributary {
     Line trunk;                      // drawn away from the point
-    Line tributary;                  // likewise
-    bool left;                       // the tributary is the next one counter-clockwise; else clockwise
-    bool falls;                      // heights fall along the trunk as it is drawn
-    std::vector<Line const*> others; // every other line nearby, also those that end in the point
+    Line tributary;                  // drawn away from the point
+    bool left;                       // the tributary is the next one counterclockwise; otherwise clockwise
+    bool falls;                      // heights decrease along the trunk as drawn
+    std::vector<Line const*> others; // every other line nearby, including those that end at the point
 };
 
 // The two lines after the tributary was led to a node on the trunk, all drawn as before.
 struct Shifted {
     Line near;      // the trunk's beginning, up to the node
-    Line far;       // the rest of it, from the node
+    Line far;       // the rest of the trunk, from the node
     Line tributary; // from the node
 };
 
-/// A place on a line: the last vertex before it, the place itself, the first vertex after it.
+/// A position on a line: the last vertex before it, the position itself, the first vertex after it.
 struct PlaceOnLine {
     std::size_t before;
     Vec3 at;
     std::size_t after;
 };
 
-/// The place at a distance along a line; a vertex where one is as good as there.
+/// The position at a distance along a line, at a vertex if one is close enough.
 std::optional<PlaceOnLine> place_at(Line const& line, double distance_m) {
     constexpr double as_good = 1e-6;
     double along = 0.0;
@@ -75,10 +75,10 @@ Vec2 direction(Vec3 from, Vec3 to) {
     return {(to.x - from.x) / length, (to.y - from.y) / length};
 }
 
-/// A corner between the directions in which two neighbours leave a point, on the side where nothing else is.
+/// A corner between the directions in which two neighbours leave a point, on the side without other lines.
 Vec3 corner(Vec3 point, Vec2 trunk, Vec2 tributary, bool left, double distance_m, double z) {
     double const turn = left ? 1.0 : -1.0;
-    // Normals of both into the free wedge: their mean halves it, however wide it is.
+    // Normals of both into the free wedge: their mean bisects it, at any width.
     Vec2 const mean{turn * (tributary.y - trunk.y), turn * (trunk.x - tributary.x)};
     double const length = distance({}, mean);
     return {point.x + mean.x / length * distance_m, point.y + mean.y / length * distance_m, z};
@@ -112,8 +112,8 @@ void add_segments(Line const& line, Box const& box, std::vector<std::vector<Vec2
     }
 }
 
-/// Whether what was drawn anew meets nothing but its continuations: the way from the tributary's own line to the node,
-/// and the trunk's segment on either side of the node.
+/// Whether the new lines (from the tributary's own line to the node, and the trunk's segment on either side of the
+/// node) meet nothing but their continuations.
 bool is_free(std::array<std::vector<Vec2>, 3> const& drawn, std::vector<Line const*> const& rest) {
     std::vector<std::vector<Vec2>> lines(drawn.begin(), drawn.end());
     Box const box = box_of(lines);
@@ -126,10 +126,10 @@ bool is_free(std::array<std::vector<Vec2>, 3> const& drawn, std::vector<Line con
     });
 }
 
-// Leads a tributary to a node on the trunk at a distance [m] along it: straight or round a corner, after leaving its
-// own line as far from the point, or half-way where it is shorter. Gives: nothing where the new lines would meet
-// something else or have no length. Heights between those of the ends; the node's is the trunk's or the tributary's,
-// whichever is lower.
+// Leads a tributary to a node on the trunk at a distance [m] along it: straight or around a corner, after leaving its
+// own line at the same distance from the point, or half-way if it is shorter. Returns false if the new lines would meet
+// something else or have length 0. Heights are between those of the ends; the node takes the lower of the trunk's and
+// the tributary's.
 bool shift_tributary(TrunkAndTributary const& at, double distance_m, bool round_a_corner, Shifted& shifted) {
     double const leaving_m = std::min(distance_m, length_in_plan(at.tributary) / 2.0);
     auto node = place_at(at.trunk, distance_m);
@@ -167,7 +167,7 @@ bool shift_tributary(TrunkAndTributary const& at, double distance_m, bool round_
     drawn[2] = {plan(node->at), plan(at.trunk[node->after])};
     for (auto const& line : drawn) {
         for (std::size_t i = 1; i < line.size(); ++i) {
-            if (!(distance(line[i - 1], line[i]) > 0.0)) { // also where squares underflow
+            if (!(distance(line[i - 1], line[i]) > 0.0)) { // also if squares underflow
                 return false;
             }
         }
@@ -195,7 +195,7 @@ double median_segment(StreamNetwork const& network) {
     return *middle;
 }
 
-/// A network whose arcs can be cut and led elsewhere.
+/// A network whose arcs can be cut and redirected.
 class Loose {
 public:
     explicit Loose(ElevatedNetwork const& network) {
@@ -224,7 +224,7 @@ public:
     std::vector<SplitPiece> const& pieces() const { return pieces_; }
     bool leaves(std::size_t arc, NodeId n) const { return from_[arc] == n; }
 
-    /// The arc's line drawn away from one of its nodes.
+    /// The arc's line, drawn away from one of its nodes.
     Line away_from(NodeId n, std::size_t arc) const {
         Line line = lines_[arc];
         if (!leaves(arc, n)) {
@@ -233,7 +233,7 @@ public:
         return line;
     }
 
-    /// The arcs at a node, counter-clockwise.
+    /// The arcs at a node, counterclockwise.
     std::vector<std::size_t> around(NodeId n) const {
         std::vector<ArcId> arcs = in_[n];
         if (out_[n] != no_arc) {
@@ -244,7 +244,7 @@ public:
             return plan(leaves(a, n) ? lines_[a][1] : lines_[a][lines_[a].size() - 2]);
         };
         Vec2 const first = next(arcs.front());
-        auto const half = [&](std::size_t a) { // of the turn that begins at the first
+        auto const half = [&](std::size_t a) { // half of the turn that begins at the first
             int const side = geometry::side_of_line(centre, first, next(a));
             return side > 0 ? 1 : side < 0 ? 3 : 2;
         };
@@ -254,7 +254,7 @@ public:
         return arcs;
     }
 
-    /// Cuts the trunk, whose near part touches the node, and lets the tributary end between the parts.
+    /// Splits the trunk, whose near part touches the node, and ends the tributary between the parts.
     void shift(NodeId n, std::size_t trunk, std::size_t tributary, Shifted shifted) {
         bool const upstream = !leaves(trunk, n);
         ArcId const piece = lines_.size();
@@ -333,22 +333,22 @@ double closeness(Line const& one, Line const& other) {
     return (a.x * b.x + a.y * b.y) / (distance({}, a) * distance({}, b));
 }
 
-/// Neighbours at a node of which one may be moved on to the other.
+/// Neighbours at a node, one of which may be moved onto the other.
 struct Pair {
     std::size_t trunk;
     std::size_t tributary;
-    bool left;        ///< the tributary is the next one counter-clockwise
+    bool left;        ///< the tributary is the next one counterclockwise
     double closeness; ///< cosine of the angle between them
 };
 
-/// The pairs at a node: those on the river that leaves it, or those among the rivers that end in it; the sharpest
-/// angle first.
+/// The pairs at a node: those on the river that leaves it, or those among the rivers that end in it; the sharpest angle
+/// first.
 std::vector<Pair> pairs_at(Loose const& net, NodeId n, bool upstream) {
     std::vector<std::size_t> const around = net.around(n);
     std::vector<Pair> pairs;
     for (std::size_t i = 0; i < around.size(); ++i) {
         std::size_t const a = around[i];
-        std::size_t const b = around[(i + 1) % around.size()]; // counter-clockwise of a
+        std::size_t const b = around[(i + 1) % around.size()]; // counterclockwise of a
         double const close = closeness(net.away_from(n, a), net.away_from(n, b));
         if (!net.leaves(b, n) && net.leaves(a, n) != upstream) {
             pairs.push_back({a, b, true, close});
@@ -366,9 +366,9 @@ public:
     Splitter(Loose& net, SplitParams const& params, double distance_m)
         : net_(net), most_(static_cast<std::size_t>(params.max_upstream)), distance_m_(distance_m) {}
 
-    /// Moves one tributary away from a node. near: the arcs near it, of the network as it was.
+    /// Moves one tributary away from a node. near: the arcs near it in the original network.
     bool split(NodeId n, std::vector<std::size_t> const& near) const {
-        // Below it nodes would lie so close that a check takes them for ends that miss each other.
+        // At smaller distances a check would take nodes for ends that miss each other.
         double const fair_m = distance_m_ / 128.0;
         std::vector<std::size_t> arcs = near;
         for (std::size_t i = 0; i < arcs.size(); ++i) {
@@ -381,8 +381,8 @@ public:
 
 private:
     bool split(NodeId n, std::vector<std::size_t> const& arcs, bool upstream, double least_m) const {
-        constexpr int enough = 48;    // halvings: by then a distance is below what coordinates can tell apart
-        constexpr double wide = -0.5; // cosine of an angle at which a straight way would come close to the node
+        constexpr int enough = 48;    // halvings: the distance is then below the precision of coordinates
+        constexpr double wide = -0.5; // cosine of an angle at which a straight line would come close to the node
         std::vector<Pair> const pairs = pairs_at(net_, n, upstream);
         auto const to_move = static_cast<double>(net_.arcs_into(n) - most_);
         double share = 1.0;
@@ -395,7 +395,7 @@ private:
                         at.others.push_back(&net_.line(a));
                     }
                 }
-                // The next one to be moved finds its place between this one and the node.
+                // The next tributary is placed between this one and the node.
                 double const along_m =
                     share * std::min(distance_m_ * to_move, length_in_plan(at.trunk) * to_move / (to_move + 1.0));
                 if (along_m < least_m) {
@@ -460,7 +460,7 @@ Split split_confluences(ElevatedNetwork const& network, SplitParams const& param
     for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
         lines.push_back(network.plan.arc(arc).line);
     }
-    // What is drawn anew lies within one reach of its node; what another node's splitting drew, within two.
+    // New lines lie within one reach of their node; those of another node's splitting within two.
     double const reach_m = distance_m * static_cast<double>(highest - most);
     auto const near = geometry::segments_near(places, lines, 2.25 * reach_m, run);
     Loose net(network);

@@ -16,9 +16,9 @@
 namespace thalweg::network {
 namespace {
 
-/// Lengths are counted in whole units of 2^-24 cells a segment: then the sum of the pieces is the length of the merged
-/// arc in any order, and pruning again finds the same lengths. A step between cells is one cell to the unit however
-/// the coordinates are rounded.
+/// Lengths are whole multiples of 2^-24 cells per segment: the sum of the pieces then equals the length of the merged
+/// arc in any order, and repeated pruning finds the same lengths. A step between cells is exactly one cell, however
+/// coordinates are rounded.
 constexpr double units_per_cell = 0x1p24;
 
 std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, double cell_m) {
@@ -43,8 +43,8 @@ std::vector<std::int64_t> lengths_in_units(StreamNetwork const& network, double 
     return units;
 }
 
-/// What is left of the network while leaves are removed. A reach is a maximal chain of the network's arcs, its pieces;
-/// it goes by the number of its most upstream piece.
+/// The remaining network during the removal of leaves. A reach is a maximal chain of the network's arcs, its pieces;
+/// its number is that of its most upstream piece.
 class Remains {
 public:
     Remains(StreamNetwork const& network, std::vector<std::int64_t> units)
@@ -67,10 +67,11 @@ public:
     std::size_t arcs() const { return units_.size(); }
     std::int64_t units(ArcId reach) const { return units_[reach]; }
     NodeId source(ArcId reach) const { return source_[reach]; }
-    /// A reach that still exists and has no river above it.
+    /// Whether a reach still exists and has no river upstream.
     bool is_leaf(ArcId reach) const { return gone_[reach] == 0 && arriving_[source_[reach]] == 0; }
 
-    /// Removes a leaf; gives the reach that was merged at its confluence, or no_arc.
+    /// Removes a leaf.
+    /// \return the reach merged at its confluence, or no_arc
     ArcId remove(ArcId leaf) {
         NodeId const at = mouth_[leaf];
         gone_[leaf] = 1;
@@ -104,15 +105,15 @@ private:
     std::vector<std::int64_t> units_;
     std::vector<NodeId> source_;
     std::vector<NodeId> mouth_;
-    std::vector<std::int64_t> arriving_; ///< by node: how many reaches end in it
-    std::vector<ArcId> arriving_xor_;    ///< by node: their numbers, so that the last one left is known
-    std::vector<ArcId> leaving_;         ///< by node: a reach or piece of one, no_arc at an outlet
+    std::vector<std::int64_t> arriving_; ///< by node: number of reaches that end there
+    std::vector<ArcId> arriving_xor_;    ///< by node: XOR of their numbers, which gives the last one left
+    std::vector<ArcId> leaving_;         ///< by node: the reach that leaves it, or a piece of it; no_arc: an outlet
     std::vector<std::uint8_t> gone_;
     std::vector<ArcId> next_piece_;
     std::vector<ArcId> last_piece_;
 };
 
-/// A leaf in the order of removal: shortest first, of equals the northernmost source, then the westernmost.
+/// A leaf in order of removal: shortest first, of equals the northernmost source, then the westernmost.
 struct Leaf {
     std::int64_t units;
     double minus_y;
@@ -153,8 +154,8 @@ std::vector<std::int64_t> survival(StreamNetwork const& network, Remains remains
     return persistence;
 }
 
-/// The least whole number of units that is no shorter than L. An L made as cells times cell_m, and so perhaps half a
-/// unit in the last place too long, is the cells it was made from.
+/// The least whole number of units not shorter than L. An L computed as cells times cell_m, perhaps half an ulp too
+/// long, gives these cells.
 std::int64_t least_units(PruneParams const& params) {
     constexpr double but_for_rounding = 1.0 - 0x1p-50;
     constexpr double most = 0x1p62;
@@ -162,7 +163,7 @@ std::int64_t least_units(PruneParams const& params) {
     return static_cast<std::int64_t>(std::ceil(std::min(units, most)));
 }
 
-/// A number a reader may copy, not above x.
+/// A number, at most x, that a reader can copy.
 std::string readable_floor(double x) {
     double const hundredths = std::floor(x * 100.0) / 100.0;
     return hundredths > 0.0 ? fmt::format("{}", hundredths) : fmt::format("{}", x);
@@ -196,7 +197,7 @@ Pruned prune(StreamNetwork const& network, PruneParams const& params, Run const&
                                        "Try {} or less.",
                                        params.length_m / params.cell_m, most, most));
     }
-    // L = 0 leaves a network as it is drawn, with the nodes between its features.
+    // L = 0 leaves a network unchanged, with the nodes between its features.
     pruned.network =
         least > 0 ? keep_arcs(std::move(with_thresholds), units, kept).network : std::move(with_thresholds);
     return pruned;

@@ -16,17 +16,16 @@
 namespace thalweg::network {
 namespace {
 
-/// A cell of a reach and the one after it, both by index.
+/// Indices of a cell of a reach and of the next one.
 using Step = std::pair<std::int64_t, std::int64_t>;
 
-/// Lowers every cell to the lowest of the cells upstream of it: taken in ascending order of height,
-/// no cell is lowered twice.
+/// Lowers every cell to the lowest cell upstream: in ascending order of height, no cell is lowered twice.
 void lower_downstream(std::vector<Step> steps, Rasterised& out) {
     std::sort(steps.begin(), steps.end());
     steps.erase(std::unique(steps.begin(), steps.end()), steps.end());
     Raster<float>& z = out.valley.z;
 
-    // Only where some step rises is there anything to do.
+    // Nothing to do unless some step rises.
     std::vector<std::int64_t> begin;
     for (Step const& s : steps) {
         if (z[s.second] > z[s.first]) {

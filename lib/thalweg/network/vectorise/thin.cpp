@@ -14,7 +14,7 @@ namespace {
 
 using Word = std::uint64_t;
 
-/// A range of words in a row; empty when first > last.
+/// A range of words in a row; empty if first > last.
 struct Span {
     std::int64_t first = 1;
     std::int64_t last = 0;
@@ -25,7 +25,7 @@ struct Span {
     }
 };
 
-/// Rows of bits, 64 cells a word, the westernmost in the lowest bit; framed by empty rows and words.
+/// Rows of bits, 64 cells per word, the westernmost in the lowest bit; framed by empty rows and words.
 class BitRows {
 public:
     BitRows(std::int64_t width, std::int64_t height)
@@ -39,7 +39,7 @@ private:
     std::vector<Word> bits_;
 };
 
-/// One bit for each of eight cells that is not 0.
+/// One bit for each of eight cells, 1: not 0.
 Word pack8(std::uint8_t const* p) {
     Word v = 0;
     for (unsigned k = 0; k < 8; ++k) {
@@ -118,8 +118,8 @@ template <int Subiteration> Word mark_row(Word const* up, Word const* mid, Word 
     return any;
 }
 
-/// What has to be looked at in each subiteration: per row the words around which something changed since they were
-/// looked at last in that subiteration. Row y is at y + 1.
+/// What each subiteration must examine: per row the words around which something changed since that subiteration last
+/// examined them. Row y is at y + 1.
 using Live = std::array<Indexed<RowIndex, Span>, 2>;
 
 template <int Subiteration> bool subiterate(BitRows& bits, BitRows& marks, Live& live, std::int64_t height) {

@@ -26,7 +26,7 @@ struct Neighbours {
     std::array<std::uint8_t, 8> diagonal{};
 };
 
-/// The set cells, numbered in ascending order of their index, and who is next to whom.
+/// The set cells, numbered in ascending order of their index, and their neighbours.
 class SkeletonGraph {
 public:
     explicit SkeletonGraph(Mask const& mask) : mask_(mask) {
@@ -46,7 +46,7 @@ public:
     std::size_t size() const { return cells_.size(); }
     Cell cell(Number number) const { return cells_[number]; }
 
-    /// A diagonal neighbour counts only where neither orthogonal cell between is set.
+    /// A diagonal neighbour counts only if neither orthogonal cell between is set.
     Neighbours neighbours(Number number) const {
         Neighbours found;
         Cell const c = cell(number);
@@ -79,7 +79,7 @@ private:
     Indexed<RowIndex, Number> row_begin_;
 };
 
-/// Distance to the outlet in steps of both kinds: equal distances are equal, whatever the order of the steps.
+/// Distance to the outlet as numbers of both kinds of steps: equal distances compare equal, in any order of steps.
 struct Steps {
     std::int64_t orthogonal = 0;
     std::int64_t diagonal = 0;
@@ -89,14 +89,14 @@ struct Steps {
     }
 };
 
-/// A position in cells from the north-west, to 2^-16 of a cell: cells that are equally far stay so however the
+/// A position in cells from the north-west, rounded to 2^-16 of a cell: equal distances stay equal, however the
 /// coordinates in metres are rounded.
 Vec2 in_cells(Grid const& grid, Vec2 p) {
     auto const rounded = [](double cells) { return std::floor(cells * 65536.0 + 0.5) / 65536.0; };
     return {rounded((p.x - grid.west) / grid.cell_m), rounded((grid.north - p.y) / grid.cell_m)};
 }
 
-/// The cell of number `start`'s component nearest to the mouth [cells]; marks the component as seen.
+/// The cell nearest to the mouth [cells] in the component of cell `start`; marks the component as seen.
 Number outlet_of(Number start, SkeletonGraph const& graph, Vec2 mouth, std::vector<std::uint8_t>& seen) {
     Number best = start;
     double best_distance = std::numeric_limits<double>::infinity();
@@ -122,7 +122,7 @@ Number outlet_of(Number start, SkeletonGraph const& graph, Vec2 mouth, std::vect
     return best;
 }
 
-/// Sets the cell downstream of every cell that reaches the outlet (Dijkstra; of equal ways the lower cell).
+/// Sets the downstream cell of every cell that reaches the outlet (Dijkstra; of equal paths the lower cell).
 void drain_to(Number outlet, SkeletonGraph const& graph, std::vector<Number>& downstream, std::vector<Steps>& steps,
               Run const& run) {
     using Entry = std::pair<double, Number>;

@@ -35,7 +35,7 @@ void require_growth(DlaParams const& params) {
                             "network.grow_dla: max_radius is {}, it must be at least 1, or 0 for no limit",
                             params.max_radius);
     constexpr double most_arrivals = 1e12;
-    double const arrivals = params.particles > 1 ? least_arrivals(params) : 0.0; // one is the seed
+    double const arrivals = params.particles > 1 ? least_arrivals(params) : 0.0; // one of them is the seed
     refuse_if<BadParameter>(arrivals > most_arrivals,
                             "network.grow_dla: {} particles with sticking {} need more than {:.0e} arrivals of walkers "
                             "and would not end in a day: set sticking nearer to 1, or fewer particles",
@@ -44,7 +44,7 @@ void require_growth(DlaParams const& params) {
 
 namespace {
 
-/// Numbers the occupied cells row by row, so that a cell finds its particle: a bit a cell and a count a word.
+/// Numbers the occupied cells row by row, to find a cell's particle: one bit per cell and one count per word.
 class Register {
 public:
     explicit Register(std::vector<Cell> const& cells) {
@@ -106,7 +106,7 @@ std::vector<std::int64_t> find_parents(std::vector<Cell> const& cells, std::vect
     return parent;
 }
 
-/// One of the set bits, each as likely.
+/// Picks one of the set bits with equal probability.
 std::uint8_t pick(unsigned mask, RandomStream& random) {
     int const count = std::popcount(mask);
     int skip = count == 1 ? 0 : static_cast<int>(random.real() * count);
@@ -118,7 +118,7 @@ std::uint8_t pick(unsigned mask, RandomStream& random) {
 
 enum class Fate : std::uint8_t { sticks, walks_on, is_removed };
 
-/// What becomes of arrivals: the visit counts and the stick test.
+/// Decides about arrivals: noise-reduction counts and the stick test.
 class Gate {
 public:
     explicit Gate(DlaParams const& params)
@@ -142,7 +142,7 @@ public:
 private:
     static bool stick(double hold, Walker& walker) { return hold >= 1.0 || walker.random.real() < hold; }
 
-    /// Counts a visit; whether there were enough with it.
+    /// Counts an arrival; returns whether the count is reached.
     bool count(Site site) {
         if (visits_ == 1) {
             return true;
@@ -205,7 +205,7 @@ Cluster grow_dla(DlaParams const& params, Run const& run) {
 
 namespace {
 
-/// The share of an arm that has to lie in its direction's quadrant.
+/// The share of an arm that must lie in its direction's quadrant, in quarters.
 constexpr std::int64_t of_four = 3;
 
 void check(Cluster const& cluster, BranchParams const& params) {
@@ -224,7 +224,7 @@ void check(Cluster const& cluster, BranchParams const& params) {
     }
 }
 
-/// Whether each descends from the root, which does itself.
+/// By particle: whether it descends from the root, or is it.
 Indexed<ParticleId, std::uint8_t> descendants(Cluster const& cluster, std::size_t root) {
     Indexed<ParticleId, std::uint8_t> descends(cluster.cells.size(), 0);
     descends[root] = 1;
@@ -234,7 +234,7 @@ Indexed<ParticleId, std::uint8_t> descendants(Cluster const& cluster, std::size_
     return descends;
 }
 
-/// Whether a cell lies in the quadrant around a direction, seen from the seed.
+/// Whether a cell lies in the quadrant around a direction from the seed.
 bool lies(Cell c, BranchChoice direction) {
     switch (direction) {
     case BranchChoice::north: return -c.row > 0 && std::abs(c.col) <= -c.row;
@@ -247,7 +247,7 @@ bool lies(Cell c, BranchChoice direction) {
     return true;
 }
 
-/// The particle whose descendants are the arm; 0 where there is none.
+/// The particle whose descendants form the arm; 0: none.
 std::size_t root_of(Cluster const& cluster, BranchChoice choice) {
     std::size_t const count = cluster.cells.size();
     Indexed<ParticleId, std::int64_t> size(count, 1);

@@ -11,7 +11,7 @@
 namespace thalweg::network {
 
 enum class VisitRule : std::uint8_t {
-    count_first,     ///< every arrival counts; walkers before the M-th are removed, others take the stick test
+    count_first,     ///< every arrival counts; walkers before the M-th are removed, later ones take the stick test
     stick_then_count ///< only passed stick tests count; walkers before the M-th are removed
 };
 

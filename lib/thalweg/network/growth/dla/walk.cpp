@@ -20,7 +20,7 @@ struct Direction {
 Direction uniform_direction(RandomStream& random) {
     for (;;) {
         std::uint64_t const word = random.word();
-        // Half a step off the integers keeps the four quadrants alike and the origin out.
+        // Half a step off the integers makes the four quadrants symmetric and avoids the origin.
         double const u = (static_cast<double>(static_cast<std::uint32_t>(word)) + 0.5) * 0x1p-31 - 1.0;
         double const v = (static_cast<double>(word >> 32) + 0.5) * 0x1p-31 - 1.0;
         double const square = u * u + v * v;
@@ -81,7 +81,7 @@ constexpr Profile make_profile() {
 
 constexpr Profile profile = make_profile();
 
-/// Sixteen bytes at once: the copies tell the compiler that the rows do not overlap.
+/// Sixteen bytes at a time: the copies tell the compiler that the rows do not overlap.
 void raise(std::uint8_t* row, std::uint8_t const* to) {
     std::array<std::uint8_t, 16> a;
     std::array<std::uint8_t, 16> b;
@@ -93,7 +93,7 @@ void raise(std::uint8_t* row, std::uint8_t const* to) {
     std::memcpy(row, a.data(), 16);
 }
 
-/// Blocks of this side across the square that reaches twice `half` from the seed.
+/// Number of blocks of this side across the square that extends to twice `half` from the seed.
 std::size_t blocks_across(std::int32_t half, std::size_t side) {
     return (4 * static_cast<std::size_t>(half) + side - 1) / side;
 }
@@ -149,7 +149,7 @@ void FreeSquares::occupy(Site site) {
 
 void FreeSquares::reach(std::int32_t radius) {
     std::int32_t wanted = half();
-    // The finest level is asked up to two blocks from an occupied one.
+    // The finest level is read up to two blocks from an occupied one.
     while (wanted < radius + 48) {
         wanted *= 2;
     }
@@ -274,7 +274,7 @@ unsigned Walk::approach(Walker& walker) const {
                 return mask;
             }
         }
-        // A wider square would jump over the walker's first site that is far.
+        // A wider square would skip the first site at the far limit.
         ExitLaw::Offset const jump = law_.leave(std::max(std::min(free, room), 1), walker.random);
         walker.at = {walker.at.x + jump.x, walker.at.y + jump.y};
     }

@@ -21,7 +21,7 @@ namespace {
 constexpr std::uint64_t island_stage = 0x69736c616e643031; // "island01"
 constexpr double share_of_land = 0.42;                     // of the grid
 
-/// One octave of gradient noise, its lattice turned and moved at random.
+/// One octave of gradient noise, its lattice rotated and shifted at random.
 class Octave {
 public:
     Octave(double wave_cells, double amplitude, std::uint64_t seed, std::uint64_t number, double span_cells)
@@ -29,7 +29,7 @@ public:
         auto const words = random_block(seed, island_stage, number);
         double const turn = 2.0 * portable::pi * unit(words[0]);
         along_ = {portable::cos(turn) / wave_cells, portable::sin(turn) / wave_cells};
-        // The lattice covers the span whichever way it is turned.
+        // The lattice covers the span at any rotation.
         half_ = static_cast<std::int64_t>(std::ceil(span_cells / wave_cells)) + 2;
         offset_ = {unit(words[1]), unit(words[2])};
         auto const side = static_cast<std::uint64_t>(2 * half_ + 1);
@@ -70,7 +70,7 @@ private:
     Indexed<std::int64_t, Vec2> gradients_;
 };
 
-/// Octaves of which each is half as long as the one before, and nearly half as strong.
+/// Octaves, each half as long as the previous one and nearly half as strong.
 std::vector<Octave> octaves(double longest_cells, double shortest_cells, std::uint64_t seed, std::uint64_t first,
                             double span_cells) {
     constexpr double fall = 0.56;
@@ -91,7 +91,7 @@ double sum(std::vector<Octave> const& noise, double x, double y) {
     return total;
 }
 
-/// The cells of one value that hang together by sides, from a cell of it; they are marked as seen.
+/// The 4-connected cells of one value around a cell; marks them as seen.
 std::vector<std::int64_t> patch_from(std::int64_t start, Mask const& land, Mask& seen) {
     Grid const& grid = land.grid();
     std::vector<std::int64_t> cells{start};
@@ -109,7 +109,7 @@ std::vector<std::int64_t> patch_from(std::int64_t start, Mask const& land, Mask&
     return cells;
 }
 
-/// The cells of a share of the grid that stand highest.
+/// The highest cells that make up a share of the grid.
 Mask highest(Raster<float> const& heights, double share) {
     std::vector<float> sorted(heights.values().begin(), heights.values().end());
     auto const level = sorted.begin() + static_cast<std::ptrdiff_t>((1.0 - share) * static_cast<double>(sorted.size()));
@@ -121,7 +121,7 @@ Mask highest(Raster<float> const& heights, double share) {
     return found;
 }
 
-/// Makes lagoons land and small islets sea.
+/// Turns lagoons into land and small islets into sea.
 void tidy(Mask& land) {
     Grid const& grid = land.grid();
     for (std::uint8_t const value : {std::uint8_t{0}, std::uint8_t{1}}) {
@@ -132,7 +132,7 @@ void tidy(Mask& land) {
                 continue;
             }
             std::vector<std::int64_t> const patch = patch_from(i, land, seen);
-            bool const open_sea = value == 0 && patch.front() == 0; // the margin holds the grid's first cell
+            bool const open_sea = value == 0 && patch.front() == 0; // the margin contains the grid's first cell
             if (!open_sea && static_cast<std::int64_t>(patch.size()) < least) {
                 for (std::int64_t const c : patch) {
                     land[c] = value == 0 ? 1 : 0;
@@ -183,7 +183,7 @@ Mask shape_island(Grid const& grid, IslandParams const& params, Run const& run) 
                 double const length = along.x * u + along.y * v;
                 double const breadth = slender * (along.x * v - along.y * u);
                 double const oval = std::sqrt(length * length + breadth * breadth);
-                // Towards the margin the sea wins, so that no coast is cut straight by it.
+                // Near the margin the sea dominates, so that the margin never cuts the coast straight.
                 double const sea = 1.0 - std::min(1.0, (to_edge - margin) / (0.15 * shorter));
                 above[Cell{col, row}] =
                     static_cast<float>(params.ruggedness * sum(moves, bent_x, bent_y) - oval - 0.8 * sea * sea * sea);
@@ -200,7 +200,7 @@ namespace {
 constexpr std::uint64_t outlet_stage = 0x6f75746c65747331; // "outlets1"
 constexpr double least_apart_cells = 3.0;
 
-/// Share of land in a window around a cell; beyond the grid it goes on as in the cell that is nearest.
+/// Share of land in a window around a cell; cells at the border continue beyond it.
 double land_around(Mask const& land, Cell c) {
     constexpr std::int64_t reach = 8;
     std::int64_t count = 0;
@@ -215,14 +215,14 @@ double land_around(Mask const& land, Cell c) {
     return static_cast<double>(count) / window;
 }
 
-/// A cell of the coast, when its turn comes, and how far it keeps others away.
+/// A coast cell with its turn and the distance it keeps from others.
 struct Candidate {
     double turn = 0.0;
-    double keeps = 0.0; ///< share of the mean distance
+    double keeps = 0.0; ///< factor of the mean distance
     Cell cell;
 };
 
-/// In the order in which they are taken: earlier where land surrounds them.
+/// In order of selection: earlier where land surrounds them.
 std::vector<Candidate> candidates(Mask const& land, std::vector<Cell> const& coast, std::uint64_t seed) {
     std::vector<Candidate> all;
     all.reserve(coast.size());
@@ -237,7 +237,7 @@ std::vector<Candidate> candidates(Mask const& land, std::vector<Cell> const& coa
     return all;
 }
 
-/// The outlets taken, found by where they lie.
+/// The selected outlets by position.
 class Taken {
 public:
     explicit Taken(double widest) : side_(static_cast<std::int64_t>(std::ceil(widest)) + 1) {}
@@ -299,7 +299,7 @@ std::vector<Cell> spread_outlets(Mask const& land, std::vector<Cell> const& coas
                                          : static_cast<std::size_t>(std::ceil(length / params.every_cells));
     std::vector<Candidate> const all = candidates(land, coast, params.seed);
     std::vector<Cell> outlets;
-    // A pass takes what keeps its distance; where that leaves too few, the next asks for less.
+    // A pass selects cells that keep the distance; if these are too few, the next pass reduces it.
     double mean = length / static_cast<double>(wanted);
     Taken taken(std::max(mean, least_apart_cells));
     for (;; mean *= 0.7) {

@@ -14,7 +14,7 @@
 
 namespace thalweg::network {
 
-/// By two sweeps: exact, for all eight steps are as long.
+/// Two sweeps: exact, because all eight steps count as one.
 Raster<std::uint8_t> room_in(Mask const& region) {
     Raster<std::uint8_t> room = framed<std::uint8_t>(region, 0);
     std::int64_t const width = room.width();
@@ -211,14 +211,13 @@ void ForestGrowth::set(Cell c, State state) {
     if (state == State::open && state_[c] != State::open) {
         opened_.push_back(c);
         if (fertile_[c] == 0) {
-            outdated_ = grid_.cells(); // walkers come from a pocket out of which there was no way
+            outdated_ = grid_.cells(); // walkers come from a pocket without an exit
         }
     }
     state_[c] = state;
 }
 
-/// Walkers from elsewhere come to nothing: they need not be released. In a region that is nearly full they would be
-/// most of all.
+/// Walkers from elsewhere would never stick and are not released. In a nearly full region they would be the majority.
 void ForestGrowth::find_births() {
     for (Cell const c : births_) {
         fertile_[c] = 0;
@@ -262,7 +261,7 @@ void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams cons
     }
 }
 
-/// Counts arrivals until there are enough.
+/// Counts arrivals until the noise-reduction count is reached.
 class Visits {
 public:
     Visits(Grid const& grid, int wanted) : wanted_(wanted), seen_(wanted > 1 ? grid : Grid{}, 0) {}

@@ -18,7 +18,8 @@ namespace thalweg::network {
 
 namespace {
 
-/// The room a cell has where trees grow: then all cells under a step between two such are land, and no coast.
+/// The distance from the region's border that trees keep inland: then all cells between two neighbouring ones a step
+/// apart are land, and not coast.
 std::int64_t room_inland(std::int64_t step) {
     return (step + 2) / 2 + 2;
 }
@@ -34,13 +35,13 @@ Mask inland_of(Mask const& land, std::int64_t step) {
     return inland;
 }
 
-/// Where a river leaves the land, and the cell inland where its tree begins: the land between is crossed straight.
+/// Where a river leaves the land, and the cell inland where its tree begins: the river between is straight.
 struct Mouth {
     Cell outlet;
     Cell seed;
 };
 
-/// Which outlets get a tree.
+/// Selects the outlets that get a tree.
 class Mouths {
 public:
     Mouths(Mask const& land, Mask const& inland, std::int64_t step)
@@ -48,8 +49,8 @@ public:
 
     std::vector<Mouth> const& all() const { return mouths_; }
 
-    /// The cell inland that is nearest to an outlet, straight over land; nothing where there is none so near that its
-    /// river could not touch another on the way.
+    /// The inland cell nearest to an outlet, straight over land; nothing: none is so close that its river cannot touch
+    /// another one.
     std::optional<Cell> seed_for(Cell outlet) const {
         std::int64_t const reach = room_inland(step_) + 1;
         std::optional<Cell> best;
@@ -62,7 +63,7 @@ public:
         return best;
     }
 
-    /// Whether the outlet got a tree.
+    /// \return whether the outlet got a tree.
     bool add(Cell outlet) {
         constexpr std::int64_t apart = 3;
         std::optional<Cell> const seed = seed_for(outlet);
@@ -102,7 +103,7 @@ private:
     std::vector<Mouth> mouths_;
 };
 
-/// The cells of a mask that hang together by sides with one; they are taken out of it.
+/// The 4-connected cells of a mask around a cell; removes them from it.
 std::vector<Cell> take_piece(Cell from, Mask& left) {
     std::vector<Cell> piece{from};
     left[from] = 0;
@@ -124,7 +125,7 @@ Finding finding(char const* kind, Grid const& grid, Cell c, double amount, std::
 
 void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> const& outlets,
            ForestParams const& params) {
-    constexpr std::int64_t least_step = 4; // below, rivers of two trees could touch between their seeds and outlets
+    constexpr std::int64_t least_step = 4; // with less, rivers of two trees could touch between their seeds and outlets
     require_in("network.plant_forest", "step_cells", params.step_cells, Range::between(least_step, 100));
     refuse_if<BadInput>(coast.empty(), "network.plant_forest: there is no land, all cells are sea");
     Mask on_coast(land.grid(), 0);
@@ -137,7 +138,7 @@ void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> c
     }
 }
 
-/// Gives every piece of the land's inside that has no tree one, at the first cell of its coast where that finds room.
+/// Adds a tree to every inland piece without one, at the first coast cell with enough space.
 void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mouths, std::vector<Finding>& notes) {
     Mask left = inland;
     for (Mouth const& mouth : mouths.all()) {
@@ -155,7 +156,7 @@ void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mou
     }
 }
 
-/// One note for each piece of land without a tree.
+/// Notes each piece of land without a tree.
 void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>& notes) {
     Mask left = land;
     for (Mouth const& mouth : mouths.all()) {
@@ -173,7 +174,7 @@ void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>&
     }
 }
 
-/// The trees as arcs: every particle without or with several children is a node, and so is every outlet.
+/// The trees as arcs: outlets and particles with no or several children are nodes.
 NetworkDraft as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
     ParticleId const count = forest.cells.count();
     Indexed<ParticleId, int> children(count, 0);

@@ -19,7 +19,7 @@
 namespace thalweg::network {
 namespace {
 
-/// Twice the signed area, about the first vertex, so that far-off coordinates lose no digits.
+/// Twice the signed area, relative to the first vertex, so that large coordinates lose no digits.
 double doubled_area(Vec2 o, Vec2 a, Vec2 b) {
     return (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
 }
@@ -95,7 +95,7 @@ namespace {
 constexpr double sharpest = 0.93969262;       // cosine of 20 degrees
 constexpr double sharpest_drawn = 0.99984770; // cosine of 1 degree
 
-/// Cosine of the angle between the ways from one place to two others.
+/// Cosine of the angle at a position between two others.
 double cosine_at(Vec2 here, Vec2 a, Vec2 b) {
     return ((a.x - here.x) * (b.x - here.x) + (a.y - here.y) * (b.y - here.y)) /
            (distance(here, a) * distance(here, b));
@@ -130,7 +130,7 @@ public:
     SettledLinks settle() {
         std::vector<std::size_t> turn(links_);
         std::iota(turn.begin(), turn.end(), std::size_t{0});
-        auto const rank = [&](std::size_t i) { // what was drawn gives way to nothing that grew
+        auto const rank = [&](std::size_t i) { // drawn links are never displaced by grown ones
             return std::pair{forest_.links[i].pinned.has_value(), forest_.links[i].order};
         };
         std::stable_sort(turn.begin(), turn.end(), [&](std::size_t i, std::size_t k) { return rank(i) > rank(k); });
@@ -160,12 +160,12 @@ private:
         return std::cmp_equal(down, k) || (down >= 0 && down == other) || std::cmp_equal(other, i);
     }
 
-    /// Whether somebody else chose the link's place, which then counts more than what is near it, the edge too.
+    /// Whether the position of the link is prescribed: it then takes precedence over nearby links and the border.
     bool drawn(std::size_t i) const { return forest_.links[i].pinned && rounded(*forest_.links[i].pinned) == at_[i]; }
 
     bool fits(std::size_t i) const { return clear(i) && bends_gently(i); }
 
-    /// Moves the node of a link to the nearest place that has room for it; leaves it where there is none.
+    /// Moves the node of a link to the nearest position with enough space; leaves it if there is none.
     bool fits_elsewhere(std::size_t i) {
         constexpr std::size_t headings = 24;
         constexpr double cosine = 0.96592582628906829; // of 15 degrees
@@ -194,7 +194,7 @@ private:
         return false;
     }
 
-    /// At the mouth a link may begin on the wall; the mouth is rounded, so that it may lie a little beside it.
+    /// A link may begin on a wall at its tree's mouth, which is rounded and may lie slightly beside the wall.
     bool begins_on(std::size_t i, Segment const& wall) const {
         double const wide = usual_[forest_.links[i].tree];
         return forest_.links[i].down < 0 && squared_distance(lower_end(i), wall) <= 1e-10 * wide * wide &&
@@ -241,7 +241,7 @@ private:
 
     Forest const& forest_;
     Indexed<LinkId, Vec2> at_;
-    std::vector<double> usual_; ///< [m] by tree: root of its land for each link
+    std::vector<double> usual_; ///< [m] by tree: square root of its area per link
     std::size_t links_;
     Indexed<LinkId, std::uint8_t> stays_;
     Indexed<LinkId, std::vector<std::size_t>> up_;
@@ -272,7 +272,7 @@ KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
         std::vector<LinkId> links;
         NodeId to = 0;
     };
-    Indexed<LinkId, Course> open(links); ///< the course that has come up to its node
+    Indexed<LinkId, Course> open(links); ///< the partial course that has reached the node
     for (std::size_t i = 0; i < links; ++i) {
         if (stays[i] == 0) {
             continue;
@@ -311,7 +311,7 @@ namespace {
 
 constexpr std::uint64_t embed_stage = 0x656d626564; // "embed"
 
-/// Throws when the ring cannot be a region.
+/// Checks that a ring can be a region.
 void check_ring(std::vector<Vec2> const& ring) {
     refuse_if<BadParameter>(ring.size() < 3, "network.embed_tree: the region has {} vertices, it needs three at least",
                             ring.size());
@@ -352,7 +352,7 @@ void check(EmbedParams const& params, std::size_t links) {
                             params.mouth.x, params.mouth.y, nearest);
 }
 
-/// Where the trunk's first line ends: two thirds of the way to the other side.
+/// Where the trunk's first line ends: at two thirds of the distance to the other side.
 Vec2 far_end(EmbedParams const& params, double spacing) {
     Vec2 ahead = params.direction;
     if (ahead.x == 0.0 && ahead.y == 0.0) {
@@ -361,7 +361,7 @@ Vec2 far_end(EmbedParams const& params, double spacing) {
     }
     double const length = std::sqrt(ahead.x * ahead.x + ahead.y * ahead.y);
     ahead = length > 0.0 ? Vec2{ahead.x / length, ahead.y / length} : Vec2{0.0, 1.0};
-    // The first leaving of the region, found by steps: rings are of any shape.
+    // The first exit from the region, found by steps: rings may have any shape.
     double const step = 0.25 * spacing;
     double reach = step;
     auto const there = [&](double way) { return Vec2{params.mouth.x + way * ahead.x, params.mouth.y + way * ahead.y}; };
@@ -371,7 +371,7 @@ Vec2 far_end(EmbedParams const& params, double spacing) {
     return there(0.66 * reach);
 }
 
-/// A tree without its lowest orders; links between which nothing enters any more are one.
+/// A tree without its lowest orders; links without inflow between them are joined.
 struct Thinned {
     Indexed<LinkId, ForestLink> links;
     Indexed<LinkId, std::vector<LinkId>> links_of; ///< of the tree, by link of the forest, downstream first
@@ -404,9 +404,9 @@ Thinned thinned(TokunagaTree const& tree, int lowest) {
     return out;
 }
 
-/// As many orders as leave room for what keeps the spacing asked for.
+/// Keeps as many orders as fit with the minimum spacing.
 Thinned thinned_to_fit(TokunagaTree const& tree, double area_m2, double min_spacing_m) {
-    constexpr double room = 1.8; // links keep apart that share no node, along a stream too
+    constexpr double room = 1.8; // links without a common node keep apart, along a stream too
     int const highest = tree.links.empty() ? 1 : tree.links.front().order;
     for (int lowest = 1;; ++lowest) {
         Thinned out = thinned(tree, lowest);
@@ -435,7 +435,7 @@ EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run
     forest.clearance = params.clearance;
     forest.min_spacing_m = params.min_spacing_m;
 
-    // Of a few beginnings the one that leaves out the fewest links; large trees leave out few in any.
+    // Of a few starts the one that omits the fewest links; large trees omit few in any.
     constexpr std::uint64_t beginnings = 6;
     constexpr std::size_t large = 5000;
     constexpr double enough = 0.98;

@@ -68,13 +68,13 @@ Stroke as_drawn(RiverLine const& drawn, RiverLines const& strokes, Grid const& g
     return stroke;
 }
 
-/// A place on a stroke by one of its segments.
+/// A position on a stroke: segment and share of it.
 struct Spot {
     std::size_t segment = 0;
     double along = 0.0; ///< [0, 1]
 };
 
-/// Finds the stroke on which another begins as they are drawn, if any.
+/// Finds the stroke on which another begins as drawn, if any.
 Spot find_beginning(std::size_t number, Strokes& strokes, double tolerance_m) {
     Stroke& stroke = strokes[number];
     double least = tolerance_m;
@@ -98,7 +98,7 @@ Spot find_beginning(std::size_t number, Strokes& strokes, double tolerance_m) {
     return spot;
 }
 
-/// Moves the beginning of a stroke onto the other, which lies where it shall.
+/// Moves the beginning of a stroke onto the other, at the given position.
 void move_beginning(Stroke& stroke, Stroke const& onto, Spot spot) {
     Vec2 const a = onto.line[spot.segment];
     Vec2 const b = onto.line[spot.segment + 1];
@@ -107,7 +107,7 @@ void move_beginning(Stroke& stroke, Stroke const& onto, Spot spot) {
     measure(stroke);
 }
 
-/// Where a line lies on a point that it shares with others or with itself.
+/// A line's position at a point that it shares with others or with itself.
 struct Meeting {
     std::size_t stroke;
     std::size_t segment;
@@ -119,13 +119,13 @@ bool meets_itself(std::vector<Meeting> const& here) {
            }) != here.end();
 }
 
-/// Throws where strokes meet otherwise than by one that begins on another.
+/// Throws if strokes meet other than by one beginning on another.
 void require_joined(Strokes const& strokes, RiverLines const& names, double tolerance_m, Run const& run) {
     std::vector<std::vector<Vec2>> lines;
     for (Stroke const& s : strokes) {
         lines.push_back(s.line);
     }
-    std::map<std::pair<double, double>, std::vector<Meeting>> meetings; // sorted by line and segment, as crossings are
+    std::map<std::pair<double, double>, std::vector<Meeting>> meetings; // sorted by line and segment, like crossings
     for (geometry::Crossing const& c : geometry::crossings(lines, run)) {
         meetings[{c.at.x, c.at.y}].push_back({c.line, c.segment});
     }
@@ -152,7 +152,7 @@ void require_joined(Strokes const& strokes, RiverLines const& names, double tole
     }
 }
 
-/// Throws where the upper end of a stroke lies on another.
+/// Throws if the upper end of a stroke lies on another.
 void require_mouths_below(Strokes const& strokes, RiverLines const& names, double tolerance_m) {
     for (std::size_t k = 0; k < strokes.size(); ++k) {
         Vec2 const end = strokes[k].line.back();
@@ -167,8 +167,8 @@ void require_mouths_below(Strokes const& strokes, RiverLines const& names, doubl
     }
 }
 
-/// Throws where two begin or join at one place, a stroke begins where another does, or strokes begin on one another in
-/// a ring.
+/// Throws if two strokes begin or join at the same position, a stroke begins where another joins, or strokes begin on
+/// one another in a cycle.
 void require_apart(Strokes const& strokes, RiverLines const& names, double tolerance_m) {
     for (std::size_t k = 0; k < strokes.size(); ++k) {
         for (std::size_t m = 0; m < k; ++m) {
@@ -260,9 +260,9 @@ Vec2 place_at(Stroke const& stroke, double way_m) {
 
 namespace {
 
-constexpr double coarse = 1.0 / 24.0; // of the reach: the lattice that tells areas
+constexpr double coarse = 1.0 / 24.0; // relative to the reach: spacing of the lattice that measures areas
 
-/// Whether a place lies to the left of the part of a stroke nearest to it.
+/// Whether a position lies to the left of the nearest part of a stroke.
 bool left_of(Stroke const& stroke, Vec2 p) {
     double least = std::numeric_limits<double>::infinity();
     bool left = false;
@@ -333,10 +333,10 @@ namespace {
 
 struct Wing {
     LinkId link;
-    std::int64_t links; ///< with all above
+    std::int64_t links; ///< with all upstream
 };
 
-/// By link: links above it and itself.
+/// By link: number of links upstream, itself included.
 Indexed<LinkId, std::int64_t> sizes_of(TokunagaTree const& tree) {
     Indexed<LinkId, std::int64_t> links(tree.links.size(), 1);
     for (std::size_t i = tree.links.size(); i-- > 1;) {
@@ -406,13 +406,13 @@ void check(StrokesParams const& params) {
     require_in("network.grow_strokes", "min_spacing_m", params.min_spacing_m, Range::at_least(0.0));
 }
 
-/// Another stroke's beginning on a trunk.
+/// The beginning of another stroke on a trunk.
 struct Junction {
     double way_m;
     std::size_t stroke;
 };
 
-/// Ways of a trunk's own nodes, evenly between the junctions, the last where it forks.
+/// Positions of a trunk's own nodes, evenly spaced between the junctions; the last is the fork.
 std::vector<double> ways_of_trunk(std::size_t nodes, double length_m, std::vector<Junction> const& junctions) {
     double fork = length_m * static_cast<double>(nodes) / static_cast<double>(nodes + 1);
     if (!junctions.empty() && junctions.back().way_m >= fork) {
@@ -493,7 +493,7 @@ public:
         }
     }
 
-    /// A river is of no lower order than those that flow into it.
+    /// A river's order is at least that of its tributaries.
     Indexed<LinkId, ForestLink> take() {
         for (std::size_t i = links_.size(); i-- > 0;) {
             if (links_[i].down >= 0) {
@@ -504,7 +504,7 @@ public:
         return std::move(links_);
     }
 
-    /// The link into which each stroke flows, -1 for its own mouth.
+    /// The link into which each stroke flows; -1: its own mouth.
     Indexed<StrokeId, LinkId> const& joints() const { return joints_; }
 
 private:
@@ -513,7 +513,7 @@ private:
         return static_cast<int>(std::clamp(depth, 1.0, static_cast<double>(params_.max_depth)));
     }
 
-    /// The bank from which a stroke joins another, as TreeLink::turn has it.
+    /// The bank from which a stroke joins another, as TreeLink::turn.
     int side_of(std::size_t stroke) const {
         Stroke const& own = strokes_[stroke];
         Stroke const& onto = strokes_[own.onto];
@@ -538,7 +538,7 @@ private:
     Indexed<StrokeId, std::vector<Junction>> junctions_;
 };
 
-/// Throws where a stroke would flow into another further than a cell from where it was drawn to.
+/// Throws if a stroke would join another more than a cell from where it was drawn.
 void require_in_place(Strokes const& strokes, RiverLines const& drawn, Indexed<StrokeId, LinkId> const& joints,
                       SettledLinks const& settled, double cell_m) {
     for (std::size_t k = 0; k < strokes.size(); ++k) {

@@ -110,7 +110,7 @@ private:
         return params_.banks == BankRule::random && (words_[1] >> static_cast<unsigned>(bit) & 1) != 0;
     }
 
-    /// As paper 003 writes its rules: G[--G] alone, else from the left; F[++G] alone, F[--G]F[++G].
+    /// The rules of the L-system in \cite nenu2015: G[--G] alone, otherwise from the left; F[++G] alone, F[--G]F[++G].
     int bank(bool source, int k, int sides) const {
         int const first = source == (sides == 1) || (!source && sides % 2 == 0) ? -2 : 2;
         int const side = k % 2 == 0 ? first : -first;
@@ -122,7 +122,7 @@ private:
     Indexed<int, double> means_; ///< by order - 2
     std::array<std::uint64_t, 4> words_{};
     Indexed<LinkId, TreeLink> links_;
-    Indexed<LinkId, LinkId> tops_; ///< by old link: the uppermost of those it became
+    Indexed<LinkId, LinkId> tops_; ///< by old link: the uppermost of the links that replaced it
 };
 
 } // namespace

@@ -17,7 +17,7 @@ namespace thalweg::network {
 
 std::string write_lsystem(TokunagaTree const& tree) {
     std::string word;
-    // What is still to be written, the next last: a link, or -1 for the end of a branch.
+    // The remaining output, the next last: a link, or -1 for the end of a branch.
     std::vector<LinkId> ahead{0};
     while (!ahead.empty()) {
         LinkId const number = ahead.back();
@@ -74,7 +74,7 @@ std::string without_blanks(std::string_view s) {
     return out;
 }
 
-/// Reads the lines of a rules file one after the other.
+/// Reads the lines of a rules file one after another.
 class RulesReader {
 public:
     explicit RulesReader(std::string const& name) : name_(name) {}
@@ -196,8 +196,8 @@ std::string rewritten(std::string const& word, LSystem const& system, std::uint6
 
 struct Turtle {
     Vec2 at;
-    int turns = 0;  ///< of angle_deg to the left
-    int halves = 0; ///< turns round
+    int turns = 0;  ///< by angle_deg to the left
+    int halves = 0; ///< half turns
 };
 
 } // namespace
@@ -228,7 +228,7 @@ std::vector<std::vector<Vec2>> draw_word(std::string_view word, double angle_deg
     std::vector<std::vector<Vec2>> lines;
     std::vector<Turtle> remembered;
     Turtle turtle;
-    bool is_drawing = false; // whether the last line ends where the turtle is
+    bool is_drawing = false; // whether the last line ends at the turtle
     for (std::size_t i = 0; i < word.size(); ++i) {
         if (i % signs_between_checks == 0) {
             run.check();

@@ -15,8 +15,8 @@ namespace {
 
 constexpr std::size_t no_link = std::numeric_limits<std::size_t>::max();
 
-// A forest while its nodes are spread: where they lie and which of them take part yet. Nodes are numbered by the links
-// whose upper ends they are, then come the mouths of the trees.
+// The forest during spreading: the positions of its nodes, and which are active. Nodes are numbered by the links whose
+// upper ends they are, followed by the mouths of the trees.
 struct ForestLayout {
     explicit ForestLayout(Forest const& wanted)
         : forest(wanted), links(wanted.links.size()), at(links + wanted.shares.size()), up(at.size()),
@@ -35,25 +35,25 @@ struct ForestLayout {
     std::size_t links;
     std::vector<Vec2> at;                     // [m] by node
     std::vector<std::vector<std::size_t>> up; // by node: the active links that end there
-    std::vector<std::size_t> below;           // by link: the active node it ends in; no_link before it took part
-    std::vector<std::uint8_t> active;         // by link: whether its node takes part
-    std::vector<double> tree_spacing_m;       // by tree: root of its area for each active node
-    std::vector<double> spacing_m;            // by link: that of its tree
-    std::vector<std::vector<Vec2>> samples;   // by tree: places spread evenly over its land
-    std::optional<SegmentGrid> placed;        // links that have a place, by number, then the walls
+    std::vector<std::size_t> below;           // by link: the active node at which it ends; no_link: not active yet
+    std::vector<std::uint8_t> active;         // by link: whether its node is active
+    std::vector<double> tree_spacing_m;       // by tree: square root of its area per active node
+    std::vector<double> spacing_m;            // by link: spacing of its tree
+    std::vector<std::vector<Vec2>> samples;   // by tree: positions spread evenly over its area
+    std::optional<SegmentGrid> placed;        // placed links, by number, then the walls
 
     bool is_mouth(std::size_t node) const { return node >= links; }
     bool is_pinned(std::size_t node) const { return is_mouth(node) || forest.links[node].pinned.has_value(); }
     Vec2 lower_end(std::size_t link) const { return at[below[link]]; }
     Segment segment(std::size_t link) const { return {at[below[link]], at[link]}; }
 
-    // Where a link ends, whether that node takes part or not.
+    // The node at which a link ends, active or not.
     std::size_t node_below(std::size_t link) const {
         std::int64_t const down = forest.links[link].down;
         return down < 0 ? links + forest.links[link].tree : static_cast<std::size_t>(down);
     }
 
-    // The lowest of the links that an active link stands for.
+    // The lowest of the links that an active link represents.
     std::size_t lowest_link(std::size_t link) const {
         std::size_t lowest = link;
         while (node_below(lowest) != below[link]) {
@@ -62,7 +62,7 @@ struct ForestLayout {
         return lowest;
     }
 
-    // The link that continues the stream above a node; no_link above a source or a fork.
+    // The link that continues the stream upstream of a node; no_link: a source or a fork.
     std::size_t main_above(std::size_t node) const {
         for (std::size_t const link : up[node]) {
             if (up[node].size() == 1 || forest.links[lowest_link(link)].turn == 0) {
@@ -89,20 +89,20 @@ struct ForestLayout {
     }
 };
 
-// Whether a node is new or only moves: what moves may stay as near to others as it was.
+// Whether a node is new or moves: when moving, it may stay as close to others as it was.
 enum class Placement : std::uint8_t { first, move };
 
-// A vector of length 1; to the north for (0, 0).
+// The unit vector; north for (0, 0).
 Vec2 direction_of(Vec2 a) {
     double const length = norm(a);
     return length > 0.0 ? Vec2{a.x / length, a.y / length} : Vec2{0.0, 1.0};
 }
 
-constexpr std::size_t most_ends = 8; ///< links in a node whose angles are looked at; in a binary tree there are 3
+constexpr std::size_t most_ends = 8; ///< links at a node whose angles are checked; a binary tree has 3
 
 constexpr double cosine_of_20_degrees = 0.9396926;
 
-/// Whether two links that leave one place enclose the least angle, or, where they move, no less than before.
+/// Whether two links from one point enclose at least the minimum angle or, when moving, no less than before.
 bool stand_apart(Vec2 a, Vec2 b, Vec2 old_a, Vec2 old_b, Placement placement) {
     double const cosine = dot(a, b);
     double const limit = cosine_of_20_degrees * norm(a) * norm(b);
@@ -110,7 +110,7 @@ bool stand_apart(Vec2 a, Vec2 b, Vec2 old_a, Vec2 old_b, Placement placement) {
                               cosine * norm(old_a) * norm(old_b) <= dot(old_a, old_b) * norm(a) * norm(b));
 }
 
-/// Whether the angles in a node are wide enough when the node `mover`, it or one beside it, lies at `to`.
+/// Whether the angles at a node are wide enough with the node `mover`, itself or a neighbour, at `to`.
 bool angles_fit(ForestLayout const& layout, std::size_t node, std::size_t mover, Vec2 to, Placement placement) {
     std::array<std::size_t, most_ends> ends{};
     std::size_t count = 0;
@@ -136,25 +136,26 @@ bool angles_fit(ForestLayout const& layout, std::size_t node, std::size_t mover,
     return true;
 }
 
-constexpr double shortest_link = 0.4; ///< of the spacing: shorter ones do not shrink further
+constexpr double shortest_link = 0.4; ///< relative to the spacing; shorter links do not shrink further
 
-// A little more than settle_links asks for, so that what is allowed here also stays there.
+// Slightly more than settle_links requires, so that links allowed here remain placed there.
 constexpr double clearance_margin = 1.1;
 constexpr double spacing_margin = 1.05;
-constexpr double most_bound_spacing = 0.5; ///< of the spacing: a wider bound could not be kept by so many links
+/// relative to the spacing: this many links could not keep a larger distance
+constexpr double most_bound_spacing = 0.5;
 
-/// How far a link must keep from another; both lengths in metres.
+/// The required distance of a link from another; both lengths in metres.
 double distance_needed(ForestLayout const& layout, std::size_t link, double length, double other) {
     double const spacing = layout.spacing_m[link];
     return std::max(clearance_margin * layout.forest.clearance * std::min({length, other, spacing}),
                     std::min(spacing_margin * layout.forest.min_spacing_m, most_bound_spacing * spacing));
 }
 
-constexpr double same_place_squared = 1e-18; ///< of the spacing, squared
-// A trunk leaves its mouth through a wall: its upper end keeps a tenth of the clearance from that. Squared.
+constexpr double same_place_squared = 1e-18; ///< relative to the spacing, squared
+// A trunk leaves its mouth through a wall: its upper end keeps a tenth of the clearance from it. Squared.
 constexpr double at_mouth_squared = 0.01;
 
-/// Whether a link may run along `wanted` once the node `mover`, one of its ends, has moved.
+/// Whether a link may run along `wanted` after the node `mover`, one of its ends, has moved.
 bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wanted, std::size_t mover,
                  Placement placement) {
     double const length = distance(wanted.a, wanted.b);
@@ -183,7 +184,7 @@ bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wa
                        layout.forest.inside(wanted.b);
             }
         } else if (is_neighbour(other)) {
-            return true; // their angle counts
+            return true; // their angle is checked instead
         }
         double const squared = squared_distance(wanted, there);
         double const need = is_wall ? margin : distance_needed(layout, link, length, distance(there.a, there.b));
@@ -193,7 +194,7 @@ bool keeps_clear(ForestLayout const& layout, std::size_t link, Segment const& wa
 }
 
 // Whether the node of a link may lie at `to`: its links keep the clearance from all but their neighbours, and those
-// that share a node enclose 20 degrees at least.
+// with a common node enclose at least 20 degrees.
 bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Placement placement) {
     auto const all_above = [&](auto const& fits) {
         return std::all_of(layout.up[link].begin(), layout.up[link].end(),
@@ -208,11 +209,11 @@ bool may_lie(ForestLayout const& layout, std::size_t link, Vec2 to, Placement pl
            });
 }
 
-// Nine samples a node, so that a centre is known to about a tenth of the spacing.
+// Nine samples per node, so that a centroid is known to about a tenth of the spacing.
 constexpr double samples_a_spacing = 3.0;
 
-// Where a new source is tried: first at this share of the spacing, then nearer by the factor, on either side of the
-// course.
+// Distances at which a new source is tried: first at this share of the spacing, then reduced by the factor, on either
+// side of the course.
 constexpr double first_reach = 0.75;
 constexpr double reach_factor = 0.7;
 constexpr int reaches = 24; ///< the last is 0.0002 of the spacing
@@ -222,8 +223,8 @@ struct Heading {
     double cosine;
     double sine;
 };
-/// 50, 35, 65, 80, 20, 100 and 120 degrees, the likely ones first: tributaries enter at about 50 degrees, forks part
-/// by 35.
+/// 50, 35, 65, 80, 20, 100 and 120 degrees, the likely ones first: tributaries enter at about 50 degrees, forks
+/// separate by 35.
 constexpr std::array<Heading, 7> headings = {{{0.6428, 0.7660},
                                               {0.8192, 0.5736},
                                               {0.4226, 0.9063},
@@ -232,16 +233,17 @@ constexpr std::array<Heading, 7> headings = {{{0.6428, 0.7660},
                                               {-0.1736, 0.9848},
                                               {-0.5, 0.8660}}};
 
-/// Turned to the left by the angle of a heading.
+/// Turned left by the angle of a heading.
 Vec2 turned_by(Vec2 a, double cosine, double sine) {
     return {cosine * a.x - sine * a.y, sine * a.x + cosine * a.y};
 }
 
-/// Marks the nodes that take part, links them, and gives the number of them by tree.
-/// Of a stream those take part in which another stream of this order or higher enters, and its source.
+/// Activates the nodes of streams of at least an order (confluences of two such streams, and their sources), and links
+/// them.
+/// \return number of active nodes, by tree
 std::vector<std::size_t> activate(ForestLayout& layout, int order) {
     Forest const& forest = layout.forest;
-    std::vector<std::uint8_t> runs(layout.links, 0); // the link is part of a stream that is there
+    std::vector<std::uint8_t> runs(layout.links, 0); // the link belongs to an existing stream
     std::vector<int> arrivals(layout.at.size(), 0);
     for (std::size_t i = 0; i < layout.links; ++i) {
         if (forest.links[i].order >= order || layout.is_pinned(i)) {
@@ -265,7 +267,7 @@ std::vector<std::size_t> activate(ForestLayout& layout, int order) {
     return count;
 }
 
-/// Draws samples of every tree's land, as dense as its nodes ask for.
+/// Draws samples of every tree's area, with the density required by its nodes.
 void sample_lands(ForestLayout& layout, std::vector<std::size_t> const& nodes) {
     std::vector<ForestShare> const& shares = layout.forest.shares;
     layout.tree_spacing_m.resize(shares.size());
@@ -280,7 +282,7 @@ void sample_lands(ForestLayout& layout, std::vector<std::size_t> const& nodes) {
     }
 }
 
-/// An index over the land of all trees that holds the walls alone.
+/// An index over the area of all trees, with the walls only.
 void begin_index(ForestLayout& layout) {
     Vec2 low = layout.at[layout.links];
     Vec2 high = low;
@@ -298,10 +300,11 @@ void begin_index(ForestLayout& layout) {
     }
 }
 
-/// Sets the new nodes of old streams at equal distances. Gives: by link whether it was set.
+/// Places the new nodes of existing streams at equal distances.
+/// \return by link: whether it was placed
 std::vector<std::uint8_t> divide_old_links(ForestLayout& layout, std::vector<std::uint8_t> const& was_active) {
     std::vector<std::uint8_t> divided(layout.links, 0);
-    std::vector<std::size_t> chain; // new nodes between two old ones
+    std::vector<std::size_t> chain; // new nodes between two existing ones
     for (std::size_t i = 0; i < layout.links; ++i) {
         if (was_active[i] == 0) {
             continue;
@@ -323,7 +326,7 @@ std::vector<std::uint8_t> divide_old_links(ForestLayout& layout, std::vector<std
     return divided;
 }
 
-/// The direction of the stream through a node, upstream, as the links say that have a place.
+/// The direction of the stream through a node, upstream, from the placed links.
 Vec2 course_so_far(ForestLayout const& layout, std::size_t node) {
     Vec2 sum = layout.is_mouth(node) ? direction_of(layout.forest.shares[node - layout.links].far - layout.at[node])
                                      : direction_of(layout.at[node] - layout.lower_end(node));
@@ -335,7 +338,7 @@ Vec2 course_so_far(ForestLayout const& layout, std::size_t node) {
     return direction_of(sum);
 }
 
-/// Finds a first place for a new stream's source.
+/// Finds an initial position for a new stream's source.
 void place_source(ForestLayout& layout, std::size_t i) {
     std::size_t const node = layout.below[i];
     if (layout.is_mouth(node)) {
@@ -359,11 +362,11 @@ void place_source(ForestLayout& layout, std::size_t i) {
             }
         }
     }
-    layout.place(i, layout.at[node] + length * ahead); // settle_links finds it another place or leaves it out
+    layout.place(i, layout.at[node] + length * ahead); // settle_links relocates or omits it
 }
 
-// Makes the streams of an order take part: nodes on streams that are there already are set at equal distances, sources
-// of new ones near the nodes they drain to.
+// Activates the streams of an order: nodes on existing streams are placed at equal distances, sources of new ones near
+// the nodes they drain to.
 void admit_streams(ForestLayout& layout, int order) {
     std::vector<std::uint8_t> const was_active = layout.active;
     sample_lands(layout, activate(layout, order));
@@ -384,22 +387,22 @@ void admit_streams(ForestLayout& layout, int order) {
 
 constexpr std::uint64_t spread_stage = 0x737072656164; // "spread"
 
-// All lengths are shares of the spacing.
-constexpr double weight_of_middles = 0.6;    ///< the middle of a link draws as a node does, by this weight
-constexpr double over_relaxation = 1.5;      ///< beyond the centre: fewer sweeps are needed than with 1
-constexpr double straightening = 0.25;       ///< of the way to the middle between the neighbours along the stream
-constexpr double branches_upstream = 0.25;   ///< for each 1 that the cosine with the course lacks
-constexpr double forks_upstream = 0.15;      ///< the same for the node in which streams part
-constexpr double widest_branch_cosine = 0.6; ///< 53 degrees: a branch that stands wider is turned upstream
-constexpr double shaken_share_of_sweeps = 1.0 / 3.0; ///< nodes are shaken early, so as not to rest in a poor layout
+// All lengths are relative to the spacing.
+constexpr double weight_of_middles = 0.6;  ///< weight of a link's midpoint relative to a node
+constexpr double over_relaxation = 1.5;    ///< beyond the centroid: reduces the number of sweeps compared with 1
+constexpr double straightening = 0.25;     ///< share of the distance to the midpoint of the neighbours along the stream
+constexpr double branches_upstream = 0.25; ///< per unit that the cosine with the course lacks
+constexpr double forks_upstream = 0.15;    ///< the same for the node at a fork
+constexpr double widest_branch_cosine = 0.6;         ///< 53 degrees: wider branches are turned upstream
+constexpr double shaken_share_of_sweeps = 1.0 / 3.0; ///< nodes are shaken early, to escape poor layouts
 constexpr double shake = 0.12;
 constexpr double longest_step = 0.3; ///< longer ones would often cross another link
 constexpr int attempts = 3;          ///< a step that does not fit is shortened
 constexpr double shortening = 0.4;
 
-/// By site the way to the centre of the samples nearest to it (Lloyd 1982); none for a site without samples.
+/// By site: vector to the centroid of the samples nearest to it (Lloyd 1982); 0 for a site without samples.
 std::vector<Vec2> ways_to_centres(std::vector<Vec2> const& sites, double spacing_m, std::vector<Vec2> const& samples) {
-    constexpr double cell = 0.7; // of the spacing: two sites a node
+    constexpr double cell = 0.7; // relative to the spacing: two sites per node
     geometry::PointGrid const grid(sites, cell * spacing_m);
     std::vector<Vec2> sum(sites.size());
     std::vector<double> count(sites.size(), 0.0);
@@ -417,10 +420,10 @@ std::vector<Vec2> ways_to_centres(std::vector<Vec2> const& sites, double spacing
     return ways;
 }
 
-/// Adds to the pull on each node of a tree what its own places and those of its links ask for.
+/// Adds the pull of a tree's samples on its nodes and on their links.
 void pull_to_centres(ForestLayout const& layout, std::size_t tree, std::vector<Vec2>& pull) {
     std::vector<std::size_t> owners;
-    std::vector<Vec2> sites; // of each owner its node and the middle of its link
+    std::vector<Vec2> sites; // for each owner its node and the midpoint of its link
     for (std::size_t i = 0; i < layout.links; ++i) {
         if (layout.active[i] != 0 && layout.forest.links[i].tree == tree) {
             owners.push_back(i);
@@ -456,7 +459,7 @@ Vec2 course_through(ForestLayout const& layout, std::size_t node) {
     return main == no_link ? below : direction_of(below + direction_of(layout.at[main] - layout.at[node]));
 }
 
-/// Towards a course without bends.
+/// The vector towards a straight course.
 Vec2 straighten(ForestLayout const& layout, std::size_t i) {
     std::size_t const above = layout.main_above(i);
     if (above == no_link) {
@@ -465,7 +468,7 @@ Vec2 straighten(ForestLayout const& layout, std::size_t i) {
     return straightening * (0.5 * (layout.at[above] + layout.lower_end(i)) - layout.at[i]);
 }
 
-/// Makes side branches and forks point upstream.
+/// The vector that makes side branches and forks point upstream.
 Vec2 turn_upstream(ForestLayout const& layout, std::size_t i) {
     Vec2 sum{};
     double const spacing = layout.spacing_m[i];
@@ -498,7 +501,7 @@ Vec2 shaken(ForestLayout const& layout, int order, int sweep, std::size_t i) {
     return {reach * (2.0 * thalweg::unit(words[0]) - 1.0), reach * (2.0 * thalweg::unit(words[1]) - 1.0)};
 }
 
-/// Takes the step, or the longest of some shorter ones that fits, if any.
+/// Takes the step, or the longest shortened one that fits, if any.
 void try_step(ForestLayout& layout, std::size_t i, Vec2 step) {
     double const length = norm(step);
     double const longest = longest_step * layout.spacing_m[i];
@@ -514,8 +517,8 @@ void try_step(ForestLayout& layout, std::size_t i, Vec2 step) {
     }
 }
 
-// Moves every free node once: towards the centres of the places nearest to it and to its links, towards a straight
-// course, tributaries upstream, and at random in the first sweeps. progress: [0, 1) of the sweeps of this order.
+// Moves every free node once: towards the centroids of the samples nearest to it and to its links, towards a straight
+// course, tributaries upstream, and randomly in the first sweeps. progress: [0, 1) of the sweeps of this order.
 void relax_nodes(ForestLayout& layout, int order, int sweep, double progress) {
     std::vector<Vec2> pull(layout.links);
     for (std::size_t tree = 0; tree < layout.forest.shares.size(); ++tree) {
@@ -533,7 +536,7 @@ void relax_nodes(ForestLayout& layout, int order, int sweep, double progress) {
     }
 }
 
-// Sweeps after each order. The lowest comes last and holds most of the links; no other stream is placed by its courses.
+// Sweeps per order. The lowest order has most of the links and comes last; no other stream depends on its courses.
 constexpr int sweeps_of_an_order = 60;
 constexpr int sweeps_of_the_last = 40;
 

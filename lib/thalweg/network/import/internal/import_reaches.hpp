@@ -10,12 +10,12 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
-/// Pieces as a graph of reaches, and the score of every root that its components could have:
+/// Pieces as a graph of reaches, and the score of every possible root of its components:
 /// docs/algorithms/river_directions.md.
 namespace thalweg::network::import_steps {
 
-/// The pieces between two places where not just two of them meet, or where water may leave. Which end is `from` follows
-/// from the positions alone, so that nothing here depends on how lines are drawn or in which order.
+/// The pieces between two nodes where not exactly two of them meet, or where water may leave. Which end is `from`
+/// follows from the positions alone, so that nothing depends on the order or direction of lines.
 struct Reach {
     struct Step {
         PieceId piece;
@@ -35,20 +35,20 @@ struct Way {
     int sign; ///< 1 at its `from`
 };
 
-/// Reaches that hang together.
+/// Connected reaches.
 struct ReachGroup {
     std::vector<std::size_t> nodes; ///< by position
     std::vector<std::size_t> reaches;
     double length_m = 0.0;
 };
 
-/// The graph of the reaches; closed rings are left aside.
+/// The graph of the reaches, without closed rings.
 struct ReachGraph {
     std::vector<Reach> reaches;
     std::vector<std::vector<Way>> at; ///< by node of Pieces; empty inside reaches
-    std::vector<char> is_outlet;      ///< by node: likely one, by the border of file or DEM or by what the file says
-    std::vector<char> is_bridge;      ///< by reach: without it its group falls apart
-    std::vector<std::size_t> block;   ///< by node: parts that hang together without bridges
+    std::vector<char> is_outlet;      ///< by node: a likely outlet, by the border of file or DEM or by the file's data
+    std::vector<char> is_bridge;      ///< by reach: its group is disconnected without it
+    std::vector<std::size_t> block;   ///< by node: parts connected without bridges
     std::vector<std::vector<std::size_t>> block_nodes;
     std::vector<ReachGroup> groups;
     double median_m = 0.0;  ///< length of a reach
@@ -62,41 +62,41 @@ ReachGraph reaches_of(Pieces const& p, std::vector<RiverLine> const& lines, Vote
 /// The point at a distance [m] along a line, its end beyond.
 Vec2 point_along(std::vector<Vec2> const& line, double along_m);
 
-/// A node that a group could drain to, and what speaks for it. Scores are logarithms of odds.
+/// A possible root of a group, with its scores: logarithms of odds.
 struct Root {
     std::size_t node;
-    double shape;   ///< angles, borders, free land ahead
-    double climb;   ///< of a DEM, <= 0
-    double drawn;   ///< reaches drawn towards it, less those drawn away; of bridges
-    double certain; ///< likewise, of what the file says
+    double shape;   ///< angles, borders, free area ahead
+    double climb;   ///< from a DEM, <= 0
+    double drawn;   ///< reaches drawn towards it minus those drawn away; bridges only
+    double certain; ///< the same by the file's certain directions
     double geometry() const { return shape + climb; }
 };
 
-/// Scores roots, and turns groups towards them.
+/// Scores roots, and directs groups towards them.
 class RootScores {
 public:
     /// dem: null without one.
     RootScores(Pieces const& p, std::vector<RiverLine> const& lines, ReachGraph const& graph, Votes const& certain,
                Raster<float> const* dem);
-    /// Every end of a group and every likely outlet, by position; where it has none, the nodes
+    /// The candidate roots: every end of a group and every likely outlet, by position; if there are none, the nodes
     /// nearest to its own border.
     std::vector<Root> of(ReachGroup const& group);
     struct Ways {
-        std::vector<std::size_t> down; ///< by node: reach that it leaves by; none at the root
-        std::vector<double> way_m;     ///< by node: to the root
+        std::vector<std::size_t> down; ///< by node: reach by which it is left; none: the root
+        std::vector<double> way_m;     ///< by node: distance to the root
     };
-    /// The shortest ways to a root, for the nodes of its group; others are left as they are.
+    /// Finds the shortest paths to a root, for the nodes of its group; other nodes are unchanged.
     void ways_to(std::size_t root, Ways& ways) const;
-    /// How far a second outlet of a tree would raise the score, and where it would be; gain < 0 where there is none.
+    /// The gain in score of a second outlet of a tree, and its position; gain < 0: there is none.
     struct Second {
         double gain;
         std::size_t outlet;
     };
     Second second_outlet(ReachGroup const& group, std::size_t root, double drawn_weight);
 
-    /// Likewise of what the file says.
+    /// The same by the file's certain directions.
     std::vector<double> const& certain() const { return certain_; }
-    /// By reach [-1, 1]: the share drawn from `from` to `to`, less that drawn back.
+    /// By reach [-1, 1]: the share drawn from `from` to `to` minus the share drawn back.
     std::vector<double> const& drawn() const { return drawn_; }
 
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -125,13 +125,13 @@ private:
     Pieces const& p_;
     ReachGraph const& graph_;
     std::vector<double> border_m_;
-    std::vector<std::vector<double>> angle_; ///< by node, by way
-    std::vector<double> rise_m_;             ///< by reach: from `from` to `to` by the DEM
+    std::vector<std::vector<double>> angle_; ///< by node, by branch
+    std::vector<double> rise_m_;             ///< by reach: from `from` to `to` in the DEM
     std::vector<double> drawn_;              ///< by reach [-1, 1]
-    std::vector<double> certain_;            ///< likewise
-    std::vector<std::size_t> exits_;         ///< by block: bridges that touch it
+    std::vector<double> certain_;            ///< by reach [-1, 1]
+    std::vector<std::size_t> exits_;         ///< by block: number of bridges that touch it
     std::vector<std::size_t> block_reaches_; ///< by block
-    std::vector<char> known_;                ///< by node: inside_ is
+    std::vector<char> known_;                ///< by node: whether inside_ is computed
     std::vector<Sums> inside_;
     struct Sample {
         std::int64_t col;
@@ -142,7 +142,7 @@ private:
     std::vector<Sample> samples_; ///< along reaches, by col, then row
     Ways scratch_;
     std::vector<std::size_t> reached_;
-    std::vector<Second> above_; ///< by node: the best end above it, were its water cut off below
+    std::vector<Second> above_; ///< by node: the best outlet upstream if its water were cut off downstream
 };
 
 } // namespace thalweg::network::import_steps

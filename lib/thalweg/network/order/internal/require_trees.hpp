@@ -8,10 +8,11 @@
 
 namespace thalweg::network {
 
-/// Makes sure of the law of a StreamNetwork before a stage relies on it.
-/// Takes: a network and its index; who: the stage that asks ("network.order"), for the message.
-/// Throws: BadInput, naming a node's or an arc's place: a node with two arcs leaving it, a cycle, a coordinate that is
-/// not a number.
+/// Checks that a network is a forest before a stage relies on it.
+/// \param network any
+/// \param who "network.order", for the message
+/// \throws BadInput naming the position of a node with two outflowing arcs, of a cycle, or of a coordinate that is not
+/// a number
 void require_trees(StreamNetwork const& network, std::string_view who);
 
 } // namespace thalweg::network

@@ -23,7 +23,7 @@ double squared_distance(Segment const& s, Segment const& t);
 /// Square of the distance of a point to a segment [m2].
 double squared_distance(Vec2 p, Segment const& s);
 
-/// Segments by the cells of a grid they run through, to find those near another; segments may be moved.
+/// An index of segments by the grid cells they pass through; segments may be moved.
 class SegmentGrid {
 public:
     /// Covers the box from low to high; numbers of segments lie in [0, count).
@@ -34,7 +34,7 @@ public:
     bool holds(std::size_t number) const { return held_[number] != 0; }
     Segment const& operator[](std::size_t number) const { return segments_[number]; }
 
-    /// Calls visit(number) once for each segment that may come within margin_m of s, until it returns false.
+    /// Calls visit(number) once for each segment that may be within margin_m of s, until it returns false.
     template <typename Visit> bool near(Segment const& s, double margin_m, Visit const& visit) const {
         Span const span = span_of(s, margin_m);
         ++stamp_;

@@ -8,24 +8,24 @@
 
 #include <thalweg/core/stream_network.hpp>
 
-/// What pruning and shortening share.
+/// Common to pruning and shortening.
 namespace thalweg::network {
 
-/// Which nodes of one arc in and one out are merged.
+/// Which nodes with one arc in and one out are merged.
 enum class Merge : std::uint8_t {
     all,
-    new_ones ///< those that had more arcs
+    new_ones ///< only nodes that had more arcs
 };
 
-/// Some arcs of a network.
+/// A selection of a network's arcs.
 struct KeptArcs {
     NetworkDraft network;
-    std::vector<std::vector<std::size_t>> pieces; ///< by arc: the arcs it was made of, by number, downstream
+    std::vector<std::vector<std::size_t>> pieces; ///< by arc: numbers of the arcs it consists of, downstream
 };
 
-/// The arcs kept, merged where two are left at a node; numbers of arcs and nodes keep their order.
-/// Takes: a network and its index; by arc a length and whether it is kept (1), with all below it. Gives: a merged arc
-/// has the feature and type of its longest piece, and what else belongs to its first.
+/// Keeps some arcs and merges those left in pairs at a node; arcs and nodes keep their order. lengths: by arc; kept: 1:
+/// the arc and everything downstream are kept. A merged arc has the feature and type of its longest piece, and the
+/// other attributes of its first.
 KeptArcs keep_arcs(StreamNetwork const& network, std::vector<std::int64_t> const& lengths,
                    std::vector<std::uint8_t> const& kept, Merge merge = Merge::all);
 

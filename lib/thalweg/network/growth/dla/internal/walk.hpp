@@ -18,7 +18,7 @@
 
 namespace thalweg::network {
 
-/// A place on the lattice, counted from the seed of the cluster: x to the east, y to the south.
+/// A lattice position relative to the seed of the cluster: x to the east, y to the south.
 struct Site {
     std::int32_t x = 0;
     std::int32_t y = 0;
@@ -30,16 +30,17 @@ inline std::int64_t squared(Site s) {
     return std::int64_t{s.x} * s.x + std::int64_t{s.y} * s.y;
 }
 
-/// Distance to the seed in the greater of the two directions.
+/// Chebyshev distance to the seed.
 inline std::int32_t chebyshev(Site s) {
     return std::max(std::abs(s.x), std::abs(s.y));
 }
 
-/// Where walkers start around a cluster, and from where they are taken back. The line of no return is a square, so that
-/// the squares a walker leaves can share a side with it.
+/// Where walkers start around a cluster, and where they are relocated. The outer limit is a square, so that the free
+/// squares of walkers can share a side with it.
 struct LaunchCircle {
-    double birth = 0.0;   ///< [cells] radius of the cluster + 4
-    std::int32_t far = 0; ///< [cells] the larger of 1.5 birth and birth + 24: walkers with max(|x|,|y|) = far are lost
+    double birth = 0.0; ///< [cells] launch radius: radius of the cluster + 4
+    /// [cells] the larger of 1.5 birth and birth + 24: walkers with max(|x|,|y|) = far are relocated
+    std::int32_t far = 0;
 
     bool lost(Site s) const { return chebyshev(s) >= far; }
 };
@@ -47,16 +48,16 @@ struct LaunchCircle {
 /// The circle around a cluster of this radius [cells].
 LaunchCircle launch_circle(double cluster_radius);
 
-/// A uniform site of the birth circle, rounded to the lattice.
+/// A uniform site of the launch circle, rounded to the lattice.
 Site born(LaunchCircle const& circle, RandomStream& random);
 
-/// Where a walk from `from`, outside, first meets the birth circle, rounded to the lattice. In the plane the hitting
+/// Where a walk from `from`, outside, first hits the launch circle, rounded to the lattice. In the plane the hitting
 /// law is the exterior Poisson kernel (exact for Brownian motion, on the lattice up to terms of order 1/gap^2); it is
 /// drawn as the image of a uniform point w under the Moebius map (w + a) / (1 + conj(a) w), a = birth/conj(from).
 Site back_from_afar(LaunchCircle const& circle, Site from, RandomStream& random);
 
-/// One byte a site on a square around the seed, 0 at first, kept in tiles of 16 x 16 sites so that neighbours above and
-/// below lie on the same page. Memory the walk never reaches is never touched.
+/// One byte per site on a square around the seed, initially 0, stored in tiles of 16 x 16 sites so that vertical
+/// neighbours share a page. Memory that the walk never reaches is never touched.
 class TiledBytes {
 public:
     static constexpr std::int32_t tile = 16;
@@ -85,7 +86,7 @@ public:
         return bytes_.get() + (row * across_ + col) * tile * tile;
     }
 
-    /// Widens the square; what stands in it stays where it is.
+    /// Enlarges the square; its content stays in place.
     void widen(std::int32_t half) {
         TiledBytes wider(half);
         auto const shift = static_cast<std::size_t>((half - half_) / tile);
@@ -111,28 +112,28 @@ private:
     std::unique_ptr<std::uint8_t[], Free> bytes_;
 };
 
-/// How large a square around a site is free of the cluster: the Chebyshev distance to the nearest occupied site, capped
-/// at 16, and the same on blocks of 16 x 16 sites and on blocks of 256 x 256.
+/// The size of the free square around a site: the Chebyshev distance to the nearest occupied site, capped at 16, and
+/// the same on blocks of 16 x 16 and of 256 x 256 sites.
 class FreeSquares {
 public:
     FreeSquares();
 
-    /// Makes room for a cluster of this radius [cells] around the seed.
+    /// Allocates space for a cluster of this radius [cells] around the seed.
     void reach(std::int32_t radius);
 
-    /// The cluster and its neighbours lie in the square -half <= x, y < half; free_half takes sites of a square twice
+    /// The cluster and its neighbours lie in the square -half <= x, y < half; free_half accepts sites of a square twice
     /// as wide.
     std::int32_t half() const { return near_.half(); }
 
-    /// Occupies a site within reach.
+    /// Occupies a site in the square.
     void occupy(Site site);
 
     bool occupied(Site site) const { return near_[site] == at_hand; }
 
-    /// Largest known L with every site of the square max(|dx|,|dy|) <= L free; 0 beside and diagonally beside the
-    /// cluster. At the boundary of the square the cluster may be next door; inside it never is.
+    /// Largest known L for which every site of the square max(|dx|,|dy|) <= L is free; 0 beside and diagonally beside
+    /// the cluster. The cluster may touch the boundary of the square, but is never inside.
     std::int32_t free_half(Site site) const {
-        // The coarse levels fit the cache, so they are asked first; and far from the cluster they are all there is.
+        // The coarse levels fit the cache, so they are checked first; far from the cluster they suffice.
         auto const x = static_cast<std::size_t>(site.x + 2 * half());
         auto const y = static_cast<std::size_t>(site.y + 2 * half());
         std::int32_t const blocks = at_hand - blocks_.at(x / 16, y / 16);
@@ -152,7 +153,7 @@ private:
         return static_cast<std::int32_t>(std::min(std::min(x, last - x), std::min(y, last - y)));
     }
 
-    static constexpr std::int32_t at_hand = 16; ///< closeness of an occupied site: 16 - distance, 0 from 16 on
+    static constexpr std::int32_t at_hand = 16; ///< closeness of an occupied site is 16 - distance, 0 from 16 on
 
     /// Closeness on a square of blocks, row by row.
     struct Blocks {
@@ -181,8 +182,8 @@ private:
 /// half: [1, ...] L. Source: McCrea and Whipple 1940, Proc. R. Soc. Edinburgh 60.
 std::vector<double> exit_probabilities(int half);
 
-/// The law above as alias tables (Walker 1977), for the half sides 1 ... 31, 32 ... 248 in steps of
-/// 8, 256 ... 960 in steps of 64 and 1024 ... 3840 in steps of 256.
+/// The law above as alias tables (Walker 1977), for the half sides 1 ... 31, 32 ... 248 in steps of 8, 256 ... 960 in
+/// steps of 64 and 1024 ... 3840 in steps of 256.
 class ExitLaw {
 public:
     struct Offset {
@@ -190,10 +191,10 @@ public:
         std::int32_t y;
     };
 
-    /// Makes the tables of all half sides up to this one.
+    /// Builds the tables of all half sides up to this one.
     void prepare(int longest);
 
-    /// Leaves the largest square that has a table and a half side of at most `free`; [1, ...].
+    /// Jumps out of the largest square that has a table and a half side of at most `free`; [1, ...].
     Offset leave(int free, RandomStream& random) const {
         Table const& table = tables_[slot(free < longest_ ? free : longest_)];
         std::uint64_t const word = random.word();
@@ -205,7 +206,7 @@ public:
         return (word & 4) != 0 ? Offset{side, shift} : Offset{shift, side};
     }
 
-    /// Half side of the square that leave(free) takes.
+    /// Half side of the square used by leave(free).
     int half_side(int free) const { return static_cast<int>(tables_[slot(free < longest_ ? free : longest_)].half); }
 
 private:
@@ -214,7 +215,7 @@ private:
 
     struct Table {
         std::uint64_t half = 0;
-        std::vector<std::uint64_t> entries; ///< by |offset|: 52 bits of the share it keeps, 12 bits of its alias
+        std::vector<std::uint64_t> entries; ///< by |offset|: 52 bits of its probability, 12 bits of its alias
     };
 
     static std::size_t slot(int free) {
@@ -223,8 +224,8 @@ private:
     }
     static Table make_table(int half);
 
-    std::array<Table, 84> tables_; ///< by slot; slot 0 stays empty
-    int longest_ = 0;              ///< tables stand for every half side up to it
+    std::array<Table, 84> tables_; ///< by slot; slot 0 is unused
+    int longest_ = 0;              ///< tables exist for every half side up to this
 };
 
 /// The four neighbours of a site: north, east, south, west.
@@ -234,21 +235,21 @@ inline Site neighbour(Site s, unsigned direction) {
     return {s.x + neighbour_offsets[direction].x, s.y + neighbour_offsets[direction].y};
 }
 
-/// One random walker and its own chance.
+/// A random walker with its own random stream.
 struct Walker {
     Site at;
     RandomStream random;
 };
 
-/// The walker with this number, not yet born.
+/// The walker with this number, not yet launched.
 Walker walker(std::uint64_t seed, std::int64_t number);
 
-/// The simple random walk of the lattice around a cluster, without its unit steps in empty space: a walker jumps to the
-/// boundary of the largest square known to be free by that square's exit law. Law: the sites at which walkers arrive
-/// next to the cluster have the distribution of the walk by unit steps between the same birth circles.
+/// The simple random walk of the lattice around a cluster, without unit steps in empty space: a walker jumps to the
+/// boundary of the largest known free square by that square's exit law. Law: the sites at which walkers arrive beside
+/// the cluster are distributed as for a walk by unit steps from the same launch circles.
 class Walk {
 public:
-    /// Occupies a site: the cluster grows by it.
+    /// Occupies a site: the cluster grows.
     void occupy(Site site);
 
     double radius() const { return radius_; } ///< [cells] of the cluster
@@ -257,14 +258,14 @@ public:
         return squares_.half();
     } ///< the cluster and its neighbours lie in -half <= x, y < half
 
-    /// Puts a walker on the birth circle.
+    /// Places a walker on the launch circle.
     void release(Walker& walker) const { walker.at = born(circle_, walker.random); }
 
-    /// Walks until the walker stands on a free site with an occupied neighbour; there it may be already.
-    /// Gives: the occupied neighbours, bit d for direction d.
+    /// Walks until the walker is on a free site with an occupied neighbour; it may already be on one.
+    /// \return the occupied neighbours, bit d for direction d
     unsigned approach(Walker& walker) const;
 
-    /// One step to a free neighbour, each as likely.
+    /// One step to a free neighbour, all equally likely.
     void step(Walker& walker) const;
 
 private:
@@ -276,10 +277,13 @@ private:
     double radius_ = 0.0;
 };
 
-/// Where walkers first arrive on a cluster that does not grow: the hit distribution, to be held against unit steps.
-/// Takes: the occupied cells, (0,0) the centre of the birth circle.
-/// Gives: one free cell with an occupied 4-neighbour for each of the walkers 0, 1, ... of this seed.
-/// Throws: BadInput when no cell is occupied or one lies more than 2^20 cells from the centre; Cancelled.
+/// Samples where walkers first arrive on a cluster that does not grow, to compare the hit distribution with that of
+/// unit steps.
+/// \param cluster occupied cells; (0,0) is the centre of the launch circle
+/// \param walkers number of walkers
+/// \param seed random seed
+/// \return by walker: a free cell with an occupied 4-neighbour
+/// \throws BadInput when no cell is occupied or one is more than 2^20 cells from the centre
 std::vector<Cell> first_arrivals(std::span<Cell const> cluster, std::int64_t walkers, std::uint64_t seed,
                                  Run const& run = {});
 

@@ -16,79 +16,84 @@
 
 namespace thalweg::network {
 
-/// Area of a ring [m2], whichever way it runs.
+/// Area of a ring [m2] of either orientation.
 double area_of(std::vector<Vec2> const& ring);
 
-/// Middle of a ring's vertices [m], weighted by the area.
+/// Area-weighted centroid of a ring [m].
 Vec2 centroid_of(std::vector<Vec2> const& ring);
 
-/// Whether a place lies inside a ring (even-odd rule; on the ring itself either answer may come).
+/// Whether a position lies inside a ring (even-odd rule; on the ring itself either answer is possible).
 bool contains(std::vector<Vec2> const& ring, Vec2 p);
 
 /// The sides of a ring.
 std::vector<Segment> sides_of(std::vector<Vec2> const& ring);
 
-/// The places of a square lattice of this width that lie inside a ring, row by row.
+/// The nodes of a square lattice of this spacing that lie inside a ring, row by row.
 std::vector<Vec2> lattice_in(std::vector<Vec2> const& ring, double width_m);
 
-/// A link that wants a place; its node is its upper end.
+/// A link to be placed; its node is its upper end.
 struct ForestLink {
-    LinkId down = -1;           ///< the link it flows into, a lower number; -1: it ends in the mouth of its tree
-    int order = 1;              ///< of its stream: the higher are placed first
+    LinkId down = -1;           ///< the link downstream, a lower number; -1: it ends in the mouth of its tree
+    int order = 1;              ///< of its stream: higher orders are placed first
     int turn = 0;               ///< as in TreeLink
-    std::size_t tree = 0;       ///< to whose land it belongs
-    std::optional<Vec2> pinned; ///< where its node must lie, with all of its stream's
+    std::size_t tree = 0;       ///< the tree it belongs to
+    std::optional<Vec2> pinned; ///< prescribed position of its node, as for all links of its stream
 };
 
-/// Land that one tree shall fill.
+/// The area that one tree fills.
 struct ForestShare {
     Vec2 mouth;                                      ///< where a link of the tree with down = -1 ends
-    Vec2 far;                                        ///< where its trunk shall begin, about
+    Vec2 far;                                        ///< approximate upper end of its trunk
     double area_m2 = 0.0;                            ///< [m2] > 0
-    std::function<std::vector<Vec2>(double)> sample; ///< places of a lattice of this width [m] that lie in it
+    std::function<std::vector<Vec2>(double)> sample; ///< nodes of a lattice of this spacing [m] inside the area
 };
 
 struct Forest {
     Indexed<LinkId, ForestLink> links;
     std::vector<ForestShare> shares;  ///< by tree
-    std::vector<Segment> walls;       ///< that no link may come near, but those at the mouths
-    std::function<bool(Vec2)> inside; ///< the land of all
+    std::vector<Segment> walls;       ///< that links keep clear of, except those at the mouths
+    std::function<bool(Vec2)> inside; ///< the area of all trees
     std::uint64_t seed = 7;
-    double clearance = 0.35;    ///< share of a link's length
+    double clearance = 0.35;    ///< relative to a link's length
     double min_spacing_m = 0.0; ///< [m]
 };
 
-/// Gives every link of a forest a place, streams of the highest order first, and spreads the nodes evenly.
-/// Takes: binary trees of links and the land each shall fill. After each order the nodes move towards the centres of
-/// the places nearest to them (Lloyd 1982) and towards a course without bends; a move that would bring links nearer to
-/// one another than the clearance, or across, is not made.
-/// Gives: by link the place of its upper end. No two links cross; few are nearer to others than the clearance.
-/// Throws: Cancelled. Source: specification 3.2, order first.
+/// Places every link of a forest, streams of the highest order first, and spreads the nodes evenly. After each order
+/// the nodes move towards the centroids of the positions nearest to them (Lloyd 1982) and towards a straight course;
+/// moves that would bring links closer than the clearance, or across one another, are not made.
+/// \param forest binary trees of links, and the areas they fill
+/// \return by link: position of its upper end. No two links cross; few are closer to others than the clearance.
+///
+/// Source: specification 3.2, order first.
 std::vector<Vec2> spread_forest(Forest const& forest, Run const& run = {});
 
 /// Links that keep clear of one another.
 struct SettledLinks {
-    Indexed<LinkId, Vec2> at;            ///< by link: the place of its node, in multiples of 1e-6 m
-    Indexed<LinkId, std::uint8_t> stays; ///< by link: 1 where there was room for it
+    Indexed<LinkId, Vec2> at;            ///< by link: position of its node, in multiples of 1e-6 m
+    Indexed<LinkId, std::uint8_t> stays; ///< by link: 1: placed
 };
 
-/// Lets links stay that keep clear of one another, pinned ones first, then streams of the highest order, and finds
-/// other places for the nodes of those that do not. Takes: a forest and the place wanted for each link's node. A link
-/// that has no room there tries 24 headings and lengths down to a twentieth, the nearest to its wanted place first.
-/// Gives: a link that stays is clear of every other that stays and shares no node with it by clearance * the shorter
-/// one's length and by min_spacing_m, meets its neighbours at 20 degrees at least and touches no wall; one whose
-/// place is pinned may touch a wall, and of two such it is asked only that they do not meet, and an angle of 1 degree.
-/// The link it flows into stays. Source: specification 3.2.
+/// Selects links that keep clear of one another, prescribed ones first, then streams of the highest order, and
+/// relocates the nodes of the others. A link without space at its wanted position tries 24 headings and lengths down to
+/// a twentieth, the nearest to its wanted position first.
+/// \param forest the links
+/// \param wanted by link: wanted position of its node
+/// \return a placed link keeps clearance * the shorter length, and min_spacing_m, from every other placed link without
+/// a common node, meets its neighbours at 20 degrees or more and touches no wall. A link with a prescribed position may
+/// touch a wall; two such links must only not meet, at an angle of at least 1 degree. The link downstream of a placed
+/// link is placed.
+///
+/// Source: specification 3.2.
 SettledLinks settle_links(Forest const& forest, std::vector<Vec2> wanted);
 
-/// A network of the links that stay.
+/// A network of the placed links.
 struct KeptNetwork {
     NetworkDraft network;                          ///< its arcs run between sources, confluences and outlets
     std::vector<std::vector<LinkId>> links_of_arc; ///< by arc number, upstream first
 };
 
-/// Makes a network of links: one arc of those between which no other link enters.
-/// Gives: arcs in the order of their lowest link.
+/// Makes a network of links: joins links between which no other link enters into one arc.
+/// \return arcs in the order of their lowest link
 KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
                        Indexed<LinkId, std::uint8_t> const& stays);
 
