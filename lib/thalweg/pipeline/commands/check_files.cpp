@@ -30,12 +30,11 @@
 namespace thalweg::pipeline {
 namespace {
 
-// Rasters beside a network, of which cells above 0 count; "" for none. Those on another grid than the DEM's are passed
-// over.
+// Rasters beside a network; cells above 0 count; "": none. Those on another grid than the DEM's are ignored.
 struct RiverRasters {
     std::string drawn = {}; // cells into which rivers were drawn
     std::string lakes = {}; // cells of lakes
-    bool waive = false;     // only drawn cells are to be honoured: patches took the place of others
+    bool waive = false;     // only drawn cells are honoured: patches replaced others
 };
 
 // A DEM.
@@ -44,7 +43,7 @@ struct DemFile {
     std::optional<double> nodata = {}; // as in io::ReadDemParams
 };
 
-/// By reach, the contributing area the file gives its lower end.
+/// By reach: the contributing area that the file gives for its lower end.
 std::vector<double> areas_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches) {
     std::unordered_map<std::int64_t, double> by_id;
     for (NetworkFile::FileArc const& arc : file.arcs) {
@@ -58,7 +57,7 @@ std::vector<double> areas_of(NetworkFile const& file, std::vector<flow::Reach> c
     return areas;
 }
 
-/// The cells of a raster above 0; without cells where there is none on this grid.
+/// The cells of a raster above 0; without cells if there is no raster on this grid.
 Mask cells_in(std::string const& raster, Grid const& grid) {
     if (raster.empty()) {
         return {};
@@ -74,15 +73,15 @@ Mask cells_in(std::string const& raster, Grid const& grid) {
     return cells;
 }
 
-// The drainage certificate of a DEM file and a network, anyone's. Parts of the network beside the DEM are findings
-// (outside_dem), and do not count otherwise. Parts of rivers that are drawn level stand as lakes do; nodes of the kind
-// "sink" end their rivers. Throws: BadInput when a raster cannot be read, the network and the DEM have different CRS or
-// only one has any, or no arc lies on the DEM; what reaches_of_file throws for a network without direction; IoError.
+// Certifies a DEM file along any network. Parts of the network off the DEM are findings (outside_dem) and do not count
+// otherwise. Level parts of rivers count as lakes; nodes of the kind "sink" end their rivers. Throws BadInput when a
+// raster cannot be read, the network and the DEM have different CRS or only one has any, or no arc lies on the DEM; as
+// reaches_of_file for a network without directions; IoError.
 measure::Certificate certify_files(NetworkFile const& network, DemFile const& file, RiverRasters const& rasters = {},
                                    Run const& run = {}) {
     std::string const& dem = file.path;
     Raster<float> const land =
-        io::read_stored_dem(dem, {.nodata = file.nodata}, run); // in feet or metres its water runs alike
+        io::read_stored_dem(dem, {.nodata = file.nodata}, run); // the unit does not change the flow
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
         std::string const lines = network.crs.substr(0, 60);
         throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
@@ -108,7 +107,7 @@ measure::Certificate certify_files(NetworkFile const& network, DemFile const& fi
 
 namespace fs = std::filesystem;
 
-/// A file to be written, or the files of two shapefiles, which appear together.
+/// An output file, or the files of two shapefiles, created together.
 class CheckOutput {
 public:
     CheckOutput(std::string const& path, char const* option, bool may_be_shapefile, CheckJob const& job)
@@ -135,7 +134,8 @@ public:
 
     bool is_shapefile() const { return names_.size() > 1; }
 
-    /// Calls write(path), of a shapefile without its ending; then puts what it wrote in place. Gives what is there now.
+    /// Calls write(path), for a shapefile without its extension, then moves the files into place.
+    /// \return their paths
     template <class Write> std::vector<std::string> put(Write const& write) const {
         io::OutputFolder folder(folder_, fs::exists(folder_) ? io::Existing::add : io::Existing::refuse, present_);
         write(folder.path(is_shapefile() ? stem_ : names_.front()));
@@ -171,7 +171,7 @@ private:
             present_.push_back(name);
         }
     }
-    /// Of a network: arcs and nodes are two files of one.
+    /// For a network: arcs and nodes are two files with a common stem.
     static std::string stem_of(fs::path const& file) {
         std::string stem = file.stem().string();
         for (std::string const layer : {"_arcs", "_nodes"}) {
@@ -218,7 +218,7 @@ void write_copy(MendedNetwork const& mended, NetworkFile const& file, CheckOutpu
     }));
 }
 
-/// What a folder that make wrote tells about its rivers in rasters; nothing of other networks.
+/// The rasters that a folder written by make has for its rivers; none for other networks.
 RiverRasters rasters_beside(std::string const& network) {
     auto const beside = [&](char const* name) {
         std::string const path = (fs::path(network) / name).string();
@@ -232,13 +232,13 @@ RiverRasters rasters_beside(std::string const& network) {
     RiverRasters rasters{beside("network.tif"), beside("lakes.tif"), false};
     try {
         rasters.waive = replaces_rivers(read_recipe(io::read_text(recipe, 2 << 20), recipe));
-    } catch (Error const&) { // not a recipe of ours: every cell counts
+    } catch (Error const&) { // not our recipe: every cell counts
         return {};
     }
     return rasters;
 }
 
-/// Whether it is plain where each arc runs and what it runs into.
+/// Whether the direction and the receiver of each arc are unambiguous.
 bool has_direction(measure::TopologyReport const& topology) {
     return std::none_of(topology.findings.begin(), topology.findings.end(), [](Finding const& f) {
         return f.kind == "cycle" || f.kind == "duplicate_arc_id" || f.kind == "nan";

@@ -35,7 +35,7 @@ namespace {
 
 namespace fs = std::filesystem;
 
-/// A network with all that its tables need.
+/// A network with everything that its tables need.
 struct Ready {
     network::FileNetwork source;
     NetworkOrders orders;
@@ -43,7 +43,7 @@ struct Ready {
 };
 
 bool is_known(std::vector<double> const& areas) {
-    return std::ranges::all_of(areas, [](double a) { return a >= 0.0; }); // NaN and -1 are not
+    return std::ranges::all_of(areas, [](double a) { return a >= 0.0; }); // NaN and -1 fail the test
 }
 
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
@@ -54,7 +54,7 @@ Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run 
     return dem;
 }
 
-/// What the source does not say: heights, areas.
+/// Adds what the source lacks: heights, areas.
 void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, Converted& converted, Run const& run) {
     network::FileNetwork& source = ready.source;
     if (!file.says.heights) {
@@ -99,7 +99,7 @@ void split(Ready& ready, ConvertParams const& params, Converted& converted, Run 
     ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
 }
 
-/// The grid of a mask: that of the DEM, or around the network.
+/// The grid of a mask: the DEM's, or one around the network.
 Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<float> const* dem, std::string const& crs) {
     if (dem != nullptr) {
         return dem->grid();
@@ -118,7 +118,7 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
     return frame_lines(lines, wanted);
 }
 
-/// A name of which the files of one network differ by their endings: NAME of NAME_arcs.dbf.
+/// The stem common to the files of one network: NAME of NAME_arcs.dbf.
 std::string common_name(fs::path const& file) {
     std::string const stem = file.stem().string();
     for (std::string const layer : {"_arcs", "_nodes"}) {
@@ -129,8 +129,8 @@ std::string common_name(fs::path const& file) {
     return stem;
 }
 
-/// Whether a file that is there may belong to the network that is read. It is not asked of GDAL: opening some formats
-/// leaves files beside them.
+/// Whether an existing file may belong to the network being read. Decided without GDAL: opening some formats leaves
+/// files beside them.
 bool may_be_read(fs::path const& file, fs::path const& source) {
     std::error_code ignored;
     if (!fs::exists(file, ignored) || !fs::exists(source, ignored)) { // or it is a database
@@ -150,7 +150,7 @@ bool may_be_read(fs::path const& file, fs::path const& source) {
             kind(file) == kind(source));
 }
 
-/// Throws BadInput where an output would replace what is read.
+/// Throws BadInput if an output would replace the input.
 void require_other(std::vector<std::string> const& files, fs::path const& folder, std::string const& source) {
     for (std::string const& file : files) {
         if (may_be_read(folder / file, source)) {
@@ -190,7 +190,7 @@ public:
 
     bool is_mask() const { return !database_ && write_.format == io::NetworkFormat::mask; }
 
-    /// Which columns of the user have other names there.
+    /// Reports the user's columns that are renamed.
     void say_shortened(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
         if (!database_ && write_.format == io::NetworkFormat::shapefile) {
             for (io::ShortenedName const& one : io::shortened_names(tables, params_.schema)) {

@@ -29,10 +29,10 @@ namespace {
 
 struct SceneRead {
     Scene scene;
-    std::vector<std::string> notes; // what was changed or chosen for the pictures, in words
+    std::vector<std::string> notes; // changes and choices for the pictures, as sentences
 };
 
-// A folder that make left, or a raster of heights.
+// A folder written by make, or a raster of heights.
 struct SceneSource {
     std::string path;
     std::optional<double> nodata = {}; // as in io::ReadDrawableParams
@@ -42,7 +42,7 @@ namespace fs = std::filesystem;
 
 constexpr std::int64_t largest_text = 1 << 30;
 
-/// A network as its own files hold it.
+/// Builds the network of thalweg's own file.
 ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
     ElevatedNetwork out;
     NetworkDraft plan;
@@ -73,7 +73,7 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
     return out;
 }
 
-/// Heights of a DEM along an arc; across holes they run straight on.
+/// Heights of a DEM along an arc; interpolated across holes.
 std::vector<double> draped(std::vector<Vec2> const& line, Raster<float> const& dem, double where_none) {
     std::vector<double> z(line.size());
     std::transform(line.begin(), line.end(), z.begin(), [&](Vec2 p) { return draw::height_at(dem, p); });
@@ -119,7 +119,7 @@ ElevatedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
     return out;
 }
 
-/// Rivers from any line file on a DEM; nothing when none runs there.
+/// Rivers from any line file on a DEM; nothing: none lies on it.
 std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string const& file,
                                          std::vector<std::string>& notes, Run const& run) {
     io::ReadRiversParams params;
@@ -139,7 +139,7 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
     if (!imported.arc_z.empty()) {
         try {
             return network::take_file_heights(imported, lines);
-        } catch (BadInput const&) { // they run uphill somewhere, or were cut away
+        } catch (BadInput const&) { // they run uphill somewhere, or were clipped
             notes.push_back(
                 fmt::format("heights of {} do not fall all the way: the rivers take those of the DEM", lines.name));
         }
@@ -147,7 +147,7 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
     return drape(std::move(imported.network), dem);
 }
 
-/// The increments of the surface: the recipe names them, the report says how many there were and how they were scaled.
+/// Reads the increments of the surface: the recipe names them, the report has their number and scale.
 void read_increments(Scene& scene, Recipe const& recipe, std::string const& report) {
     auto const json = nlohmann::json::parse(report, nullptr, false);
     auto const dem = json.is_object() && json.contains("dem") ? json["dem"] : nlohmann::json();
@@ -183,7 +183,7 @@ SceneRead read_folder(SceneSource const& source, std::string const& network, Run
     }
     if (fs::exists(dem)) {
         io::Drawable read = io::read_drawable(dem, {.metres = io::MetresOf::any_crs, .nodata = source.nodata},
-                                              run); // its maker's choice
+                                              run); // the choice of its maker
         scene.dem = std::move(read.dem);
         out.notes = std::move(read.notes);
     }
@@ -197,7 +197,7 @@ SceneRead read_folder(SceneSource const& source, std::string const& network, Run
     if (fs::exists(recipe)) {
         Recipe const made = read_recipe(io::read_text(recipe, 2 << 20), recipe);
         scene.title = title_of(made);
-        bool const in_metres = made.output.units == HeightUnit::metre; // as pictures are
+        bool const in_metres = made.output.units == HeightUnit::metre; // pictures are always in metres
         scene.contour_interval_m = in_metres ? made.output.contour_interval : 0.0;
         if (fs::exists(report)) {
             read_increments(scene, made, io::read_text(report, largest_text));
@@ -206,11 +206,11 @@ SceneRead read_folder(SceneSource const& source, std::string const& network, Run
     return out;
 }
 
-// Reads what can be drawn. source: a folder that make left (dem.tif, network.gpkg, recipe.toml, report.json, as far as
-// they are there) or a raster of heights (io::read_drawable). network: "" or a file of river lines, cut at the edge of
-// the DEM, adopted and ordered; their heights are the file's where these fall all the way, else those of the DEM.
-// Gives: the title from the recipe or the raster's name. Throws: BadInput: nothing to draw in the folder; what the
-// readers and network::adopt throw.
+// Reads everything that can be drawn. source: a folder written by make (dem.tif, network.gpkg, recipe.toml,
+// report.json, if present) or a raster of heights (io::read_drawable). network: "" or a file of river lines, clipped to
+// the DEM, imported and ordered, with the file's heights if these fall everywhere, else the DEM's. The title is from
+// the recipe or the raster's name. Throws BadInput when the folder contains nothing to draw; as the readers and
+// network::import_lines.
 SceneRead read_scene(SceneSource const& from, std::string const& network = {}, Run const& run = {}) {
     std::string const& source = from.path;
     SceneRead out;
@@ -274,17 +274,17 @@ NamedFormat format_of(std::string const& word) {
     unknown("format", word, known);
 }
 
-/// One file to be written: a picture, or without a kind the report page.
+/// An output file: a picture, or without a kind the report page.
 struct Task {
     std::optional<PictureKind> kind;
     draw::Format format = draw::Format::png;
     std::string name;
 };
 
-/// What is asked for, before anything is read.
+/// The requested output, determined before anything is read.
 struct Order {
     std::string folder;
-    std::string single; ///< the name of the one picture; "" for a folder of them
+    std::string single; ///< name of the single picture; "": a folder
     std::vector<PictureKind> kinds;
     std::vector<NamedFormat> formats;
     bool page = false;
@@ -367,7 +367,7 @@ std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
     return tasks;
 }
 
-/// A word as a shell takes it.
+/// Quotes a word for a shell.
 std::string for_shell(std::string const& word) {
     bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
                                                                "0123456789_./+:=@%-") == std::string::npos;

@@ -14,29 +14,28 @@ namespace thalweg::pipeline {
 
 /// Options of draw_files().
 struct DrawParams {
-    std::vector<std::string> what;     ///< names of kinds, or page; none takes all pictures that can be drawn
-    std::vector<std::string> formats;  ///< png, svg, pdf; none takes the ending of the output, else png
-    std::string network;               ///< file of river lines over a DEM; "" for none
-    std::string title;                 ///< "" takes the scene's own
+    std::vector<std::string> what;     ///< names of kinds, or page; empty: all pictures that can be drawn
+    std::vector<std::string> formats;  ///< png, svg, pdf; empty: the extension of the output, else png
+    std::string network;               ///< file of river lines over a DEM; "": none
+    std::string title;                 ///< "": the scene's own
     Look look;                         ///< its format is not used
     std::optional<double> nodata = {}; ///< of a raster, as in io::ReadDemParams
 };
 
 /// What draw_files() returns.
 struct Drawn {
-    std::vector<std::string> files; ///< as they were written, folder included
-    std::vector<std::string> notes; ///< what was changed or chosen, in words
+    std::vector<std::string> files; ///< paths, folder included
+    std::vector<std::string> notes; ///< changes and choices, as sentences
 };
 
-/// Draws pictures of a folder written by make, or of a raster, into files, whole or not at all.
-/// \param source the file or DEM to take from
-/// \param output a folder, which may hold other things, for WHAT.FORMAT each and page.html; or the name of one picture,
-/// ending in .png, .svg or .pdf, or of a report page, ending in .html
-/// \param existing under replace a picture file of the same name is replaced, and nothing else
+/// Draws pictures of a folder written by make, or of a raster. Each file is written completely or not at all.
+/// \param source the folder or DEM
+/// \param output a folder, which may have other content, for files WHAT.FORMAT and page.html; or the name of one
+/// picture, ending in .png, .svg or .pdf, or of a report page, ending in .html
+/// \param existing under replace, picture files of the same name are replaced, nothing else
 /// \return the files written
-/// \throws BadParameter an unknown kind or format (did you mean), several pictures for one name
-/// \throws BadInput a picture that cannot be drawn, a file that is there already; what read_scene and the pictures
-/// throw
+/// \throws BadParameter for an unknown kind or format (with a suggestion), or several pictures for one name
+/// \throws BadInput for a picture that cannot be drawn, or a file that exists already; as read_scene and the pictures
 Drawn draw_files(std::string const& source, std::string const& output, DrawParams const& params,
                  io::Existing existing = io::Existing::refuse, Run const& run = {});
 

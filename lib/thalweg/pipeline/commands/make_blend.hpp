@@ -12,39 +12,40 @@
 
 namespace thalweg::pipeline {
 
-/// Reads two DEMs and sets a patch of the one into the other: place_patch, then paste.
-/// \param params files
-/// \return as the stages do. A source in another CRS or with other cells is warped first, a window cut out of it
-/// before: into the target's CRS where both lie on the same part of the earth; else it is measured in its own CRS or,
-/// where that is not in metres, in its UTM zone. Of lines to keep those parts count that cross the target.
-/// \throws BadInput as the stages and doors do, also when keep is neither a raster nor lines, none of whose cells are
-/// the target's, or a target in degrees is asked to take a turned patch
+/// Reads two DEMs and pastes a patch of one into the other: place_patch, then paste. A source in another CRS or with
+/// other cells is warped first, after its window is cut out: to the target's CRS if both lie in the same part of the
+/// earth; otherwise it is measured in its own CRS or, if that is not in metres, in its UTM zone. Of lines to keep, the
+/// parts that cross the target count.
+/// \param params files and options
+/// \return as the stages
+/// \throws BadInput as the stages and readers; when keep is neither a raster nor lines, or has no cells on the target;
+/// when a rotated patch is pasted into a target in degrees
 MadeBlend make_blend(MakeBlendParams const& params, Run const& run = {});
 
 /// Options of make_blend_tin().
 struct MakeBlendTinParams {
-    std::string target = {};     ///< a mesh that read_tin reads
-    std::string source = {};     ///< the patch, another
-    std::optional<Vec2> at = {}; ///< [m] of the target: where the middle of the patch's box comes to lie
+    std::string target = {};     ///< the patch, another mesh
+    std::string source = {};     ///< [m] on the target: position of the centre of the patch's box
+    std::optional<Vec2> at = {}; ///< [-360, 360] counterclockwise about that centre
     double rotate_deg = 0.0;     ///< [-360, 360] counterclockwise about that middle
     double scale = 1.0;          ///< > 0, in plan
     double gain = 1.0;           ///< finite, of heights
-    std::string source_crs = {}; ///< of meshes that name none, projected, in metres; "" for none
+    std::string source_crs = {}; ///< of meshes without a CRS, projected, in metres; "": none
 };
 
-/// A blended mesh and how it came about.
+/// A blended mesh and its placement.
 struct MadeBlendTin {
     blend::FusedTin fused;
     std::string crs;
     PatchPlace place = PatchPlace::given;
-    Vec2 at; ///< [m] the middle of the patch's box
+    Vec2 at; ///< [m] centre of the patch's box
 };
 
-/// Reads two meshes and pastes the one into the other: moved, turned and scaled, then fuse_tin.
-/// \param params files. Without a place the patch stays at its own coordinates, bit for bit where it is neither turned
-/// nor scaled; where its box does not meet the target's it comes into the middle of the target's box
-/// \return the mesh, and what was done
-/// \throws BadInput as read_tin and fuse_tin do, meshes in two different CRS
+/// Reads two meshes and pastes one into the other: moved, rotated and scaled, then fuse_tin.
+/// \param params files and options. Without a position the patch keeps its coordinates, bit for bit if it is neither
+/// rotated nor scaled; if its box does not meet the target's, it is moved to the centre of the target's box
+/// \return the mesh, and its placement
+/// \throws BadInput as read_tin and fuse_tin, and for meshes in different CRS
 MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

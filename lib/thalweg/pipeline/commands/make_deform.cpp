@@ -39,7 +39,7 @@ blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
 
 namespace {
 
-/// Whether an odd number of a polygon's rings surrounds a place.
+/// Whether an odd number of a polygon's rings surrounds a position.
 bool surrounds(Polygon const& polygon, Vec2 p) {
     bool inside = false;
     for (std::vector<Vec2> const& ring : polygon.rings) {
@@ -78,7 +78,7 @@ std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Ve
     return static_cast<std::uint32_t>(best);
 }
 
-/// The CRS of a mesh that names none: its mask's; "" where that has none either.
+/// The CRS of a mesh without one: its mask's; "": neither has one.
 std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
     io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
     refuse_if<BadInput>(!mask.crs.empty() && !mask.in_metres,

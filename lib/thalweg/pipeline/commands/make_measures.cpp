@@ -37,7 +37,7 @@ constexpr char const* outlines = "catchments";
 
 struct Measured {
     std::string dem;
-    std::string network; ///< "" for none
+    std::string network; ///< "": none
 };
 
 Measured source_of(MakeMeasuresParams const& params) {
@@ -53,7 +53,7 @@ Measured source_of(MakeMeasuresParams const& params) {
     return source;
 }
 
-// Returns the measures that can be asked for: d8, dinf, directions, catchments.
+// The names of the measures: d8, dinf, directions, catchments.
 std::vector<std::string> measure_names() {
     return {d8, dinf, directions, outlines};
 }
@@ -78,7 +78,7 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
     return wanted;
 }
 
-/// Powers of two clockwise from the east, as most programs for water have D8 directions.
+/// Powers of two clockwise from the east: the D8 codes of most hydrology programs.
 Raster<std::uint8_t> d8_codes(Raster<flow::Direction> const& direction) {
     Raster<std::uint8_t> codes(direction.grid());
     for (std::int64_t i = 0; i < codes.cells(); ++i) {
@@ -89,7 +89,7 @@ Raster<std::uint8_t> d8_codes(Raster<flow::Direction> const& direction) {
     return codes;
 }
 
-/// Radians counterclockwise from the east, as Tarboton has D-infinity directions.
+/// Radians counterclockwise from the east: Tarboton's D-infinity angles.
 Raster<double> dinf_angles(Raster<float> const& bearing) {
     Raster<double> angles(bearing.grid(), std::numeric_limits<double>::quiet_NaN());
     for (std::int64_t i = 0; i < angles.cells(); ++i) {
@@ -111,7 +111,7 @@ double greatest(Raster<double> const& areas) {
     return most;
 }
 
-/// The folder's new files: each is asked for, then written.
+/// Writes the folder's new files if they are requested.
 class Writer {
 public:
     Writer(std::string const& folder, std::set<std::string> const& wanted, io::Existing existing)

@@ -19,58 +19,60 @@ namespace thalweg::pipeline {
 /// Options of make_measures().
 struct MakeMeasuresParams {
     std::string dem;                   ///< a folder written by make, or any raster of heights
-    std::string network;               ///< "" takes that of the folder, if there is one
-    io::ReadNetworkParams read;        ///< how the network is understood; it is reprojected to the DEM's CRS
-    std::vector<std::string> what;     ///< names of measures; none takes d8, dinf and, with a network, catchments
+    std::string network;               ///< "": the folder's own, if any
+    io::ReadNetworkParams read;        ///< how the network is read; it is reprojected to the DEM's CRS
+    std::vector<std::string> what;     ///< names of measures; empty: d8, dinf and, with a network, catchments
     std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
 
-/// How water leaves catchments aside.
+/// Arcs and cells that the catchments leave out.
 struct MeasuredCatchments {
     io::CatchmentCount count;
     std::int64_t arcs = 0;          ///< of the network
     std::int64_t arcs_cut = 0;      ///< that leave the DEM
-    std::int64_t arcs_outside = 0;  ///< that have no part on it
-    std::int64_t arcs_nowhere = 0;  ///< of these, with a vertex that is not a number
-    std::int64_t cells_without = 0; ///< whose water leaves the DEM before it meets a river
+    std::int64_t arcs_outside = 0;  ///< that lie completely outside
+    std::int64_t arcs_nowhere = 0;  ///< of these: with a vertex that is not a number
+    std::int64_t cells_without = 0; ///< whose water leaves the DEM before it reaches a river
 };
 
 /// What make_measures() returns.
 struct MadeMeasures {
-    std::vector<std::string> files; ///< as they were written, folder included
-    std::vector<std::string> notes; ///< what was left out, in words
+    std::vector<std::string> files; ///< paths, folder included
+    std::vector<std::string> notes; ///< omissions, as sentences
     std::int64_t cells = 0;         ///< with data
     double area_m2 = 0.0;           ///< of these
-    std::int64_t pits = 0;          ///< cells in depressions, through which water was led
-    std::optional<double> d8_m2;    ///< greatest contributing area
-    std::optional<double> dinf_m2;  ///< greatest contributing area
+    std::int64_t pits = 0;          ///< cells in depressions, through which water is routed
+    std::optional<double> d8_m2;    ///< largest contributing area
+    std::optional<double> dinf_m2;  ///< largest contributing area
     std::optional<MeasuredCatchments> catchments;
 };
 
-/// Measures where a DEM's water goes, into files of a folder, whole or not at all: area_d8.tif and area_dinf.tif
+/// Routes flow over a DEM and writes the results to a folder, completely or not at all: area_d8.tif and area_dinf.tif
 /// (contributing areas [m2], the cell itself included), direction_d8.tif (Byte: 1 2 4 8 16 32 64 128 from the east
-/// clockwise, 0 where water leaves, 255 without data) and direction_dinf.tif ([rad] counterclockwise from the east, -1
-/// where water leaves), catchments.gpkg (of anyone's network). Depressions stay: water is led through them.
-/// \param output a folder, which may hold other things
-/// \param existing under replace a file of the same name is replaced, and nothing else
+/// clockwise, 0: water leaves, 255: no data) and direction_dinf.tif ([rad] counterclockwise from the east, -1: water
+/// leaves), catchments.gpkg (of any network). Depressions are not filled: water is routed through them.
+/// \param output a folder, which may have other content
+/// \param existing under replace, files of the same name are replaced, nothing else
 /// \return the files written
-/// \throws BadParameter a name that is none (did you mean)
-/// \throws BadInput catchments without a network, a DEM that is not in metres or has no CRS where the network has one,
-/// a network beside the DEM or whose rivers run in a circle, a file that is there already
+/// \throws BadParameter for an unknown name (with a suggestion)
+/// \throws BadInput for catchments without a network, a DEM that is not in metres, or without a CRS if the network has
+/// one, a network off the DEM or with a cycle, or a file that exists already
 MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output,
                            io::Existing existing = io::Existing::refuse, Run const& run = {});
 
-/// A DEM whose cells are squares on the ground.
+/// A DEM with square cells in metres.
 struct MetricDem {
     Raster<float> dem;
-    std::vector<std::string> notes; ///< what was done, in words
+    std::vector<std::string> notes; ///< the changes, as sentences
 };
 
-/// Reads a DEM; one in degrees, or in metres whose lengths are off by more than 1 % (Web Mercator), is warped into
-/// the UTM zone of its middle, onto cells as large as its own there; one with cells that are not square onto squares.
-/// \param params as of io::read_dem
-/// \return the DEM, and the cell size it had
-/// \throws BadInput like read_dem, and where a geographic DEM lies in no UTM zone
+/// Reads a DEM and warps it if necessary: one in degrees, or in metres whose lengths are wrong by more than 1 % (Web
+/// Mercator), to the UTM zone of its middle, on cells of the same size as its own; one whose cells are not square to
+/// squares.
+/// \param path of the DEM
+/// \param params as for io::read_dem
+/// \return the DEM, and its original cell size
+/// \throws BadInput as read_dem, and for a geographic DEM in no UTM zone
 MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -26,7 +26,7 @@ struct SkeletonOfLand {
     Mask rivers;
 };
 
-/// Cells under the ridges of a network file; none where it has no such layer.
+/// Cells under the ridges of a network file; none if it has no such layer.
 Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
     if (!io::has_layer(path, "ridges")) {
         return Mask(grid);
@@ -34,7 +34,7 @@ Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
     return cells_under(io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run), grid, path);
 }
 
-// The land is taken over: a large one need not be there twice.
+// Takes the terrain by value: a large one should not be copied.
 SkeletonOfLand skeleton_of(Raster<float> land, fs::path const& folder, Run const& run) {
     Mask const ridges = ridges_of((folder / "network.gpkg").string(), land.grid(), run);
     SkeletonOfLand drawn{{std::move(land)}, {}};

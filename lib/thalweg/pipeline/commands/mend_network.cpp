@@ -27,16 +27,16 @@ namespace {
 struct MendedLines {
     RiverLines rivers;                         // in the direction of flow, feature = arc_id
     std::vector<std::size_t> arcs;             // by river: number of its arc in the file
-    std::vector<SecondaryLine> secondary = {}; // arcs that are no natural watercourse, feature = arc_id
+    std::vector<SecondaryLine> secondary = {}; // arcs that are not natural watercourses, feature = arc_id
     std::vector<Finding> mended;
 };
 
-constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology takes it for none
+constexpr double greatest_coordinate = 1e18; // beyond this, measure::check_topology rejects coordinates
 
 bool is_number(double c) {
     return std::fabs(c) < greatest_coordinate;
 }
-/// The nodes with a place, by id and by place.
+/// The nodes with positions, by id and by position.
 class Nodes {
 public:
     explicit Nodes(NetworkFile const& file) : file_(file) {
@@ -50,7 +50,7 @@ public:
         std::sort(by_id_.begin(), by_id_.end());
         std::sort(by_place_.begin(), by_place_.end());
     }
-    /// The first of that id, null for none.
+    /// \return the first with that id; null: none.
     Vec3 const* of(std::int64_t id) const {
         auto const found = std::lower_bound(by_id_.begin(), by_id_.end(), std::pair(id, std::size_t{0}));
         return found == by_id_.end() || found->first != id ? nullptr : &file_.nodes[found->second].at;
@@ -63,8 +63,8 @@ private:
     std::vector<std::pair<double, double>> by_place_;
 };
 
-/// Heights that are none become those of the way between their neighbours; at the ends those of the node, if it has
-/// one, else of the neighbour.
+/// Replaces missing heights by interpolation between neighbours; at the ends by the node's, if it has one, else by the
+/// neighbour's.
 void fill_heights(std::vector<Vec3>& line, Vec3 const* first, Vec3 const* last) {
     auto const take = [](Vec3& end, Vec3 const* node) {
         if (!is_number(end.z) && node != nullptr && is_number(node->z)) {
@@ -156,7 +156,7 @@ public:
             say("cut", number, plan(line.front()), cut.cut_m,
                 fmt::format("arc {}: loops and spikes of {} m are cut off", number, cut.cut_m));
         }
-        std::int64_t const ds_arc = file_.says.downstream ? arc.ds_arc : 0; // else told by places alone
+        std::int64_t const ds_arc = file_.says.downstream ? arc.ds_arc : 0; // otherwise derived from positions alone
         result_.rivers.lines.push_back({arc.id,
                                         std::move(line),
                                         arc.type,
@@ -192,7 +192,7 @@ private:
         result_.mended.push_back({kind, feature, at, amount, std::move(text)});
     }
 
-    /// By which the file itself calls an arc.
+    /// The file's own number of an arc.
     std::int64_t number_of(NetworkFile::FileArc const& arc) const { return arc.id - file_.id_shift; }
 
     void put_aside(std::int64_t id, std::vector<Vec3> line, std::string const& reason) {
@@ -224,13 +224,13 @@ private:
         return line;
     }
 
-    /// The line runs from to_node to from_node: which of both is wrong, upstream tells.
+    /// The line runs from to_node to from_node: `upstream` decides which of the two is wrong.
     static bool is_named_back(std::vector<Vec3> const& line, Vec3 const* from, Vec3 const* to) {
         return from != nullptr && to != nullptr && !line.empty() && plan(*from) != plan(*to) &&
                plan(line.front()) == plan(*to) && plan(line.back()) == plan(*from);
     }
 
-    /// An end that lies where there is no node belongs to its own.
+    /// Moves an end without a node at its position onto its own node.
     void put_onto(Vec3 const* node, Vec3& end, std::int64_t id) {
         if (node == nullptr || plan(*node) == plan(end) || nodes_.lies_at(end)) {
             return;
@@ -246,11 +246,11 @@ private:
     Nodes nodes_;
     double near_m_;
     std::set<std::int64_t> looped_ = {};
-    std::map<std::int64_t, std::size_t> arc_of_channel_ = {}; ///< by arc_id, the first that has it
+    std::map<std::int64_t, std::size_t> arc_of_channel_ = {}; ///< by arc_id: the first with that id
     MendedLines result_ = {};
 };
 
-// Makes a line that can be adopted of every arc that can have one.
+// Makes an importable line of every arc that allows it.
 MendedLines mend_lines(NetworkFile const& file, measure::TopologyReport const& found, double near_m) {
     LineMender mender(file, found, near_m);
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
@@ -259,9 +259,9 @@ MendedLines mend_lines(NetworkFile const& file, measure::TopologyReport const& f
     return mender.finish();
 }
 
-/// Of the vertices that are places.
+/// Of the finite vertices.
 double diagonal_of(NetworkFile const& file) {
-    constexpr double greatest_coordinate = 1e18; // beyond, measure::check_topology takes it for none
+    constexpr double greatest_coordinate = 1e18; // beyond this, measure::check_topology rejects coordinates
     Vec2 low{greatest_coordinate, greatest_coordinate};
     Vec2 high{-greatest_coordinate, -greatest_coordinate};
     for (auto const& arc : file.arcs) {
@@ -275,7 +275,7 @@ double diagonal_of(NetworkFile const& file) {
     return low.x > high.x ? 0.0 : distance(low, high);
 }
 
-/// What the file knows of the rivers' lines, by feature; of several of one id, of the first.
+/// The file's attributes of the rivers' lines, by feature; of several with one id, of the first.
 class Known {
 public:
     Known(NetworkFile const& file, MendedLines const& lines) : file_(file), lines_(lines) {
@@ -297,7 +297,7 @@ private:
     std::vector<std::pair<std::int64_t, std::size_t>> by_feature_;
 };
 
-/// An arc has the area its file gives at an end that is still where it was; else what flows in, which is the least.
+/// An arc has the file's area at an end that did not move; otherwise the sum of its inflows, a lower bound.
 void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
     StreamNetwork const& plan = mended.network.plan;
     mended.us_area_m2.assign(plan.arc_count(), 0.0);
@@ -324,7 +324,7 @@ void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
     }
 }
 
-/// The features of an arc that is a part of a file's, or the whole of it.
+/// The features of an arc that is part of the file's arc, or all of it.
 std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double given_m, double length_m) {
     bool const is_whole = std::fabs(given_m - length_m) <= 1e-6 * given_m;
     if (is_whole && !given.sources.empty()) {
@@ -333,7 +333,7 @@ std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double give
     return given.feature == 0 ? std::vector<Stretch>{} : std::vector<Stretch>{{given.feature, 0.0, length_m}};
 }
 
-/// Arcs take from the file what it says of them beside their lines.
+/// Copies the file's attributes of arcs, other than their lines.
 void take_words(Known const& known, MendedNetwork& mended) {
     NetworkDraft named = mended.network.plan.draft();
     for (ArcId a = 0; a < named.arcs.size(); ++a) {
@@ -353,7 +353,7 @@ void take_words(Known const& known, MendedNetwork& mended) {
     mended.network.plan = std::move(named);
 }
 
-/// Secondary lines by the features of the file.
+/// Names secondary lines by the features of the file.
 std::vector<SecondaryLine> named_by_file(NetworkFile const& file, std::vector<SecondaryLine> lines) {
     std::map<std::int64_t, std::size_t> arc_of;
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
@@ -367,7 +367,7 @@ std::vector<SecondaryLine> named_by_file(NetworkFile const& file, std::vector<Se
     return lines;
 }
 
-/// One finding for each kind that the check found, so that nothing is mended in silence.
+/// Adds one finding for each kind of repaired fault, so that every repair is reported.
 void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mended) {
     for (auto first = found.findings.begin(); first != found.findings.end();) {
         auto const last =
@@ -391,7 +391,7 @@ void say_lowered(network::Lowered const& lowered, std::int64_t id_shift, std::ve
     }
 }
 
-/// What was turned by which evidence, then sentences on what is doubtful.
+/// Lengths reversed, by evidence, then sentences on doubtful directions.
 std::vector<Finding> doubts_of_directions(network::Directions const& directions, bool has_dem) {
     std::vector<Finding> notes;
     if (std::string const turned = turned_in_words(directions); !turned.empty()) {

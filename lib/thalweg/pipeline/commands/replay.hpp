@@ -9,7 +9,7 @@
 
 namespace thalweg::pipeline {
 
-/// How a folder compares with what its recipe makes now.
+/// Comparison of a folder with the current result of its recipe.
 struct Replayed {
     std::vector<std::string> same;
     std::vector<std::string> differ;
@@ -17,10 +17,10 @@ struct Replayed {
     bool verified() const { return differ.empty() && missing.empty(); }
 };
 
-/// Makes FOLDER/recipe.toml again beside it and compares the bytes of every file but report.*; the folder is not
-/// touched.
+/// Runs FOLDER/recipe.toml in a temporary folder and compares the bytes of every file except report.*; the folder is
+/// not changed.
 /// \return the files that differ
-/// \throws BadInput when there is no recipe; what make_terrain throws
+/// \throws BadInput when there is no recipe; as make_terrain
 Replayed replay(std::string const& folder, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -16,7 +16,7 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// Arcs that rise somewhere. Level ones are what the schema allows: lakes, tidal reaches.
+/// Counts arcs that rise somewhere. The schema allows level ones: lakes, tidal reaches.
 std::int64_t uphill_arcs(ElevatedNetwork const& network) {
     return std::count_if(network.arc_z.begin(), network.arc_z.end(), [](std::vector<double> const& z) {
         return std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
@@ -35,7 +35,7 @@ Check none_of(char const* name, std::int64_t count) {
     return {name, static_cast<double>(count), 0.0, count == 0};
 }
 
-/// What the rivers claim of the surface.
+/// The rivers' claims on the surface.
 measure::Claims claims_of(Plan const& plan, Terrain const& terrain, flow::ContributingAreas const& areas) {
     measure::Claims claims;
     claims.ds_area_m2 = areas.ds_area_m2;
@@ -48,7 +48,7 @@ measure::Claims claims_of(Plan const& plan, Terrain const& terrain, flow::Contri
     return claims;
 }
 
-/// What is measured of rivers on their surface.
+/// Adds measures of rivers on their surface.
 Assessment with_rivers(Plan const& plan, Assessment found, Terrain const& terrain, Diary& diary, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
     StreamNetwork const& network = terrain.network.plan;
@@ -68,16 +68,17 @@ Assessment with_rivers(Plan const& plan, Assessment found, Terrain const& terrai
     return found;
 }
 
-/// Of a surface that was made to drain: whether it does, by its rivers where it honours them.
+/// Checks of a conditioned surface: whether it drains, along its rivers where it honours them.
 std::vector<Check> drainage_checks(Assessment const& found, flow::FlowField const& drainage) {
     return found.certificate
                ? found.certificate->checks()
                : std::vector<Check>{none_of("depressions", static_cast<std::int64_t>(drainage.depressions.size()))};
 }
 
-/// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
+/// Warns if the hillshade of terrain in equilibrium would look unnatural: its texture is outside the range of the
+/// reference DEMs.
 void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief const& relief, Run const& run) {
-    constexpr std::int64_t least_cells = 250'000; // of fewer, chance decides
+    constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
     if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
         return;
     }
@@ -88,7 +89,7 @@ void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief con
     }
 }
 
-/// What is measured of a surface, with the rivers on it.
+/// Measures a surface with its rivers.
 Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
     Raster<float> const& dem = terrain.surface->dem;
@@ -122,7 +123,7 @@ Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Ru
     return found;
 }
 
-/// Findings of a certificate that somebody looks at: of one that failed.
+/// Returns the findings only if the certificate failed.
 std::vector<Finding> findings_of(std::optional<measure::Certificate> const& certificate) {
     if (!certificate) {
         return {};
@@ -132,7 +133,7 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
     return ok ? std::vector<Finding>{} : certificate->findings;
 }
 
-/// What is measured of rivers without a surface.
+/// Measures rivers without a surface.
 Assessment of_rivers_alone(Terrain const& terrain, Run const& run) {
     Assessment found;
     found.areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
@@ -140,7 +141,7 @@ Assessment of_rivers_alone(Terrain const& terrain, Run const& run) {
     return found;
 }
 
-/// With what drawing the terrain found out, first.
+/// Puts the checks and findings made while drawing the terrain first.
 Assessment with_requests(Terrain const& terrain, Assessment found) {
     std::vector<Check> checks = terrain.checks;
     append(checks, std::move(found.checks));
@@ -149,7 +150,7 @@ Assessment with_requests(Terrain const& terrain, Assessment found) {
     return found;
 }
 
-/// With checks of the network, which is to fall and to hang together.
+/// Adds topology checks: arcs descend and connect.
 Assessment with_topology(Plan const& plan, Terrain const& terrain, Assessment found, Diary& diary, Run const& run) {
     if (!plan.recipe.network) {
         return found;
@@ -165,7 +166,7 @@ Assessment with_topology(Plan const& plan, Terrain const& terrain, Assessment fo
     return found;
 }
 
-/// With the account of the input's length; warns where more than 1 % of it is missing.
+/// Adds the account of the input's length; warns if more than 1 % of it is missing.
 Assessment with_given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
                              Run const& run) {
     constexpr double worth_a_word = 0.99;
@@ -192,7 +193,7 @@ Assessment with_given_length(Plan const& plan, Rivers const& rivers, Terrain con
     return found;
 }
 
-/// With the heights of the input beside those of the DEM; warns where it misses them.
+/// Compares the input's heights with the DEM's; warns of misses.
 Assessment with_given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
                               Run const& run) {
     found.given_heights = given_heights(plan, rivers, terrain);
@@ -206,7 +207,7 @@ Assessment with_given_heights(Plan const& plan, Rivers const& rivers, Terrain co
     return found;
 }
 
-/// With the drainage areas of the input beside those of the terrain.
+/// Compares the input's drainage areas with the terrain's.
 Assessment with_given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Assessment found,
                             Run const& run) {
     if (terrain.drainage && found.given) {

@@ -20,40 +20,41 @@
 
 namespace thalweg::pipeline {
 
-/// Contributing areas [m2] by cell, NaN without data.
+/// Contributing areas [m2] by cell; NaN: no data.
 struct WaterAreas {
     Raster<double> d8;
     Raster<double> dinf;
 };
 
-/// What is measured of land and rivers, and whether they are what the recipe sets.
+/// Measures of terrain and rivers, and the recipe's checks.
 struct Assessment {
-    std::optional<GivenLength> given;          ///< where rivers are read from lines
-    std::optional<GivenHeights> given_heights; ///< where the DEM is to have heights of these
-    std::optional<GivenAreas> given_areas;     ///< where the lines have areas and the terrain drains
+    std::optional<GivenLength> given;          ///< if rivers are read from lines
+    std::optional<GivenHeights> given_heights; ///< if the DEM should have the lines' heights
+    std::optional<GivenAreas> given_areas;     ///< if the lines have areas and the terrain drains
     flow::ContributingAreas areas;             ///< of the arcs
     RiverLaws laws;
-    std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
-    std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
+    std::vector<NodeId> sinks;                     ///< where rivers are meant to end inland
+    std::optional<measure::Statistics> statistics; ///< of the surface, like the others
     std::optional<measure::Hypsometry> hypsometry;
     std::optional<TerrainRelief> relief; ///< with the rivers
-    std::int64_t pits = 0;               ///< cells that lie in depressions
+    std::int64_t pits = 0;               ///< cells in depressions
     double pit_volume_m3 = 0.0;
-    std::optional<measure::ExtractedRidges> surface_ridges; ///< beside the ridges asked for
-    std::optional<measure::Certificate> certificate;        ///< of rivers and surface, where both are there
-    std::optional<flow::Catchments> catchments;             ///< of the arcs, where they are asked for
-    std::optional<WaterAreas> water_areas;                  ///< where they are asked for
+    std::optional<measure::ExtractedRidges> surface_ridges; ///< compared with the requested ridges
+    std::optional<measure::Certificate> certificate;        ///< of rivers and surface, if both exist
+    std::optional<flow::Catchments> catchments;             ///< of the arcs, if requested
+    std::optional<WaterAreas> water_areas;                  ///< if requested
     std::vector<Check> checks;
     std::vector<Finding> findings; ///< of the checks
     Timings timings_s;
 
-    /// \return every check is ok
+    /// \return whether every check is ok
     bool passed() const;
 };
 
-/// Measures and checks land and rivers.
-/// \param rivers made of it
-/// \param terrain what came of them
+/// Measures and checks terrain and rivers.
+/// \param plan of both
+/// \param rivers made from the plan
+/// \param terrain made from plan and rivers
 /// \return measures and checks
 Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Run const& run = {});
 

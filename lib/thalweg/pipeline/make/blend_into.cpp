@@ -36,20 +36,20 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
     return part;
 }
 
-/// The source in metres or whatever the target's coordinates count, and the window that is left of it.
+/// The source in metres or in the target's coordinates, and the remaining window.
 struct PastedSource {
     Raster<float> dem;
     blend::SourceWindow window;
     bool is_warped = false;
-    bool is_elsewhere = false; // its coordinates say nothing about the target's
+    bool is_elsewhere = false; // its coordinates are unrelated to the target's
 };
 
-/// The coordinates in which a source is laid on the target.
+/// The coordinates in which a source is placed on the target.
 Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
     std::string const whose = "pipeline.make_blend: " + params.source;
     std::string const target_words = "the target " + params.target;
     bool const is_same = io::same_crs(source.crs, target.crs, whose, target_words);
-    bool const is_distorted = io::is_distorted(target); // a metre is as long as its place has it
+    bool const is_distorted = io::is_distorted(target); // a metre has its local length
     if ((is_same && !is_distorted) || io::overlap_on_earth(source, target, whose, target_words)) {
         return target;
     }
@@ -99,7 +99,7 @@ bool overlap(Grid const& source, blend::SourceWindow const& w, Grid const& targe
            m.y - half_height < target.north;
 }
 
-// As near to the middle as lets centres of equal cells fall on centres.
+// The position nearest to the middle at which centres of equal cells coincide.
 Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
     auto const cells = [](std::int64_t of_target, std::int64_t of_source) {
         // NOLINTNEXTLINE(bugprone-integer-division): whole halves

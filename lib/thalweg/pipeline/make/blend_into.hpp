@@ -14,44 +14,44 @@ namespace thalweg::pipeline {
 /// Options of make_blend().
 struct MakeBlendParams {
     std::string target = {};     ///< a DEM
-    std::string source = {};     ///< a DEM, in any CRS and of any cell size
-    std::optional<Vec2> at = {}; ///< [m] of the target: where the patch's middle comes to lie
+    std::string source = {};     ///< a DEM, in any CRS and with any cell size
+    std::optional<Vec2> at = {}; ///< [m] on the target: position of the patch's centre
     double rotate_deg = 0.0;     ///< [deg] as in blend::PlacePatchParams
     double scale = 1.0;          ///< > 0, in plan
     double gain = 1.0;           ///< of heights
-    std::string mask = {};       ///< a raster on the target's grid, or polygons; "" for all the source covers
-    std::string keep = {};       ///< a raster on the target's grid, or lines; "" for none
-    std::optional<blend::SourceWindow> window = {}; ///< of the source file; all of it without
+    std::string mask = {};       ///< a raster on the target's grid, or polygons; "": everything that the source covers
+    std::string keep = {};       ///< a raster on the target's grid, or lines; "": none
+    std::optional<blend::SourceWindow> window = {}; ///< of the source file; not set: all of it
     double feather_cells = 0.0;                     ///< [cells] as in blend::PasteParams
     blend::Relief relief = blend::Relief::source;
     blend::Holes holes = blend::Holes::leave;
     std::optional<double> nodata = {}; ///< of both DEMs, as in io::ReadDemParams
 };
 
-/// How the place of a patch was found.
+/// How the position of a patch was chosen.
 enum class PatchPlace : std::uint8_t {
-    given, ///< by params
+    given, ///< by the parameters
     own,   ///< by the source's coordinates
-    middle ///< the source lies elsewhere: the middle of the target
+    middle ///< the source lies elsewhere: at the centre of the target
 };
 
-/// A blended DEM and how it came about.
+/// A blended DEM and its placement.
 struct MadeBlend {
     blend::Pasted pasted;
     PatchPlace place = PatchPlace::given;
-    Vec2 at;                  ///< [m] the patch's middle
+    Vec2 at;                  ///< [m] the patch's centre
     std::int64_t outside = 0; ///< cells of the mask off the source
     bool is_warped = false;   ///< the source had another CRS or cell size
 };
 
-/// Reads a DEM and sets a patch of it into another: place_patch, then paste. A source in another CRS or with other
-/// cells is warped first, a window cut out of it before: into the target's CRS where both lie on the same part of the
-/// earth; else it is measured in its own CRS or, where that is not in metres, in its UTM zone.
-/// \param target [m] the DEM that is changed; NaN: no data
-/// \param keep its cells that are kept
-/// \param params target names it in messages, keep is not read
-/// \return the target with the patch in it, as the stages do
-/// \throws BadInput as the stages and doors do, also when a target in degrees is asked to take a turned patch
+/// Reads a DEM and pastes a patch of it into another: place_patch, then paste. A source in another CRS or with other
+/// cells is warped first, after its window is cut out: to the target's CRS if both lie in the same part of the earth;
+/// otherwise it is measured in its own CRS or, if that is not in metres, in its UTM zone.
+/// \param target [m] the DEM to change; NaN: no data
+/// \param keep cells of it that stay
+/// \param params target is its name in messages, keep is not read
+/// \return as the stages
+/// \throws BadInput as the stages and readers, and when a rotated patch is pasted into a target in degrees
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -17,7 +17,7 @@
 namespace thalweg::pipeline {
 namespace {
 
-/// The doubts of a kind, the greatest first.
+/// The doubts of a kind, the largest first.
 std::vector<Finding const*> doubts_of(network::Directions const& directions, std::string_view kind) {
     std::vector<Finding const*> result;
     for (Finding const& doubt : directions.doubts) {
@@ -33,7 +33,7 @@ std::string groups(std::size_t count) {
     return count == 1 ? "1 group of lines" : fmt::format("{} groups of lines", count);
 }
 
-// A length for readers: "12.3 km", and metres below 50 m.
+// A length for readers: "12.3 km", or metres below 50 m.
 std::string in_km(double m) {
     constexpr double least_m = 50.0; // less would be 0.0 km
     return m < least_m ? fmt::format("{:.2g} m", m) : fmt::format("{:.1f} km", m / 1000.0);
@@ -124,7 +124,7 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
     GivenLength given;
     given.secondary = file.secondary;
     append(given.secondary, file.sources.missing(file.adopted, terrain.network.plan, LeftOut::head, "cut at its head"));
-    double of_adopted_m = 0.0; // left out of the adopted network, and of the lines before it
+    double of_adopted_m = 0.0; // left out of the imported network, and of the lines before it
     double of_file_m = 0.0;
     double of_import_m = 0.0;
     for (SecondaryLine const& line : given.secondary) {
@@ -161,7 +161,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
     if (!taken || !plan.lines.has_z || rivers.network.arc_z.empty() || !terrain.surface) {
         return std::nullopt;
     }
-    std::set<std::pair<double, double>> of_file; // without those of outlets that were carried on
+    std::set<std::pair<double, double>> of_file; // without extended outlets
     for (ArcId a = 0; a < rivers.file.adopted.arc_count(); ++a) {
         for (Vec2 const v : rivers.file.adopted.arc(a).line) {
             of_file.insert({v.x, v.y});
@@ -217,7 +217,7 @@ std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Te
     std::vector<double> ratios;
     for (ArcId a = 0; a < network.arc_count(); ++a) {
         if (stretches[a].empty() || network.length_m(a) - stretches[a].back().to_m > terrain.grid.cell_m) {
-            continue; // carried beyond the line
+            continue; // extended beyond the line
         }
         std::int64_t const feature = stretches[a].back().feature;
         ArcId const below = network.out(network.to(a));

@@ -20,72 +20,80 @@ struct GivenLength {
     double read_m = 0.0;
     std::array<double, 8> left_out_m = {}; ///< by LeftOut
     double kept_m = 0.0;                   ///< in the network
-    double connector_m = 0.0;              ///< of it artificial channels, without which rivers would end
+    double connector_m = 0.0;              ///< of these: artificial channels, without which rivers would end
     double closed_m = 0.0;                 ///< added where ends were joined
-    double carried_m = 0.0;                ///< added where outlets were carried on
+    double carried_m = 0.0;                ///< added where outlets were extended
     double turned_m = 0.0;                 ///< reversed
-    double moved_m = 0.0;                  ///< greatest distance by which an end was moved
+    double moved_m = 0.0;                  ///< largest shift of an end
     std::vector<SecondaryLine> secondary;  ///< everything left out
 
-    /// \return [m] of one cause
+    /// \param cause why a line is left out
+    /// \return [m] left out for it
     double left_out(LeftOut cause) const { return left_out_m[static_cast<std::size_t>(cause)]; }
-    /// \return [m] that the network should have: all but what fields, coastlines, divergences, duplicates, the grid
-    /// and pruning leave out
+    /// \return [m] that the network should contain: everything except what fields, coastlines, divergences, duplicates,
+    /// the grid and pruning leave out
     double given_m() const { return kept_m + left_out(LeftOut::too_short) + left_out(LeftOut::head); }
-    /// \return [0, 1] kept of what was given
+    /// \return [0, 1] share of given_m() that is kept
     double share() const { return kept_m / given_m(); }
 };
 
+/// The key of a cause in report.json.
 /// \param cause why a line is left out
-/// \return a key of report.json, snake_case
+/// \return snake_case
 char const* key_of(LeftOut cause);
 
+/// The words for a cause.
 /// \param cause why a line is left out
-/// \return words for readers: "cut at heads"
+/// \return for readers: "cut at heads"
 char const* words_of(LeftOut cause);
 
-/// Accounts for the lines of a plan.
-/// \param rivers made of it
-/// \param terrain made of them
-/// \return nothing where rivers are not read from lines
+/// Accounts for the lengths of a plan's lines.
+/// \param plan with lines
+/// \param rivers made from the plan
+/// \param terrain made from plan and rivers
+/// \return nothing if rivers are not read from lines
 std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
 
-/// Heights that a file's lines have at their vertices, beside the DEM.
+/// Heights of a file's lines at their vertices, compared with the DEM.
 struct GivenHeights {
     double tolerance_m = 0.0;
     std::int64_t vertices = 0; ///< with heights, in the network
-    std::int64_t missed = 0;   ///< of them, by more than the tolerance and what the river falls within a cell
-    double largest_m = 0.0;    ///< greatest difference of these
+    std::int64_t missed = 0;   ///< of these: differ by more than the tolerance and the river's fall within a cell
+    double largest_m = 0.0;    ///< largest difference of these
     double mean_m = 0.0;       ///< mean difference of these
 };
 
 /// Compares the heights of a plan's lines with the DEM.
-/// \param rivers made of it
-/// \param terrain made of them
-/// \return nothing where the network does not take all heights of a file, or there is no DEM
+/// \param plan with lines
+/// \param rivers made from the plan
+/// \param terrain made from plan and rivers
+/// \return nothing if the network does not take all heights from a file, or there is no DEM
 std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
 
-/// Drainage areas that a file's lines have at their lower ends, beside those of the terrain. Ratios: terrain / file.
+/// Drainage areas at the lower ends of a file's lines, compared with the terrain's. Ratios: terrain / file.
 struct GivenAreas {
-    std::int64_t arcs = 0;        ///< that end where a line with an area does
-    double median = 0.0;          ///< ratio
-    double low = 0.0;             ///< its 5th percentile
-    double high = 0.0;            ///< its 95th percentile
+    std::int64_t arcs = 0;        ///< that end where a line with an area ends
+    double median = 0.0;          ///< of the ratios
+    double low = 0.0;             ///< their 5th percentile
+    double high = 0.0;            ///< their 95th percentile
     double within_factor_2 = 0.0; ///< [0, 1] share of arcs
 };
 
 /// Compares the drainage areas of a plan's lines with those of the terrain.
-/// \param rivers made of it
-/// \param terrain made of them
+/// \param plan with lines
+/// \param rivers made from the plan
+/// \param terrain made from plan and rivers
 /// \param ds_area_m2 [m2] by arc, at its lower end
-/// \return nothing where the file has none
+/// \return nothing if the file has none
 std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain,
                                       std::vector<double> const& ds_area_m2);
 
+/// Formats the account.
 /// \param given the account
-/// \return one line for the log: kilometres read, kept, left out by cause, turned, moved, added
+/// \return one line for the log: kilometres read, kept, left out by cause, reversed, moved, added
 std::string line_of(GivenLength const& given);
 
+/// Formats the comparison.
 /// \param given the comparison
 /// \return one line for the log
 std::string line_of(GivenAreas const& given);

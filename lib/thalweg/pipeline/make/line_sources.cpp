@@ -18,7 +18,7 @@ std::uint64_t mix(std::uint64_t a, std::uint64_t b) {
 
 constexpr std::int64_t several = -1;
 
-/// Takes: by segment its feature, 0 for none.
+/// features: by segment; 0: none.
 std::vector<Stretch> stretches_of(std::vector<Vec2> const& line, std::vector<std::int64_t> const& features) {
     std::vector<Stretch> stretches;
     double along_m = 0.0;
@@ -80,7 +80,7 @@ std::vector<std::vector<Stretch>> LineSources::of(StreamNetwork const& network) 
         for (std::size_t i = 1; i < line.size(); ++i) {
             if (auto const known = segments_.find({line[i - 1], line[i]}); known != segments_.end()) {
                 features.push_back(known->second);
-            } else { // an arc may begin farther down, but not one that is the terrain's own
+            } else { // an arc may begin farther downstream, unless it is the terrain's own
                 bool const is_cut = i == 1 && network.arc(arc).feature > 0 && arriving_.contains(line[i]);
                 features.push_back(is_cut ? replaced(network.arc(arc), i) : 0);
             }
@@ -124,7 +124,7 @@ std::vector<std::vector<Stretch>> LineSources::redrawn(StreamNetwork const& netw
     return result;
 }
 
-/// The feature of a segment that is a part of one there was, or led where it led; 0 where there was none.
+/// The feature of a segment that is part of a former one, or connects the same points; 0: none.
 std::int64_t LineSources::replaced(Arc const& arc, std::size_t segment) const {
     if (arc.feature <= 0) {
         return 0;
@@ -148,7 +148,7 @@ std::vector<SecondaryLine> LineSources::missing(StreamNetwork const& before, Str
             next.try_emplace(arc.line[i - 1], arc.line[i]);
         }
     }
-    // The remembered vertex that follows a place; the place itself where there is none.
+    // The former vertex downstream of a position; the position itself: there is none.
     auto const below = [&](Vec2 const p) {
         for (auto step = next.find(p); step != next.end(); step = next.find(step->second)) {
             if (remembered.contains(step->second)) {

@@ -15,7 +15,7 @@ Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
         recipe.surface->equilibrium.edge = terrain.equilibrium->edge;
     }
     if (terrain.equilibrium && terrain.equilibrium->gave_way) {
-        recipe.network->heights = Heights::automatic; // file would stand on walls
+        recipe.network->heights = Heights::automatic; // the file's heights would need walls
     }
     if (terrain.detail) {
         recipe.detail->midpoint.hurst = terrain.detail->hurst;

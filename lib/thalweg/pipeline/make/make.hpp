@@ -14,30 +14,34 @@
 
 namespace thalweg::pipeline {
 
-/// A terrain with all that led to it.
+/// A terrain with its plan and rivers.
 struct Made {
     Plan plan;
-    Rivers rivers; ///< none where the plan has no [network]
+    Rivers rivers; ///< none if the plan has no [network]
     Terrain terrain;
     Assessment assessment;
     Recipe recipe; ///< recipe_of() these
 };
 
-/// \param terrain what came of it
-/// \return the recipe with every default as it came out, also the frame and what the surface has decided: made again,
-/// it gives the same terrain.
+/// Returns the fully resolved recipe; running it reproduces the terrain.
+/// \param plan of the terrain
+/// \param terrain made from the plan
+/// \return with all defaults, the frame and the surface's choices
 Recipe recipe_of(Plan const& plan, Terrain const& terrain);
 
-/// From a recipe to a terrain: rivers first, then the land around them; or land from numbers and points alone.
-/// \return the same terrain for the same recipe, whatever the Run.
+/// Makes a terrain from a recipe: rivers first, then the terrain around them; or terrain from statistics and points
+/// alone.
+/// \return the same terrain for the same recipe, with any Run
 Made make(Recipe const& recipe, Run const& run = {});
 
+/// Collects the times of all stages.
 /// \param made a terrain
-/// \return what all stages took [s], in their order.
+/// \return [s] in order
 Timings timings_of(Made const& made);
 
+/// Collects the notes on changes to the rivers: imported, extended, shortened.
 /// \param made a terrain
-/// \return notes on what became of the rivers: adopted, carried, shortened.
+/// \return in order
 std::vector<Finding> repairs_of(Made const& made);
 
 } // namespace thalweg::pipeline

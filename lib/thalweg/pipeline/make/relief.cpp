@@ -35,8 +35,7 @@ TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measur
     double const asked = plan.recipe.surface ? plan.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
     double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
     if (plan.recipe.network && !std::isnan(mean_slope)) {
-        std::vector<std::int64_t> cells =
-            terrain.channels.cell; // side valleys that the land has grown climb its slopes
+        std::vector<std::int64_t> cells = terrain.channels.cell; // side valleys grown by the terrain climb its slopes
         if (!terrain.equilibrium) {
             for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {
                 if (!std::isnan(terrain.valley.z[i])) {

@@ -133,7 +133,7 @@ Mask river_mask(Valley const& valley) {
 Valley honoured_valley(Valley valley, StreamNetwork const& network, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
     Mask honoured(grid);
-    std::vector<std::uint8_t> cut(network.node_count(), 0); // by node: water from here does not come to the outlet
+    std::vector<std::uint8_t> cut(network.node_count(), 0); // by node: water from here does not reach the outlet
     for (NodeId const node : network.upstream_order()) {
         if (network.out(node) == no_arc) {
             continue;
@@ -197,7 +197,7 @@ std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid cons
     return parts;
 }
 
-/// By reach, the basin of the file where it has them; else 1, 2, ... by the node at its outlet.
+/// By reach: the basin of the file if it has any; else 1, 2, ... by the node at its outlet.
 std::vector<std::int64_t> basins_of(NetworkFile const& file, std::vector<flow::Reach> const& reaches,
                                     std::vector<std::size_t> const& first_arc) {
     std::vector<std::int64_t> basins;
@@ -259,7 +259,7 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
         leaves[reach] = leaves[reach] || !inside(arc.line, grid);
         result.reaches[reach].ds = place_in(places, arc.ds_arc);
     }
-    flow::steps_to_outlet(result.reaches); // says where rivers run in a circle
+    flow::steps_to_outlet(result.reaches); // throws if rivers form a cycle
     for (std::size_t i = 0; i < result.reaches.size(); ++i) {
         bool const none = result.reaches[i].lines.empty();
         result.outside += none ? 1 : 0;

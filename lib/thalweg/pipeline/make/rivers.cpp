@@ -44,7 +44,7 @@ namespace {
 
 struct Elevated {
     ElevatedNetwork network;
-    network::HeightReport report = {}; ///< under modes that set heights
+    network::HeightReport report = {}; ///< for methods that set heights
 };
 
 Elevated raise(Plan const& plan, RiversInPlan const& planned, network::RiverTypes const& types, Run const& run) {
@@ -69,7 +69,7 @@ Elevated raise(Plan const& plan, RiversInPlan const& planned, network::RiverType
     return {std::move(raised.network), raised.report};
 }
 
-/// Bends rivers, where the plan wants it; where there is a sea, none leaves the land.
+/// Makes rivers meander, if the plan requests it; with a sea, none leaves the land.
 RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
     if (!bends_rivers(plan)) {
         return planned;
@@ -93,7 +93,7 @@ RiversInPlan let_wander(Plan const& plan, RiversInPlan planned, Diary& diary, Ru
     return planned;
 }
 
-/// A word where outlets went far over ground of which the file says nothing.
+/// Warns when outlets were extended far beyond the data.
 void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& plan, Run const& run) {
     constexpr std::int64_t many = 3;
     constexpr double much = 0.1; // of the length of all rivers
@@ -116,16 +116,17 @@ void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& p
     }
 }
 
-/// Outlets inside the grid: carried to where rivers may end, where the recipe wants it. Those at the sea reach it in
-/// any case; what lies beside a river is land.
+/// Extends outlets inside the grid to where rivers may end, if the recipe requests it. Those at the sea reach it in any
+/// case; cells beside a river are land.
 RiversInPlan with_outlets_carried(Plan const& plan, RiversInPlan planned, Run const& run) {
     if (plan.recipe.network->source == Source::forest) {
-        return planned; // whose outlets lie on its coast
+        return planned; // its outlets lie on its coast
     }
     constexpr std::int64_t at_sea_cells = 4;
     InlandEnds const inland = plan.recipe.network->inland;
     bool const all = inland != InlandEnds::sink;
-    network::CarryParams const params{.join = !planned.file_heights}; // given heights may not fall into another's
+    // rivers with given heights must not join another one
+    network::CarryParams const params{.join = !planned.file_heights};
     auto const take = [&](network::Carried carried) {
         warn_of_long_ways(carried.notes, planned.network, run);
         std::vector<Finding>& repairs = planned.story.repairs;
@@ -141,7 +142,7 @@ RiversInPlan with_outlets_carried(Plan const& plan, RiversInPlan planned, Run co
         }
         return planned;
     }
-    // A river that is carried may close the way of another.
+    // An extended river may block the path of another.
     for (std::size_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
         planned.land = network::land_along_rivers(std::move(planned.land), planned.network);
         network::Carried carried =
@@ -164,7 +165,8 @@ std::size_t vertices_of(StreamNetwork const& plan) {
     return count;
 }
 
-/// Rivers that run from cell to cell keep no corner where a branch was; what that shortens is measured again.
+/// Removes corners that removed branches leave in rivers drawn from cell to cell, and prunes again by the shortened
+/// lengths.
 network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, double length_cells, double cell_m,
                       Run const& run) {
     network::Pruned pruned = network::prune(plan, {length_cells * cell_m, cell_m}, run);
@@ -180,7 +182,7 @@ network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, do
     return pruned;
 }
 
-// A note for each outlet of one network that another, which was pruned, has no more.
+// A note for each outlet that pruning removed from a network.
 std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {
     auto const places = [](StreamNetwork const& network) {
         std::vector<Vec2> at;
@@ -203,7 +205,7 @@ std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork c
     return notes;
 }
 
-/// Short branches pruned away, as the recipe wants it.
+/// Prunes short branches, if the recipe requests it.
 RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
     NetworkRecipe const& rivers = *plan.recipe.network;
     network::Pruned kept = diary.stage(
@@ -212,7 +214,7 @@ RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run co
     story.arcs_traced = kept.arcs_before;
     story.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
     diary.say(fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, story.arcs_kept, kept.arcs_before));
-    if (rivers.source == Source::forest) { // its rivers end where the land does
+    if (rivers.source == Source::forest) { // its rivers end at the border of the land
         std::vector<Finding> const gone = pruned_outlets(planned.network, kept.network);
         story.repairs.insert(story.repairs.end(), gone.begin(), gone.end());
     }
@@ -223,14 +225,14 @@ RiversInPlan pruned(Plan const& plan, RiversInPlan planned, Diary& diary, Run co
     return planned;
 }
 
-/// With a note on each conversion that their grid takes.
+/// Adds a note on each conversion to the rivers' grid.
 RiversInPlan with_conversions(Plan const& plan, RiversInPlan planned, Run const& run) {
     std::vector<Finding> const notes = report_conversions(plan.recipe, planned.grid, run);
     planned.story.repairs.insert(planned.story.repairs.end(), notes.begin(), notes.end());
     return planned;
 }
 
-/// Rivers with their types, and with heights where these do not follow from the land.
+/// Assigns types to rivers, and heights unless these follow from the terrain.
 Rivers with_heights(Plan const& plan, RiversInPlan planned, Diary& diary, Run const& run) {
     Typed typed = type_rivers(std::move(planned.network), *plan.recipe.network, run);
     planned.network = std::move(typed.plan);

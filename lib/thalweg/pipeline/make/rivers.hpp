@@ -18,57 +18,57 @@
 
 namespace thalweg::pipeline {
 
-/// What became of a network grown by Tokunaga's law.
+/// Statistics of a network grown by Tokunaga's law.
 struct TokunagaStory {
-    network::StreamCounts tree; ///< of the tree as it was grown; empty for strokes
+    network::StreamCounts tree; ///< of the grown tree; empty for strokes
     std::int64_t placed = 0;    ///< links that found room
     std::int64_t dropped = 0;
 };
 
-/// What the network went through, for the report.
+/// Statistics of the network's construction, for the report.
 struct NetworkStory {
     std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
     std::optional<TokunagaStory> tokunaga;
-    bool wide = false;                  ///< the cluster stopped at its greatest radius
+    bool wide = false;                  ///< the cluster stopped at its maximum radius
     bool full = false;                  ///< the forest stopped where no particle found room
     bool cut = false;                   ///< the branch reached the grid's margin before the last particle
     std::int64_t arcs_traced = 0;       ///< before pruning
-    std::int64_t arcs_kept = 0;         ///< by pruning; merged ones count once
-    network::HeightReport heights = {}; ///< under modes that set heights
-    bool heights_of_file = false;       ///< taken because the lines have them, not because they were asked for
-    std::int64_t lowered_cells = 0;     ///< shared valley cells lowered to keep every path falling
+    std::int64_t arcs_kept = 0;         ///< after pruning; merged ones count once
+    network::HeightReport heights = {}; ///< for methods that set heights
+    bool heights_of_file = false;       ///< used because the lines have them, not because they are requested
+    std::int64_t lowered_cells = 0;     ///< shared valley cells lowered so that every path falls
     double max_lowered_m = 0.0;
-    std::vector<Finding> repairs = {}; ///< of adopted lines, and outlets carried to the border
+    std::vector<Finding> repairs = {}; ///< of imported lines, and outlets extended to the border
 };
 
-/// What a file of rivers holds beside the network.
+/// Data of a file of rivers besides the network.
 struct RiverFile {
-    std::vector<SecondaryLine> secondary; ///< lines that are not in the network
+    std::vector<SecondaryLine> secondary; ///< lines left out of the network
     AttributeTable attributes;            ///< of all lines
     LineSources sources;                  ///< the lines in the network
-    StreamNetwork adopted;                ///< the network that was made of them, before outlets are carried
-    double taken_m = 0.0;                 ///< [m] of the lines from which it was made, copies among them
-    double lengthened = 1.0;              ///< by bends: length of the adopted network / that as it was drawn
+    StreamNetwork adopted;                ///< the imported network, before outlets are extended
+    double taken_m = 0.0;                 ///< [m] of the imported lines, duplicates included
+    double lengthened = 1.0;              ///< by meanders: length of the imported network / as drawn
 };
 
-/// Where rivers run on their grid, and how high, unless the terrain decides that.
+/// The courses of rivers on their grid, with heights unless the terrain determines them.
 struct Rivers {
     Grid grid;
-    ElevatedNetwork network;   ///< without heights where they follow from a terrain in equilibrium
-    RiverFile file;            ///< of which the rivers are
-    Mask land;                 ///< 0: sea, which has no heights; without cells: all is land
-    network::RiverTypes types; ///< by arc, where rivers have types; else empty
-    NetworkOrders orders;      ///< where the network has heights, like the rest
+    ElevatedNetwork network;   ///< without heights if they follow from a terrain in equilibrium
+    RiverFile file;            ///< source of the rivers
+    Mask land;                 ///< 0: sea, which has no heights; without cells: all land
+    network::RiverTypes types; ///< by arc; empty: rivers have no types
+    NetworkOrders orders;      ///< if the network has heights, like the following
     network::StreamCounts streams;
     Valley valley;
     NetworkStory story;
     Timings timings_s;
 };
 
-/// Grows or adopts the rivers of a plan, and gives them heights where these do not follow from the land.
-/// \param plan a plan with [network]
-/// \return the rivers; none where the plan has no [network].
+/// Creates the rivers from the recipe's source.
+/// \param plan with [network]
+/// \return with heights, unless these follow from the terrain; none if the plan has no [network]
 Rivers make_rivers(Plan const& plan, Run const& run = {});
 
 } // namespace thalweg::pipeline

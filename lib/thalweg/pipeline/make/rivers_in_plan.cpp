@@ -25,15 +25,15 @@
 namespace thalweg::pipeline {
 namespace {
 
-/// A frame for what will be turned before it is put into the grid that is asked for.
+/// A frame for a branch that is rotated before it is placed in the requested grid.
 GridRecipe loosely_framed(GridRecipe frame) {
     frame.width = 0;
     frame.height = 0;
     return frame;
 }
 
-/// The grid asked for, or one with room for the whole branch as it was picked: when that is asked for, the branch is
-/// cut no shorter.
+/// The requested grid, or one with room for the whole branch as picked: in the former case the branch is not cut
+/// further.
 Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& wanted, double turn_deg) {
     frame.width = wanted.width;
     frame.height = wanted.height;
@@ -69,7 +69,7 @@ network::Branch branch_of(network::Cluster const& cluster, Recipe const& recipe)
     return network::pick_branch(cluster, params);
 }
 
-// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
+// One arm of a cluster grown by diffusion-limited aggregation, thinned and traced.
 RiversInPlan rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     NetworkRecipe const& wanted = *recipe.network;
@@ -98,13 +98,13 @@ RiversInPlan rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
     return {.network = std::move(network), .grid = grid, .story = std::move(story)};
 }
 
-/// The land a network fills, and where it leaves it.
+/// The area that a network fills, and its mouth.
 struct Region {
     std::vector<Vec2> ring;
     Vec2 mouth;
 };
 
-/// The grid but for a margin of 2 %, so that no river runs along its edge.
+/// The grid without a margin of 2 %, so that no river runs along its border.
 Region within(Grid const& grid, Side mouth) {
     double const margin = 0.02 * std::min(grid.east() - grid.west, grid.north - grid.south());
     double const west = grid.west + margin;
@@ -122,7 +122,7 @@ Region within(Grid const& grid, Side mouth) {
     return region;
 }
 
-/// A polygon of a file; the river leaves it where it reaches farthest to the side.
+/// A polygon of a file; the river leaves it at its extreme point on that side.
 Region inside(Polygons const& polygons, Side mouth) {
     if (polygons.polygons.size() != 1 || polygons.polygons.front().rings.size() != 1) {
         std::size_t rings = 0;
@@ -161,7 +161,7 @@ std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
     return down;
 }
 
-/// Throws where less than half of a network found room; warns where much of it did not.
+/// Throws if less than half of a network found room; warns if much of it did not.
 void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run const& run) {
     std::int64_t const all = placed + dropped;
     std::string const found = fmt::format("{} of {} links found no room on {} x {} cells: {}", dropped, all, grid.width,
@@ -215,7 +215,7 @@ RiversInPlan rivers_of_tree(Plan const& plan, Diary& diary, Run const& run) {
     return plan.tree ? fill_region(plan, diary, run) : follow_strokes(plan, diary, run);
 }
 
-// Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
+// Trees that grow inland from a coast or border until the land is full. All outlets lie there.
 RiversInPlan rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     ForestRecipe const& wanted = recipe.network->forest;
@@ -238,7 +238,7 @@ RiversInPlan rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
             .story = std::move(story)};
 }
 
-/// What the file holds that is not a river.
+/// The features of the file that are not rivers.
 std::vector<Finding> left_out(RiverLines const& lines) {
     std::vector<Finding> findings = lines.findings;
     for (SecondaryLine const& one : lines.secondary) {
@@ -255,7 +255,7 @@ std::vector<Finding> left_out(RiverLines const& lines) {
     return findings;
 }
 
-/// A word where rivers end so near to the course of others, not to their mouths, that they were meant to meet them.
+/// Warns where rivers end close to others, away from their mouths: they were probably meant to meet.
 void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, Run const& run) {
     constexpr std::int64_t near_cells = 2;
     constexpr std::int64_t mouth_cells = 5;
@@ -278,7 +278,7 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped
         gaps += is_near ? 1 : 0;
     }
     if (gaps > 0) {
-        // Centres two cells apart along a diagonal are nearly three sides apart.
+        // Centres two cells apart diagonally are nearly three sides apart.
         double const reach_m = static_cast<double>(near_cells + 1) * grid.cell_m;
         run.say(fmt::format("warning: {} within {} cells of another river without meeting it. {}",
                             gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells,
@@ -288,7 +288,7 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped
     }
 }
 
-/// The land beside the sea that coastlines of a file bound; without cells where there is none.
+/// The land bounded by a file's coastlines; without cells: there are none.
 Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
     if (!has_coastlines(plan)) {
         return {};
@@ -315,7 +315,7 @@ Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
     return std::move(divided.land);
 }
 
-/// What the file holds beside the network.
+/// The file's data besides the network.
 RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     RiverFile file;
     file.secondary = lines.secondary;
@@ -329,7 +329,7 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     return file;
 }
 
-/// What was turned, and what is doubtful.
+/// Logs reversed and doubtful directions.
 void say_directions(network::Directions const& directions, bool has_dem, Run const& run) {
     if (std::string const turned = turned_in_words(directions); !turned.empty()) {
         run.tell("directions", turned);
@@ -341,7 +341,7 @@ void say_directions(network::Directions const& directions, bool has_dem, Run con
     }
 }
 
-/// The heights of the file, where the recipe takes them.
+/// The heights of the file, if the recipe uses them.
 std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported) {
     Heights const heights = plan.recipe.network->heights;
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;

@@ -37,7 +37,7 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
     return out;
 }
 
-/// The land with ridges between its streams.
+/// Adds ridges between the terrain's streams.
 Terrain with_ridges(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::RidgesParams params;
@@ -53,7 +53,7 @@ Terrain with_ridges(Plan const& plan, Terrain terrain, Diary& diary, Run const& 
     return terrain;
 }
 
-/// Random points between the rivers, where the recipe asks for them.
+/// Scatters random points between the rivers, if the recipe requests them.
 skeleton::Scattered scattered(Plan const& plan, Terrain const& terrain, Mask const& inside, Diary& diary,
                               Run const& run) {
     SkeletonRecipe const& wanted = *plan.recipe.skeleton;
@@ -70,7 +70,7 @@ skeleton::Scattered scattered(Plan const& plan, Terrain const& terrain, Mask con
     return points;
 }
 
-/// The triangles of points, rivers and ridges, whose lines are breaklines.
+/// Triangulates points, rivers and ridges, whose lines are breaklines.
 Terrain with_tin(Terrain terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
     std::vector<std::vector<Vec3>> breaklines;
     for (ArcId a = 0; a < terrain.network.plan.arc_count(); ++a) {
@@ -84,7 +84,7 @@ Terrain with_tin(Terrain terrain, FeaturePoints const& points, Diary& diary, Run
     return terrain;
 }
 
-/// The cells the land has: those of the recipe's mask, or all; without the sea.
+/// The cells of the terrain: those of the recipe's mask, or all; without the sea.
 Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
     if (recipe.surface->mask.empty()) {
         return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
@@ -102,7 +102,7 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
     return inside;
 }
 
-/// Land over the skeleton's triangles. Valley cells keep their heights.
+/// Terrain over the skeleton's triangles. Valley cells keep their heights.
 Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
     Raster<float> land =
         surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
@@ -137,7 +137,7 @@ surface::Dilated dilated(Plan const& plan, Terrain const& terrain, Mask const& i
                  : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
 }
 
-/// What a land is diffused from: rivers, ridges, points, and what follows from them beside them.
+/// The skeleton of a diffusion: rivers, ridges, points, and cells derived from them.
 Skeleton gathered(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Run const& run) {
     SkeletonRecipe const wanted = plan.recipe.skeleton.value_or(SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
@@ -151,7 +151,7 @@ Skeleton gathered(Plan const& plan, Terrain const& terrain, FeaturePoints const&
     return skeleton;
 }
 
-/// A surface, and how it was solved for where it was.
+/// A surface, and the statistics of its solver, if any.
 struct Surface {
     surface::Dilated drawn;
     std::optional<SolverStory> diffusion = {};
@@ -169,9 +169,9 @@ Surface diffused(Plan const& plan, Terrain const& terrain, FeaturePoints const& 
     return made;
 }
 
-/// Adds fractal detail to land with rivers: none in the valleys, all of it some cells away.
+/// Adds fractal detail to terrain with rivers: none in the valleys, all of it some cells away.
 Terrain with_detail_beside_rivers(Plan const& plan, Terrain terrain, Run const& run) {
-    constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
+    constexpr double near_cells = 8.0; // distance over which detail grows from nothing to two thirds
     if (levels_of(plan.recipe) == 0) {
         return terrain;
     }
@@ -204,7 +204,7 @@ Surface surface_of(Plan const& plan, Terrain const& terrain, FeaturePoints const
                                             : Surface{dilated(plan, terrain, inside, run)};
 }
 
-/// Whether the slopes rise as high above their rivers as it was asked.
+/// Checks whether the slopes rise as high above their rivers as requested.
 std::vector<Check> relief_checks(Plan const& plan, Terrain const& terrain) {
     constexpr double allowed = 0.01;
     double const asked = plan.recipe.surface->dilate.relief_m;
@@ -228,7 +228,7 @@ std::string about(Plan const& plan, Terrain const& terrain) {
     return "over triangles";
 }
 
-/// The land between the rivers, with what is to be said of it.
+/// Draws the terrain between the rivers, with its checks and findings.
 Terrain filled(Plan const& plan, Terrain terrain, FeaturePoints const& points, Mask const& inside, Diary& diary,
                Run const& run) {
     Surface made = diary.stage("fill", [&] { return surface_of(plan, terrain, points, inside, run); });
@@ -244,7 +244,7 @@ Terrain filled(Plan const& plan, Terrain terrain, FeaturePoints const& points, M
     return terrain;
 }
 
-// Rivers without land around them.
+// Makes a terrain of rivers without a surface.
 Terrain without_land(Rivers const& rivers) {
     Terrain terrain;
     terrain.grid = rivers.grid;
@@ -257,13 +257,13 @@ Terrain without_land(Rivers const& rivers) {
     return terrain;
 }
 
-// Draws the land that the plan asks for through the rivers' cells, which keep their heights, and through the points.
+// Draws the planned terrain through the rivers' cells, which keep their heights, and through the points.
 Terrain draw_around_rivers(Plan const& plan, Rivers const& rivers, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     Terrain terrain = without_land(rivers);
     bool const balanced = in_equilibrium(recipe);
     Mask inside;
-    if (balanced) { // whose rivers have their heights from it
+    if (balanced) { // the rivers take their heights from it
         terrain = draw_in_equilibrium(plan, std::move(terrain), diary, run);
     } else {
         inside = inside_of(recipe, terrain.land, terrain.valley);
@@ -306,7 +306,8 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
     return params;
 }
 
-// Pastes the recipe's patches into the land, in their order; rivers keep their cells' heights unless a patch says so.
+// Pastes the recipe's patches into the terrain in order; rivers keep their cells' heights unless a patch overrides
+// this.
 Terrain with_patches(Plan const& plan, Terrain drawn, Diary& diary, Run const& run) {
     for (PatchRecipe const& patch : plan.recipe.patches) {
         bool const keeps = patch.rivers == PatchRivers::keep && plan.recipe.network.has_value();
@@ -325,7 +326,7 @@ Terrain with_patches(Plan const& plan, Terrain drawn, Diary& diary, Run const& r
     return drawn;
 }
 
-/// Land without rivers, with a note on each conversion.
+/// Terrain without rivers, with a note on each conversion.
 Terrain land_alone(Plan const& plan, Diary& diary, Run const& run) {
     std::vector<Finding> notes = report_conversions(plan.recipe, *plan.grid, run);
     Terrain terrain = make_land(plan, diary, run);
@@ -333,9 +334,9 @@ Terrain land_alone(Plan const& plan, Diary& diary, Run const& run) {
     return terrain;
 }
 
-/// Rivers without land, or with the land around them.
+/// Rivers without terrain, or with the terrain around them.
 Terrain land_with(Plan const& plan, Rivers const& rivers, Diary& diary, Run const& run) {
-    if (!plan.grid) { // else it was asked before the rivers were grown
+    if (!plan.grid) { // otherwise checked before the rivers were grown
         check_detail(plan.recipe, rivers.grid.width, rivers.grid.height);
         if (plan.recipe.skeleton) {
             require_on_grid(plan.points, rivers.grid, plan.recipe.skeleton->points);
@@ -344,7 +345,7 @@ Terrain land_with(Plan const& plan, Rivers const& rivers, Diary& diary, Run cons
     return plan.recipe.surface ? draw_around_rivers(plan, rivers, diary, run) : without_land(rivers);
 }
 
-/// The land with heights that drain, as the plan wants it.
+/// Conditions the terrain hydrologically, if the plan requests it.
 Terrain made_to_drain(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     if (!conditions(plan.recipe)) {
         return terrain;
@@ -361,7 +362,7 @@ Terrain made_to_drain(Plan const& plan, Terrain terrain, Diary& diary, Run const
     return terrain;
 }
 
-/// The land with the ways of its water.
+/// Adds the terrain's flow directions and areas.
 Terrain with_drainage(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     Raster<float> const& dem = terrain.surface->dem;
     StreamNetwork const& network = terrain.network.plan;

@@ -25,79 +25,81 @@
 
 namespace thalweg::pipeline {
 
-/// How a solver came to its end.
+/// How a solver ended.
 struct SolverStory {
     std::int64_t iterations = 0;
     double residual = 0.0; ///< relative
 };
 
-/// What became of a patch.
+/// Statistics of a patch.
 struct PatchStory {
-    std::int64_t cells = 0;  ///< that it replaced
-    std::int64_t kept = 0;   ///< under it that rivers keep
+    std::int64_t cells = 0;  ///< replaced cells
+    std::int64_t kept = 0;   ///< cells under it that rivers keep
     double seam_max_m = 0.0; ///< as blend::Pasted
     double seam_rms_m = 0.0;
 };
 
-/// What it took to make the land drain.
+/// Volumes changed by hydrological conditioning.
 struct DrainStory {
     flow::DemChange banks;
     flow::DemChange depressions;
 };
 
-/// How a land came into equilibrium with its rivers.
+/// Statistics of a terrain in equilibrium with its rivers.
 struct EquilibriumStory {
-    surface::Edge edge = surface::Edge::open; ///< of the land, by recipe, mask or sea
-    bool gave_way = false;            ///< heights of the rivers' file: lowered where they would have needed walls
-    std::int64_t channel_cells = 0;   ///< in which rivers run
-    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
-    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
-    double max_lowered_m = 0.0;       ///< soft: below the given heights
+    surface::Edge edge = surface::Edge::open; ///< boundary condition, from recipe, mask or sea
+    bool gave_way = false;            ///< true if the file's heights were relaxed because fixed ones needed walls
+    std::int64_t channel_cells = 0;   ///< cells of rivers
+    std::int64_t shortened_cells = 0; ///< of removed perched tips
+    std::int64_t walled_cells = 0;    ///< of rivers whose prescribed heights need walls
+    double max_lowered_m = 0.0;       ///< soft: below the prescribed heights
     double p95_lowered_m = 0.0;
-    double rise = 0.0; ///< as surface::EquilibriumTerrain, and what follows
+    double rise = 0.0; ///< as surface::EquilibriumTerrain, like the following
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows;
-    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
+    std::int64_t side_valleys = 0; ///< arcs grown by the terrain, if requested
     std::int64_t side_valleys_left_out = 0;
 };
 
-/// Of fractal detail, as it was made.
+/// Parameters of fractal detail, as used.
 struct DetailStory {
     double hurst = 0.0;
     double sigma = 0.0; ///< as fractal::MidpointParams
 };
 
-/// A surface, the rivers as it has them, and how water flows over it.
+/// A surface, its rivers, and its flow.
 struct Terrain {
     Grid grid;
     Mask land;               ///< as Rivers
-    ElevatedNetwork network; ///< without tips that would stand perched, with the side valleys that the land has grown
+    ElevatedNetwork network; ///< without perched tips, with side valleys grown by the terrain
     NetworkOrders orders;
     network::StreamCounts streams; ///< side branches, as drawn
-    network::RiverTypes types;     ///< by arc, where rivers have types; else empty
+    network::RiverTypes types;     ///< by arc; empty: rivers have no types
     Valley valley;
-    std::optional<surface::Dilated> surface;       ///< none where the recipe wants rivers alone
+    std::optional<surface::Dilated> surface;       ///< none if the recipe requests rivers alone
     std::optional<flow::FlowField> drainage;       ///< of the surface
-    RidgeLines ridges;                             ///< between streams, where they are asked for
-    Channels channels;                             ///< of rivers with which the land is in equilibrium
-    std::int64_t lakes = 0;                        ///< laid into them
-    std::optional<EquilibriumStory> equilibrium;   ///< of a land that is
-    std::optional<SolverStory> diffusion;          ///< how the surface was solved for, where it was diffused
-    std::optional<DetailStory> detail;             ///< where it has fractal detail
+    RidgeLines ridges;                             ///< between streams, if requested
+    Channels channels;                             ///< of rivers in equilibrium with the terrain
+    std::int64_t lakes = 0;                        ///< inserted into the channels
+    std::optional<EquilibriumStory> equilibrium;   ///< of terrain in equilibrium
+    std::optional<SolverStory> diffusion;          ///< statistics of the solver, if the surface was diffused
+    std::optional<DetailStory> detail;             ///< if it has fractal detail
     std::vector<PatchStory> patches;               ///< in the recipe's order
-    std::optional<DrainStory> drained;             ///< where the recipe wants the land to drain
-    std::optional<Tin> tin;                        ///< of rivers and points, where the land is drawn over one
-    std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
-    double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
-    std::vector<Finding> notes;    ///< what became of rivers
-    std::vector<Check> checks;     ///< of the recipe's request of the surface
-    std::vector<Finding> findings; ///< of these
+    std::optional<DrainStory> drained;             ///< if the recipe requests conditioning
+    std::optional<Tin> tin;                        ///< of rivers and points, if the terrain is drawn over one
+    std::optional<fractal::MatchedDem> projection; ///< result of matching statistics; its dem is moved to surface
+    /// [cells] size below which forms had to be taken from a Gaussian terrain to match them; 0: none
+    double fine_forms_cells = 0.0;
+    std::vector<Finding> notes;    ///< on changes to rivers
+    std::vector<Check> checks;     ///< of the recipe's targets for the surface
+    std::vector<Finding> findings; ///< of these checks
     Timings timings_s;
 };
 
-/// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
-/// \param rivers those of the plan; make_rivers()
-/// \return the same terrain for the same plan and rivers, whatever the Run.
+/// Makes the terrain of a plan around its rivers; or from statistics and points alone if it has none.
+/// \param plan of the terrain
+/// \param rivers made from the plan by make_rivers()
+/// \return the same terrain for the same plan and rivers, with any Run
 Terrain make_terrain(Plan const& plan, Rivers const& rivers, Run const& run = {});
 
 } // namespace thalweg::pipeline

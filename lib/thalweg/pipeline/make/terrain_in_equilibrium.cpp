@@ -27,7 +27,7 @@
 namespace thalweg::pipeline {
 namespace {
 
-/// Cells that are land by both masks, of which either may be empty; and those of rivers.
+/// Cells that are land in both masks, of which either may be empty, and river cells.
 Mask land_of(Mask one, Mask const& other, Channels const& channels) {
     if (one.values().empty()) {
         one = other;
@@ -44,7 +44,7 @@ Mask land_of(Mask one, Mask const& other, Channels const& channels) {
     return one;
 }
 
-/// Uplift of a file, which may be empty, times that of the pattern asked for.
+/// Uplift from a file, which may be empty, times that of the requested pattern.
 Raster<float> with_pattern(Raster<float> of_file, Recipe const& recipe, Grid const& grid, Run const& run) {
     EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
     if (!wanted.uplift_pattern) {
@@ -64,7 +64,7 @@ Raster<float> with_pattern(Raster<float> of_file, Recipe const& recipe, Grid con
     return uplift;
 }
 
-// Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its pattern of uplift.
+// Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its uplift pattern.
 surface::EquilibriumFields equilibrium_fields(Plan const& plan, Terrain const& terrain, Channels const& channels,
                                               Run const& run) {
     Recipe const& recipe = plan.recipe;
@@ -98,11 +98,11 @@ surface::Edge edge_of(Plan const& plan, Terrain const& terrain, Mask const& land
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
 
-/// What the plan asks of the land, where rivers have their heights in this way.
+/// The plan's parameters of the terrain, for rivers with this method of heights.
 surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface::Edge edge) {
     Recipe const& recipe = plan.recipe;
     EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
-    constexpr double half_width_km = 0.2125; // of floors where 1 km² drains, for a floor_width of 1
+    constexpr double half_width_km = 0.2125; // of valley floors where 1 km² drains, for a floor_width of 1
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
@@ -112,7 +112,7 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
         params.relief_m = relief_m;
     } else if (params.bring_to_target) {
         params.mean_slope_deg = *wanted.mean_slope_deg;
-    } else if (recipe.network->source == Source::lines) { // given heights have a slope of their own
+    } else if (recipe.network->source == Source::lines) { // given heights have their own slope
         params.mean_slope_deg = usual_slope_deg(recipe.grid.cell_m);
     }
     params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
@@ -122,7 +122,7 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     params.longest_wave_m = wanted.longest_wave_m;
     params.grain = wanted.grain;
     params.strike_deg = wanted.strike_deg;
-    bool const by_file = recipe.network->source == Source::lines; // which has all rivers that enter
+    bool const by_file = recipe.network->source == Source::lines; // the file includes all rivers that enter
     params.region = wanted.region.value_or(params.region);
     params.inflow = !by_file;
     params.heads = by_file ? surface::Heads::kept : surface::Heads::cut;
@@ -131,7 +131,7 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     return params;
 }
 
-/// The heights that are asked of channels: all that the rivers have, or those of sources and where they end.
+/// The prescribed heights of channels: all that the rivers have, or those of sources and ends.
 std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& channels, Heights heights) {
     std::vector<float> z = network::channel_heights(rivers, channels);
     if (heights == Heights::ends) {
@@ -148,12 +148,12 @@ std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& 
     return z;
 }
 
-/// What was asked of the land, and what came out.
+/// Checks the terrain against its target.
 Terrain with_target_checked(Terrain terrain, surface::EquilibriumTerrain const& land,
                             surface::EquilibriumParams const& params, Run const& run) {
     constexpr double allowed = 0.05;
     if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
-        return terrain; // nothing was
+        return terrain; // there is no target
     }
     double const error = std::fabs(land.target_share - 1.0);
     terrain.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
@@ -177,7 +177,7 @@ bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channel
     return static_cast<double>(land.walled.size()) > most_walled(channels);
 }
 
-/// River cells that only walls hold up.
+/// Checks for river cells that need walls.
 Terrain with_walls_checked(Terrain terrain, surface::EquilibriumTerrain const& land, Channels const& channels,
                            bool given, Run const& run) {
     constexpr std::size_t listed = 1000;
@@ -201,7 +201,7 @@ Terrain with_walls_checked(Terrain terrain, surface::EquilibriumTerrain const& l
     return terrain;
 }
 
-/// One note for all lakes of a file that no cell shows.
+/// One note for all lakes of a file that cover no cell.
 std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels) {
     std::vector<std::uint8_t> seen(polygons.polygons.size() + 1);
     for (std::int32_t const label : labels.values()) {
@@ -218,7 +218,7 @@ std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t>
                          count, polygons.polygons.size(), polygons.name)}};
 }
 
-/// By cell the number of its lake, 0 for none; without cells where no lakes are asked for.
+/// By cell: number of its lake; 0: none; without cells: no lakes are requested.
 struct Lakes {
     Raster<std::int32_t> labels;
     std::vector<Finding> notes = {};
@@ -240,14 +240,14 @@ Lakes lakes_of(Plan const& plan, Terrain const& terrain, network::ChannelsOfArcs
     return lakes;
 }
 
-/// A land in equilibrium, and by what it was solved.
+/// A terrain in equilibrium, and its solver's parameters.
 struct Solved {
     surface::EquilibriumTerrain land;
     surface::EquilibriumParams params;
     bool gave_way = false; ///< as EquilibriumStory
 };
 
-/// Solves for the land. Heights that were taken because the lines have them give way where they would need walls.
+/// Solves for the terrain. Heights used only because the lines have them are relaxed where they would need walls.
 Solved solve(Plan const& plan, Terrain const& terrain, Channels const& channels, Diary& diary, Run const& run) {
     surface::EquilibriumFields const fields = equilibrium_fields(plan, terrain, channels, run);
     run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
@@ -283,7 +283,7 @@ EquilibriumStory story_of(Solved const& solved, Channels const& channels) {
     return story;
 }
 
-/// A region that was asked for and cannot be.
+/// Warns if a requested region is not possible.
 void warn_of_region(surface::EquilibriumTerrain const& land, std::optional<double> asked, Run const& run) {
     if (!land.in_region && asked.value_or(1.0) > 1.0) {
         run.say(
@@ -309,7 +309,7 @@ void warn_of_heights(Raster<float> const& dem, Run const& run) {
     }
 }
 
-/// Channels with the lakes that are asked for.
+/// Channels with the requested lakes.
 struct WithLakes {
     network::ChannelsOfArcs rivers;
     std::int64_t lakes = 0;
@@ -326,7 +326,7 @@ WithLakes with_lakes(Plan const& plan, network::ChannelsOfArcs rivers, Terrain c
     return {std::move(flooded.drawn), static_cast<std::int64_t>(flooded.lakes.size()), std::move(lakes.notes)};
 }
 
-/// The land with other arcs in plan, and the types that they get.
+/// The terrain with other arcs in plan, and their types.
 Terrain with_types(Plan const& plan, Terrain terrain, StreamNetwork network, Run const& run) {
     Typed typed = type_rivers(std::move(network), *plan.recipe.network, run);
     terrain.network.plan = std::move(typed.plan);
@@ -400,7 +400,7 @@ Terrain with_side_valleys(Plan const& plan, Terrain terrain, Diary& diary, Run c
     diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
                           static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
     terrain.network = std::move(made.network);
-    // Lengths at which each is kept.
+    // The pruning lengths at which each arc is kept.
     StreamNetwork kept = network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network;
     terrain = with_types(plan, std::move(terrain), std::move(kept), run);
     terrain.orders = network::order(terrain.network.plan);

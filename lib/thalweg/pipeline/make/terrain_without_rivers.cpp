@@ -35,13 +35,13 @@ constexpr double default_length_cells = 20.0;
 constexpr double default_dimension = 2.4;
 constexpr double default_std_m = 100.0;
 
-// What [statistics] asks for, nothing where there is none.
+// The targets of [statistics]; empty: there are none.
 StatisticsRecipe const& asked(Recipe const& recipe) {
     static StatisticsRecipe const nothing_asked;
     return recipe.statistics ? *recipe.statistics : nothing_asked;
 }
 
-// The mean height asked for, or the middle between the extremes.
+// The target mean, or the middle between the extremes.
 double mean_of(StatisticsRecipe const& s) {
     if (s.mean) {
         return *s.mean;
@@ -49,13 +49,13 @@ double mean_of(StatisticsRecipe const& s) {
     return s.max && s.min ? 0.5 * ((*s.max)[0] + (*s.min)[0]) : 0.0;
 }
 
-// How heights go together in a land of these statistics, on cells so many times larger.
+// The covariance of terrain with these statistics, on cells larger by a factor.
 solver::StableCovariance covariance_of(StatisticsRecipe const& s, double step) {
     solver::StableCovariance covariance;
     covariance.lx_cells = (s.length ? (*s.length)[0] : default_length_cells) / step;
     covariance.ly_cells = (s.length ? (*s.length)[1] : default_length_cells) / step;
     covariance.dimension = s.dimension.value_or(default_dimension);
-    // Slopes are counted between neighbours: they say nothing of coarser cells.
+    // Slopes are measured between neighbours: they do not apply to coarser cells.
     return s.slope && step == 1.0 ? solver::with_slope(covariance, s.std.value_or(default_std_m), *s.slope)
                                   : covariance;
 }
@@ -76,7 +76,7 @@ Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, i
     return s.mean ? skeleton::shift_mean(std::move(land), *s.mean) : land;
 }
 
-// A random land by this prior, on cells that detail will halve so many times.
+// Random terrain with this prior, on cells that detail will halve this many times.
 Raster<float> random_land(Recipe const& recipe, Prior prior, Grid const& coarse, int levels, Run const& run) {
     StatisticsRecipe const& s = asked(recipe);
     double const step = static_cast<double>(std::int64_t{1} << levels);
@@ -97,14 +97,14 @@ Raster<float> random_land(Recipe const& recipe, Prior prior, Grid const& coarse,
     return skeleton::grf(coarse, params, run).dem;
 }
 
-/// What points without [surface] are drawn by.
+/// The default [surface] for points.
 SurfaceRecipe over_triangles() {
     SurfaceRecipe surface;
     surface.method = Method::tin;
     return surface;
 }
 
-// The points that the land goes through: those of the file, or drawn at random with the extremes among them.
+// The points of the terrain: from the file, or random with the extremes among them.
 skeleton::Scattered points_of(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Run const& run) {
     if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
         return {.points = given};
@@ -132,14 +132,14 @@ skeleton::Scattered points_of(Recipe const& recipe, Grid const& grid, FeaturePoi
     return skeleton::scatter(grid, params, run);
 }
 
-// Land through points, and what it was made with.
+// Terrain through points, and its parameters.
 struct LandOfPoints {
     Raster<float> land;
     std::optional<Tin> tin = {};
     std::optional<SolverStory> diffusion = {};
 };
 
-// Takes: grid: that of the land, whose cells may be coarser than the recipe's, of cell_m.
+// grid: of the terrain, whose cells may be coarser than the recipe's, of cell_m.
 LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints const& points, Grid const& grid,
                             Run const& run) {
     SurfaceRecipe const wanted = recipe.surface.value_or(over_triangles());
@@ -179,7 +179,7 @@ constexpr double most_fine_cells = 8.0;
 constexpr double allowed_error = 0.01;
 constexpr double allowed_dimension_error = 0.02;
 
-// A land projected on the statistics.
+// A terrain matched to the statistics.
 struct Brought {
     fractal::MatchedDem projection;
     double fine_forms_cells = 0.0; // [cells] as Terrain
@@ -207,7 +207,7 @@ fractal::Targets targets_of(StatisticsRecipe const& s) {
     return targets;
 }
 
-/// Calls the keys of [statistics] by their names in what a faulty target throws.
+/// Names the keys of [statistics] in errors about wrong targets.
 template <class Work> auto naming_keys(Work const& work) {
     try {
         return work();
@@ -230,7 +230,7 @@ template <class Work> auto naming_keys(Work const& work) {
     }
 }
 
-/// The land moved and stretched to the mean and deviation asked for, so that the projection begins near by.
+/// Shifts and scales terrain to the target mean and deviation, so that matching begins close to them.
 Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run const& run) {
     measure::Statistics const now = measure::statistics(land, run);
     double const stretch = s.std && now.std > 0.0 ? *s.std / now.std : 1.0;
@@ -241,7 +241,7 @@ Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run co
     return land;
 }
 
-/// Heights of given points that the projection must keep: the first of each cell, none where an extreme lies.
+/// Heights of input points that matching must keep: the first of each cell, none at an extreme.
 std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
     std::vector<fractal::FixedHeight> kept;
     if (recipe.statistics->skeleton != Prior::points) {
@@ -262,7 +262,7 @@ std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeatureP
     return kept;
 }
 
-/// Says which lengths only a fit can tell: correlation is measured over lags of up to half an axis.
+/// Warns of lengths that only a fit can determine: correlation is measured over lags of up to half an axis.
 void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run) {
     if (!s.length) {
         return;
@@ -279,15 +279,15 @@ void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run
     warn("Ly", (*s.length)[1], "rows", grid.height);
 }
 
-// Throws, before any work, where the statistics cannot be reached on this grid; says which lengths only a fit can tell.
+// Throws, before any work, if the statistics cannot be reached on this grid; warns of lengths that only a fit can
+// determine.
 void require_targets(StatisticsRecipe const& wanted, Grid const& grid, Run const& run) {
     naming_keys([&] { fractal::check_targets(Raster<float>(grid), targets_of(wanted)); });
     warn_of_lengths(wanted, grid, run);
 }
 
-// Projects a land on the statistics. One from which they cannot be reached, smoother or more jagged between neighbours
-// than they ask for, takes its fine forms from a Gaussian land: as few of them as will do. given: points whose heights
-// stay.
+// Matches a terrain to the statistics. One from which they cannot be reached, smoother or rougher between neighbours
+// than the target, takes its fine forms from a Gaussian terrain: as few as possible. given: points whose heights stay.
 Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, FeaturePoints const& given, Run const& run) {
     StatisticsRecipe const& s = *recipe.statistics;
     Grid const grid = land.grid();
@@ -311,7 +311,7 @@ Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, FeatureP
     return brought;
 }
 
-// Whether the statistics came out as they were asked for.
+// Checks whether the statistics match their targets.
 std::vector<Check> residual_checks(fractal::MatchedDem const& projection) {
     std::vector<Check> checks;
     for (fractal::Residual const& r : projection.residuals) {
@@ -329,12 +329,12 @@ Detailed displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<fl
     params.height = grid.height;
     params.seed = seed;
     fractal::Displaced const made = fractal::midpoint(coarse, params, run);
-    Raster<float> land(grid); // the very frame, not one reckoned back from the coarse cells
+    Raster<float> land(grid); // the exact frame, not one computed back from the coarse cells
     std::copy(made.dem.values().begin(), made.dem.values().end(), land.values().begin());
     return {{made.hurst, made.sigma}, std::move(land)};
 }
 
-// Adds the detail that the plan wants to coarse land.
+// Adds the planned detail to coarse terrain.
 Detailed with_detail(Plan const& plan, Raster<float> const& coarse, Grid const& grid, Run const& run) {
     return displaced(plan.recipe.detail->midpoint, plan.recipe.seed, coarse, grid, run);
 }
@@ -350,7 +350,7 @@ Detailed detail_alone(Plan const& plan, Grid const& grid, Run const& run) {
 
 namespace {
 
-/// Cells that the mask of [surface] leaves out get no height.
+/// Removes the heights of cells outside the mask of [surface].
 Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
     if (!recipe.surface || recipe.surface->mask.empty()) {
         return land;
@@ -365,7 +365,7 @@ Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
     return land;
 }
 
-/// The coarse land that detail starts from, through points or at random.
+/// The coarse terrain from which detail starts, through points or random.
 Terrain begun(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     int const levels = levels_of(recipe);
@@ -390,7 +390,7 @@ Terrain begun(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     return terrain;
 }
 
-/// The land with fractal detail, where the plan wants it.
+/// Adds fractal detail, if the plan requests it.
 Terrain detailed(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     int const levels = levels_of(plan.recipe);
     if (levels == 0) {
@@ -403,7 +403,7 @@ Terrain detailed(Plan const& plan, Terrain terrain, Diary& diary, Run const& run
     return terrain;
 }
 
-/// The land with the statistics asked for.
+/// Matches the terrain to the target statistics.
 Terrain projected(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
     Brought brought = diary.stage("project", [&] {
         return brought_to_statistics(plan.recipe, std::move(terrain.surface->dem), plan.points, run);

@@ -15,14 +15,14 @@ namespace thalweg::pipeline {
 
 namespace {
 
-/// About as many cells as a network grown from this many particles takes with its margin: the radius of a cluster of
+/// Estimates the cells of a network grown from this many particles, with its margin, from the radius of a cluster of
 /// dimension 1.71, of which one arm is kept.
 std::int64_t cells_of_cluster(std::int64_t particles) {
     double const radius = 0.8 * portable::pow(static_cast<double>(particles), 1.0 / 1.71);
     return std::max<std::int64_t>(1, std::llround(1.2 * radius * radius));
 }
 
-/// The stages in which rivers are planned and made.
+/// The stages that plan and make rivers.
 std::vector<std::string> stages_of_rivers(Plan const& plan) {
     std::vector<std::string> stages;
     switch (plan.recipe.network->source) {
@@ -122,7 +122,7 @@ std::vector<std::string> stages_of(Plan const& plan) {
     return stages;
 }
 
-/// Seconds a million cells, by stage; what is not named takes a tenth.
+/// Seconds per million cells, by stage; stages not listed take a tenth.
 double seconds_a_million(std::string const& stage, Method method) {
     if (stage == "fill") {
         return method == Method::equilibrium ? 2.0 : method == Method::dilate ? 1.0 : 0.8;
@@ -136,12 +136,12 @@ double seconds_a_million(std::string const& stage, Method method) {
     return 0.1;
 }
 
-/// Most memory [bytes] of the whole program; measured on the samples, of 0.01 to 1 million cells.
+/// Peak memory [bytes] of the whole program; measured on the samples, of 0.01 to 1 million cells.
 std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
     constexpr std::int64_t program = 80'000'000; // with its libraries
     constexpr std::int64_t a_particle = 60;
     bool const has_cluster = recipe.network && recipe.network->source == Source::dla;
-    constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells a cell
+    constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells per cell
     bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
     return program + bytes_needed(cells) * 5 / 4 + (exact ? cells * a_cell_of_exact_detail : 0) +
            (has_cluster ? recipe.network->dla.particles * a_particle : 0);
@@ -161,7 +161,7 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
     return seconds;
 }
 
-/// The Run of a forecast: planning warns, but tells no news.
+/// The Run of a forecast: planning logs warnings only.
 Run warning_only(Run run) {
     run.log = [say = std::move(run.log)](std::string_view line) {
         if (say && line.starts_with("warning:")) {

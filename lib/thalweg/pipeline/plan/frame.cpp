@@ -53,7 +53,7 @@ Box box_of(Polygons const& polygons) {
     return box;
 }
 
-/// The grid asked for, or a box and 5 % around it on multiples of the cell. what: "the rivers of walker.gpkg".
+/// The requested grid, or a box and 5 % around it on multiples of the cell. what: "the rivers of walker.gpkg".
 Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what) {
     double const cell = wanted.cell_m;
     auto const snapped_down = [cell](double v) { return std::floor(v / cell) * cell; };
@@ -91,7 +91,7 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
     return grid;
 }
 
-/// Throws BadInput where a place lies outside the grid. what: "river 7 in walker.gpkg".
+/// Throws BadInput if a position lies outside the grid. what: "river 7 in walker.gpkg".
 void require_inside(Grid const& grid, double x, double y, std::string const& what) {
     refuse_if<BadInput>(!(x >= grid.west && x < grid.east() && y > grid.south() && y <= grid.north),
                         "grid: {} runs outside the grid at ({:.1f}, {:.1f}): the grid spans {:.1f} to {:.1f} east and "
@@ -99,7 +99,7 @@ void require_inside(Grid const& grid, double x, double y, std::string const& wha
                         what, x, y, grid.west, grid.east(), grid.south(), grid.north);
 }
 
-/// Throws BadInput where that much memory is not free.
+/// Throws BadInput if this much memory is not free.
 void require(std::string const& what, std::int64_t bytes, char const* advice) {
     if (std::int64_t const free = free_memory_bytes(); bytes > free) {
         throw BadInput(fmt::format("{} need {:.1f} GB; {:.1f} GB are free. {}", what, static_cast<double>(bytes) / 1e9,
@@ -198,7 +198,7 @@ Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted) {
 
 Grid frame_tree(std::int64_t links, GridRecipe const& wanted) {
     constexpr double link_cells = 12.0;
-    constexpr double share = 0.96; // of the grid's side that the network fills
+    constexpr double share = 0.96; // share of the grid's side that the network fills
     auto const side = static_cast<std::int64_t>(std::ceil(link_cells * std::sqrt(static_cast<double>(links)) / share));
     Grid grid;
     grid.width = wanted.width > 0 ? wanted.width : side;
@@ -214,7 +214,7 @@ Grid frame_tree(std::int64_t links, GridRecipe const& wanted) {
 namespace {
 
 struct Vertex {
-    double along = 0.0; ///< its coordinate on the axis that is looked at
+    double along = 0.0; ///< its coordinate on the current axis
     Vec3 at;
     std::int64_t feature = 0;
 };
@@ -227,7 +227,7 @@ struct Vertex {
                     stray.feature, lines.name, stray.at.x, stray.at.y, gap_m / 1000.0));
 }
 
-/// Looks from the beginning of sorted vertices.
+/// Scans sorted vertices from the beginning.
 void look(std::vector<Vertex> const& sorted, RiverLines const& lines) {
     constexpr double times_as_far = 20.0;
     std::size_t const few = std::max<std::size_t>(2, sorted.size() / 100);

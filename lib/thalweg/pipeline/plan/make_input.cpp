@@ -65,9 +65,9 @@ bool begins_like_toml(std::string const& path) {
     return false;
 }
 
-/// What rivers of a path are called in a title.
+/// The title of terrain with the rivers of a path.
 std::string title_of_path(std::string const& path) {
-    if (io::names_connection(path)) { // which may hold a password
+    if (io::names_connection(path)) { // it may contain a password
         return "rivers";
     }
     fs::path at = fs::path(path).lexically_normal();

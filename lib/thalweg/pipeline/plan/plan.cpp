@@ -30,7 +30,7 @@
 namespace thalweg::pipeline {
 namespace {
 
-// Whether rivers are grown for a land in equilibrium: these run as in nature, which bends them.
+// Whether rivers are grown for terrain in equilibrium: these should look natural, with meanders.
 bool grown_for_land(Plan const& plan) {
     return plan.recipe.network->source != Source::lines && in_equilibrium(plan.recipe);
 }
@@ -94,7 +94,7 @@ Mask land_of(Recipe const& recipe, Run const& run) {
     return blend::mask_polygons(polygons, frame_polygons(polygons, recipe.grid));
 }
 
-/// Which of some cells lie near marked ones.
+/// Selects the cells that lie near marked ones.
 std::vector<Cell> near_to(Mask const& marked, std::vector<Cell> const& cells, std::int64_t reach) {
     std::vector<Cell> found;
     for (Cell const c : cells) {
@@ -115,7 +115,7 @@ std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cel
     return network::spread_outlets(land, coast, {wanted.seeds, static_cast<double>(every), recipe.seed}, run);
 }
 
-/// The cells of the coast nearest to the points of a file.
+/// The coast cells nearest to the points of a file.
 std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<Finding>& notes, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
@@ -140,7 +140,7 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<
             return (there.x - at.x) * (there.x - at.x) + (there.y - at.y) * (there.y - at.y);
         });
         if (nearest == coast.end()) {
-            return {}; // no land: that is told where the forest is planted
+            return {}; // no land: reported when the forest is planted
         }
         double const moved = distance(at, grid.centre(*nearest));
         if (moved > grid.cell_m) {
@@ -169,7 +169,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
     } else {
         RiverLines const lines = io::read_rivers({.path = path, .crs = grid.crs}, run);
         marked = cells_under(network::clip_lines(lines, grid), grid, wanted.outlets);
-        reach = wanted.spacing_cells; // coasts are drawn in more or less detail
+        reach = wanted.spacing_cells; // coasts are drawn at different levels of detail
     }
     std::vector<Cell> coast = near_to(marked, network::coast_cells(land), reach);
     refuse_if<BadInput>(coast.empty(),
@@ -192,7 +192,7 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Findi
                   : spread(recipe, land, coast_along_file(recipe, land, run), run);
 }
 
-// The recipe with the CRS of its grid, which a region may give.
+// The recipe with the CRS of its grid, which may be that of a region.
 Recipe on_crs_of_region(Recipe recipe) {
     std::string const& region = recipe.network->forest.region;
     std::string& crs = recipe.grid.crs;
@@ -202,7 +202,7 @@ Recipe on_crs_of_region(Recipe recipe) {
     return recipe;
 }
 
-// The land of a recipe with its CRS: the region's polygons, an island, or all of the grid; and its outlets.
+// The land of a recipe with its CRS (the region's polygons, an island, or all of the grid) and its outlets.
 ForestLand forest_land(Recipe const& recipe, Diary& diary, Run const& run) {
     ForestLand found;
     found.land = diary.stage("shape", [&] { return land_of(recipe, run); });
@@ -211,7 +211,7 @@ ForestLand forest_land(Recipe const& recipe, Diary& diary, Run const& run) {
     return found;
 }
 
-/// Throws before a network is laid out that has no chance: links would lie at less than half the distance they keep.
+/// Throws before a hopeless network is laid out: links would be at less than half the distance they keep.
 void require_room(std::int64_t links, Grid const& grid, double spacing_cells) {
     double const apart = std::sqrt(static_cast<double>(grid.cells()) / static_cast<double>(links));
     double const kept = std::max(spacing_cells, 1.0);
@@ -259,7 +259,7 @@ Plan plan_strokes(Recipe recipe, Diary& diary, Run const& run) {
     RiverLines strokes = diary.stage("read", [&] {
         return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
     });
-    if (!strokes.findings.empty()) { // who draws strokes means each of them
+    if (!strokes.findings.empty()) { // a user who draws strokes needs each of them
         Finding const& none = strokes.findings.front();
         throw BadInput(
             fmt::format("pipeline.plan_tokunaga: stroke {} of {} at ({:.3f}, {:.3f}) is a single point or has no "
@@ -285,7 +285,7 @@ void require_files(Recipe const& recipe) {
     }
 }
 
-/// A cluster, whose grid is known only where it is asked for.
+/// Plans a cluster, whose grid is known only if it is requested.
 Plan plan_cluster(Recipe recipe) {
     NetworkRecipe& wanted = *recipe.network;
     recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
@@ -309,7 +309,7 @@ Plan plan_forest(Recipe recipe, Diary& diary, Run const& run) {
     return plan;
 }
 
-/// Lines in their grid.
+/// Clips lines to their grid.
 RiverLines clipped(RiverLines lines, Grid const& grid) {
     lines = network::clip_lines(lines, grid);
     refuse_if<BadInput>(lines.lines.empty(), "grid: no river of {} runs inside the grid", lines.name);
@@ -340,7 +340,7 @@ Plan plan_lines(Recipe recipe, Diary& diary, Run const& run) {
     return plan;
 }
 
-// The points of [skeleton]: of a file, or none. Their CRS is that of the grid, also where there are none.
+// The points of [skeleton], from a file, or none. Their CRS is the grid's, also without points.
 FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     FeaturePoints points;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
@@ -355,7 +355,7 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     return points;
 }
 
-/// Land without rivers.
+/// Plans terrain without rivers.
 Plan plan_points(Recipe recipe, Run const& run) {
     Plan plan;
     plan.points = given_points(recipe, run);
@@ -365,7 +365,7 @@ Plan plan_points(Recipe recipe, Run const& run) {
     return plan;
 }
 
-/// The plan by what rivers and land come from.
+/// Plans by the source of rivers and terrain.
 Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
     if (!recipe.network) {
         return plan_points(recipe, run);
@@ -379,13 +379,13 @@ Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
     return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, diary, run) : plan_strokes(recipe, diary, run);
 }
 
-/// How far rivers bend that a recipe says nothing of: on a coast short ones fall to the sea, which bend less.
+/// The default strength of meanders: less on a coast, where short rivers fall to the sea.
 double meander_of(Plan const& plan) {
     bool const has_sea = plan.forest && plan.forest->has_sea;
     return !grown_for_land(plan) ? 0.0 : has_sea ? 0.3 : 1.0;
 }
 
-/// With what a recipe leaves to the source of its rivers, and the points beside them.
+/// Resolves settings that depend on the source of the rivers, and their points.
 Plan with_rivers_settled(Plan plan, Run const& run) {
     if (!plan.recipe.network) {
         return plan;
@@ -397,12 +397,12 @@ Plan with_rivers_settled(Plan plan, Run const& run) {
     bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
     rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
     rivers.meander = rivers.meander.value_or(meander_of(plan));
-    refuse_unused_keys(plan.recipe); // now that the rivers' heights are known
+    refuse_unused_keys(plan.recipe); // possible now that the rivers' heights are known
     plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
     return plan;
 }
 
-/// With what it leaves to the method of its surface.
+/// Resolves settings that depend on the method of the surface.
 Plan with_surface_settled(Plan plan) {
     if (!plan.recipe.surface) {
         return plan;
@@ -419,7 +419,7 @@ Plan with_surface_settled(Plan plan) {
     return plan;
 }
 
-/// Throws where the grid, if it is known, cannot take what the plan puts on it.
+/// Throws if the grid, if known, cannot hold the planned features.
 void require_fit(Plan const& plan) {
     if (!plan.grid) {
         return;

@@ -18,53 +18,57 @@
 
 namespace thalweg::pipeline {
 
-/// What stages took [s], in their order.
+/// Times of stages [s], in order.
 using Timings = std::vector<std::pair<std::string, double>>;
 
 /// Where a forest may grow.
 struct ForestLand {
     Mask land;                  ///< 0: sea
-    bool has_sea = false;       ///< some cell is
+    bool has_sea = false;       ///< some cell is sea
     std::vector<Cell> outlets;  ///< on its coast
-    std::vector<Finding> notes; ///< outlets that were moved to it
+    std::vector<Finding> notes; ///< on outlets moved to the coast
 };
 
-/// What a recipe comes to once its files are read: all that can be known before a river is drawn. Nothing of it is
-/// rewritten later: what follows from rivers and surface is a result of theirs.
+/// A recipe with defaults resolved and input files loaded: everything known before rivers are drawn. It does not change
+/// later: results of rivers and surface are stored with these.
 struct Plan {
     Recipe recipe;                ///< with its defaults: CRS, cell, heights, prune, meander, rotate, mean slope, drain
-    std::optional<Grid> grid;     ///< empty: it follows from rivers that have to be grown first
+    std::optional<Grid> grid;     ///< empty: it depends on rivers that must be grown first
     RiverLines lines;             ///< of network.lines.path, inside the grid; or strokes
-    Raster<float> line_dem;       ///< of network.lines.dem, in the CRS of the lines; without cells for none
-    bool heights_of_file = false; ///< rivers have these because the lines do, not because they were asked for
+    Raster<float> line_dem;       ///< of network.lines.dem, in the CRS of the lines; without cells: none
+    bool heights_of_file = false; ///< used because the lines have them, not because they are requested
     std::optional<Polygons> region;            ///< that a Tokunaga tree fills
-    std::optional<network::TokunagaTree> tree; ///< which fills the region or the grid: its size gives the grid's
-    std::optional<ForestLand> forest;          ///< where rivers are a forest
+    std::optional<network::TokunagaTree> tree; ///< fills the region or the grid, whose size it may determine
+    std::optional<ForestLand> forest;          ///< if rivers are a forest
     FeaturePoints points;                      ///< of skeleton.points; their CRS is the grid's, also without points
-    Timings timings_s;                         ///< of what was read and grown for it
+    Timings timings_s;                         ///< of reading and growing
 };
 
-/// Checks a recipe and its input files and settles all that follows from them. Rivers, strokes, regions, outlets and
-/// points are read here and nowhere else; what lies over the surface (masks, fields, lakes, patches) has to be there,
-/// and is read when the surface is drawn.
-/// \return the same plan for the same recipe and files, whatever the Run.
-/// \throws BadParameter naming what does not fit together, and every key that is set and has no effect
-/// \throws BadInput where a file is missing or not what its key needs, or the grid needs more memory than is free
+/// Checks a recipe and its input files and resolves everything that depends on them. Rivers, strokes, regions, outlets
+/// and points are read here only; files for the surface (masks, fields, lakes, patches) must exist, and are read when
+/// the surface is drawn.
+/// \param recipe any
+/// \return the same plan for the same recipe and files, with any Run
+/// \throws BadParameter naming keys that contradict one another, and every key that is set and has no effect
+/// \throws BadInput when a file is missing or unsuitable for its key, or the grid needs more memory than is free
 Plan resolve(Recipe const& recipe, Run const& run = {});
 
 /// What make() would do with a recipe.
 struct Forecast {
-    std::vector<std::string> stages; ///< in order, with the names of its timings
-    std::optional<Grid> grid;        ///< empty: it follows from rivers that have to be grown first
-    std::int64_t cells = 0;          ///< of the grid, an estimate where it is unknown
-    std::int64_t memory_bytes = 0;   ///< at most, estimated
+    std::vector<std::string> stages; ///< in order, named as in its timings
+    std::optional<Grid> grid;        ///< empty: it depends on rivers that must be grown first
+    std::int64_t cells = 0;          ///< of the grid; an estimate if it is unknown
+    std::int64_t memory_bytes = 0;   ///< estimated upper limit
     double seconds = 0.0;            ///< estimated, on one core of 2020
 };
 
-/// \return the stages that make() times, in its order, and estimates.
+/// Estimates the work of make().
+/// \param plan of a recipe
+/// \return its stages in order, and estimates
 Forecast forecast(Plan const& plan);
 
-/// Plans a recipe and says what a run would do, without running it.
+/// Plans a recipe and estimates the work of a run, without running it.
+/// \param recipe any
 /// \return the forecast of its plan
 /// \throws Error as resolve()
 Forecast forecast(Recipe const& recipe, Run const& run = {});

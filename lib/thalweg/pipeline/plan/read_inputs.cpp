@@ -119,14 +119,14 @@ Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::
 
 namespace {
 
-/// Why the cell size is what it is.
+/// The reason for the cell size.
 std::string reason(network::ChosenCell const& chosen) {
     std::string words = fmt::format(", from {} lines of {:.4g} km in all, {:.2g} km apart", chosen.lines,
                                     chosen.length_m / 1000.0, chosen.spacing_m / 1000.0);
     return words;
 }
 
-/// Says where rivers lie too close together for the cells.
+/// Warns where rivers are too close together for the cells.
 void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
     constexpr double worth_a_word = 0.002;
     if (chosen.crowded_share <= worth_a_word) {
@@ -138,7 +138,7 @@ void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
                                               : "Take a part of the rivers, or set a smaller grid.cell."));
 }
 
-/// A recipe with a mean slope, where it has neither one nor a relief, nor the rivers heights.
+/// A recipe with a mean slope, if it has neither one nor a relief, and the rivers have no heights.
 Recipe with_slope(Recipe recipe, bool has_z) {
     if (!in_equilibrium(recipe)) {
         return recipe;

@@ -25,14 +25,14 @@ namespace {
 
 constexpr std::int64_t most_values = 1'500'000;
 constexpr std::int64_t longest_side = 4096;
-constexpr double steps = 65534.0; // values 1 .. 65535, 0 is no data
+constexpr double steps = 65534.0; // values 1 .. 65535, 0: no data
 constexpr std::size_t predictors = 4;
 
 std::int64_t parts(std::int64_t cells, std::int64_t of) {
     return (cells + of - 1) / of;
 }
 
-/// Means of the squares, row-major; NaN for none.
+/// Means of the squares, row-major; NaN: none.
 std::vector<double> means(Raster<float> const& dem, PageHeights const& page, Run const& run) {
     auto const width = static_cast<std::size_t>(page.width);
     auto const side = static_cast<std::size_t>(page.cells);
@@ -77,7 +77,7 @@ std::vector<std::uint16_t> quantised(std::vector<double> const& mean, PageHeight
     return values;
 }
 
-/// Predictions for a value with its neighbours in the west, north and north-west, before they are taken modulo 2^16.
+/// Predictions for a value from its neighbours in the west, north and north-west, before reduction modulo 2^16.
 std::array<std::uint32_t, predictors> predictions(std::uint32_t west, std::uint32_t north, std::uint32_t corner) {
     return {north, west, west + north - corner, (west + north) / 2};
 }
@@ -91,7 +91,8 @@ std::uint16_t zigzag(std::uint32_t difference) {
 /// Residuals of one row under each predictor.
 using Residuals = std::array<std::vector<std::uint16_t>, predictors>;
 
-/// Fills in the residuals of a row and gives the predictor that leaves the fewest binary digits in them.
+/// Computes the residuals of a row.
+/// \return the predictor with the fewest binary digits in them
 std::size_t predict(std::span<std::uint16_t const> row, std::span<std::uint16_t const> above, Residuals& residuals) {
     std::array<std::int64_t, predictors> cost{};
     std::uint32_t west = 0;
@@ -169,7 +170,7 @@ std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run
 namespace {
 
 constexpr double steps_a_square = 16.0;
-constexpr double farthest = 0x1p29; // products of two differences then stay below 2^62
+constexpr double farthest = 0x1p29; // products of two differences are then below 2^62
 
 /// A position in whole steps, x to the east and y to the south.
 struct Point {
@@ -178,7 +179,7 @@ struct Point {
     friend bool operator==(Point const&, Point const&) = default;
 };
 
-/// Whether b lies on the straight way from a to c.
+/// Whether b lies on the straight line from a to c.
 bool on_the_way(Point a, Point b, Point c) {
     Point const there{b.x - a.x, b.y - a.y};
     Point const on{c.x - b.x, c.y - b.y};
@@ -284,7 +285,7 @@ std::string fill_page(std::string_view page, PageParts const& parts) {
 
 namespace {
 
-/// A text with all that is no UTF-8 replaced.
+/// Replaces invalid UTF-8 in a text.
 std::string as_utf8(std::string const& text) {
     using nlohmann::json;
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
@@ -339,7 +340,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
 
 namespace {
 
-/// Whether every vertex of the network lies on the DEM's grid, as areas by its drainage need.
+/// Whether every vertex of the network lies on the DEM's grid, as required for areas.
 bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
     for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
         auto const& line = network.plan.arc(arc).line;
@@ -350,7 +351,7 @@ bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
     return true;
 }
 
-/// What a scene shows of a terrain.
+/// Makes a terrain of a scene's content.
 Terrain terrain_of(Scene const& scene, Run const& run) {
     Terrain terrain;
     terrain.grid = scene.dem->grid();
@@ -364,7 +365,7 @@ Terrain terrain_of(Scene const& scene, Run const& run) {
     return terrain;
 }
 
-/// What is measured of it.
+/// Measures it.
 Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& run) {
     Assessment found;
     found.statistics = measure::statistics(*scene.dem, run);

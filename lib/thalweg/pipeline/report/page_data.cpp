@@ -18,7 +18,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-/// What stands in small print under a figure.
+/// The small print under a metric.
 std::string note_of(LawRow const& row) {
     struct Way {
         std::string_view detail;
@@ -77,7 +77,7 @@ ordered_json orders_of(measure::NetworkLaws const* laws) {
     return orders;
 }
 
-/// Bins as [area in km2, value in so many of its unit, places], and the two ends of the law's line.
+/// Bins as [area in km2, value divided by its unit, places], and the two ends of the law's line.
 ordered_json power_object(std::optional<measure::PowerLaw> const& law, double unit) {
     if (!law) {
         return nullptr;
@@ -93,7 +93,7 @@ ordered_json power_object(std::optional<measure::PowerLaw> const& law, double un
     return {{"bins", bins}, {"fit", fit}};
 }
 
-// The laws of rivers as the page has them, JSON: a table of figures, and what its diagrams show (web/README.md).
+// The laws of rivers as JSON for the page: a table of metrics, and the data of its diagrams (web/README.md).
 std::string page_laws(RiverLaws const& laws) {
     measure::NetworkLaws const* const drawn = laws.network ? &*laws.network : nullptr;
     measure::NetworkLaws const* const drained = laws.dem ? &laws.dem->laws : nullptr;
@@ -118,13 +118,13 @@ std::string page_laws(RiverLaws const& laws) {
 constexpr std::size_t most_points = 600;
 constexpr std::size_t most_shown = 50;
 
-/// To the millimetre, so that no digits are written that no one needs.
+/// Rounds to 1 mm to keep the JSON small.
 double to_millimetres(double metres) {
-    constexpr double finest = 1e12; // beyond, a double has not much finer steps
+    constexpr double finest = 1e12; // beyond this, doubles are hardly finer
     return std::fabs(metres) < finest ? std::floor(metres * 1000.0 + 0.5) / 1000.0 : metres;
 }
 
-/// At most so many of a list, evenly, the first and last among them.
+/// At most this many of a list, evenly spaced, the first and last included.
 template <class T> std::vector<T> thinned(std::vector<T> const& all) {
     if (all.size() <= most_points) {
         return all;
@@ -141,7 +141,7 @@ ordered_json grid_object(Grid const& grid) {
             {"west", grid.west},   {"north", grid.north},   {"crs", grid.crs}};
 }
 
-/// Rows of name, value and unit, those of nothing left out.
+/// Rows of name, value and unit, without missing ones.
 ordered_json given_array(std::optional<GivenLength> const& given, std::optional<GivenAreas> const& areas) {
     ordered_json rows = ordered_json::array();
     auto const add = [&](std::string const& name, double metres, double unit_m, char const* unit) {
@@ -219,13 +219,13 @@ ordered_json ridges_object(Made const& t, PageLines const& lines) {
     return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
 }
 
-/// A place on a profile: distance to the outlet and height, both in metres.
+/// A point of a profile: distance to the outlet and height, both in metres.
 struct ProfilePoint {
     double to_outlet_m;
     double z;
 };
 
-/// The main stem of the basin that drains the largest area, from its source down.
+/// The main stem of the basin with the largest area, from its source downstream.
 std::vector<ProfilePoint> main_stem(Made const& t) {
     std::vector<ProfilePoint> upstream;
     if (t.terrain.network.plan.outlets().empty()) {
@@ -288,7 +288,7 @@ ordered_json hypsometry_object(Made const& t) {
     return {{"integral", t.assessment.hypsometry->integral}, {"points", points}};
 }
 
-/// A list of figures: what was asked, where something was, and what came of it.
+/// A list of metrics: target, if any, and result.
 class Figures {
 public:
     template <class Number> void add(char const* name, Number got, char const* unit) {
@@ -306,7 +306,7 @@ private:
     ordered_json rows_ = ordered_json::array();
 };
 
-/// What [statistics] asks for under the name a residual has.
+/// The target of [statistics] with the name of a residual.
 std::optional<double> asked_for(Made const& t, char const* name) {
     if (t.terrain.projection) {
         for (fractal::Residual const& r : t.terrain.projection->residuals) {
@@ -359,7 +359,7 @@ void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& f
     figures.add("drainage density", length / 1000.0 / (land * t.terrain.grid.cell_m * t.terrain.grid.cell_m / 1e6),
                 "km/km2");
     if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
-        // Only along_stream asks for a slope along the water; the others ask for one along a straight line.
+        // Only along_stream sets a slope along the water; the other methods set one along a straight line.
         figures.add("slope of the main stem",
                     wanted && wanted->heights == Heights::along_stream ? std::optional(wanted->slope) : std::nullopt,
                     (stem.front().z - stem.back().z) / stem.front().to_outlet_m, "m/m");
@@ -400,7 +400,7 @@ ordered_json notes_array(Made const& t, std::optional<PageHeights> const& height
     return out;
 }
 
-/// Within a string of JSON any character may be written so; elsewhere JSON has no '<'.
+/// Inside a JSON string any character may be escaped; elsewhere JSON has no '<'.
 std::string without_tags(std::string const& json) {
     std::string out;
     out.reserve(json.size());

@@ -68,7 +68,7 @@ draw::Picture draw_wireframe(Scene const& scene, Look const& look) {
     return draw::wireframe(land, params);
 }
 
-/// Pictures of a given shape keep it at another width.
+/// Pictures with a fixed aspect ratio keep it at another width.
 template <class Params> Params sized(Look const& look) {
     Params params;
     params.format = look.format;

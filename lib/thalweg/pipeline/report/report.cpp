@@ -22,7 +22,7 @@ namespace {
 
 using nlohmann::ordered_json;
 
-// Water that enters the grid as a JSON array, the largest first.
+// Inflows of the grid as a JSON array, the largest first.
 std::string inflows_json(Grid const& grid, std::vector<surface::RegionInflow> inflows) {
     std::sort(inflows.begin(), inflows.end(), [](auto const& a, auto const& b) {
         return std::pair{-a.area_cells, a.cell} < std::pair{-b.area_cells, b.cell};
@@ -41,7 +41,7 @@ ordered_json extreme(measure::Extreme const& e) {
     return {{"z", e.z}, {"col", e.cell.col}, {"row", e.cell.row}};
 }
 
-/// A figure that the heights do not tell is NaN, which JSON writes as null.
+/// An undefined metric is NaN, which JSON writes as null.
 ordered_json dem(measure::Statistics const& s) {
     return {{"cells", s.cells},
             {"nodata", s.nodata},
@@ -95,7 +95,7 @@ ordered_json recipe_object(Recipe const& recipe) {
     return ordered_json::parse(text.str());
 }
 
-/// A ratio, or null where it is unknown.
+/// A ratio, or null if it is unknown.
 ordered_json ratio(std::optional<measure::HortonRatio> const& law) {
     return law ? ordered_json(law->ratio) : ordered_json(nullptr);
 }
@@ -116,11 +116,10 @@ ordered_json streams_object(network::StreamCounts const& counts) {
     return {{"links", counts.links}, {"streams", counts.streams}, {"side_branches", counts.side}};
 }
 
-/// Side branches by Tokunaga's numbers: of the network as drawn, and of the tree it was grown from.
+/// Tokunaga's numbers of side branches: of the network as drawn, and of the tree it was grown from.
 ordered_json tokunaga_object(Made const& t) {
     ordered_json out{{"drawn", streams_object(t.terrain.streams)}};
-    if (t.rivers.story.tokunaga &&
-        !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
+    if (t.rivers.story.tokunaga && !t.recipe.network->tokunaga.strokes.empty()) { // each has its own tree and lambda
         out["grown"] = {{"links", t.rivers.story.tokunaga->placed + t.rivers.story.tokunaga->dropped}};
     } else if (t.rivers.story.tokunaga) {
         network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
@@ -240,7 +239,7 @@ ordered_json statistics_object(fractal::MatchedDem const& p) {
             {"residuals", residuals}};
 }
 
-/// From the increments as the recipe names them to those used.
+/// Factor from the recipe's increments to those used.
 double metres_per_unit(Made const& t) {
     std::vector<double> const& used = t.terrain.surface->increments;
     std::vector<double> const named =
@@ -252,7 +251,7 @@ double metres_per_unit(Made const& t) {
                : used[static_cast<std::size_t>(greatest - named.begin())] / *greatest;
 }
 
-/// What stages took, by their names.
+/// Times of stages, by their names.
 ordered_json timings_object(Timings const& timings_s) {
     ordered_json out = ordered_json::object();
     for (auto const& [stage, seconds] : timings_s) {
@@ -350,7 +349,7 @@ void add_lines(Made const& t, ordered_json& report) {
     }
 }
 
-/// How the land came about.
+/// Adds the statistics of the terrain's construction.
 void add_story(Made const& t, ordered_json& report) {
     if (t.terrain.equilibrium) {
         EquilibriumStory const& e = *t.terrain.equilibrium;

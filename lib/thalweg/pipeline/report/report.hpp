@@ -12,33 +12,44 @@
 
 namespace thalweg::pipeline {
 
-/// \param made a terrain with all that led to it
-/// \return report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
+/// Formats report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
+/// \param made a terrain
+/// \param files names of the files written
+/// \return JSON
 std::string write_report(Made const& made, std::vector<std::string> const& files);
 
-/// \param json the text of a report.json
-/// \return the files an earlier report.json lists; empty where the text is none.
+/// Reads the files that an earlier report.json lists.
+/// \param json its text
+/// \return empty: the text is not a report
 std::vector<std::string> files_of_report(std::string const& json);
 
-/// \return statistics as one JSON object, as they stand under "dem" in report.json; laws: of the DEM's rivers, or null;
-/// relief: or null.
+/// Formats statistics as one JSON object, as under "dem" in report.json.
+/// \param statistics of a DEM
+/// \param laws of the DEM's rivers, or null
+/// \return JSON
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
                             TerrainRelief const* relief = nullptr);
 
-/// \return Checks as one JSON array, as they stand under "checks" in report.json.
+/// Formats checks as one JSON array, as under "checks" in report.json.
+/// \param checks any
+/// \return JSON
 std::string checks_json(std::vector<Check> const& checks);
 
-/// \return the version of thalweg, e.g. "0.2.0".
+/// \return the version of thalweg, e.g. "0.2.0"
 std::string version();
 
-/// \throws BadInput when the folder is taken and may not be replaced: asked before the work, not after
+/// Checks an output folder before the work starts.
+/// \param folder of the output
+/// \param existing whether its content may be replaced
+/// \throws BadInput when the folder has content that must not be replaced
 void check_folder(std::string const& folder, io::Existing existing);
 
-/// Writes everything `make` leaves behind into a folder, whole or not at all.
-/// \param made a terrain with all that led to it
-/// \return the names of the files, report.json last. Under replace it removes what the old report.json lists, nothing
-/// else.
-/// \throws BadInput (the folder is taken), IoError, Cancelled: then nothing has changed
+/// Writes all output of `make` into a folder, completely or not at all.
+/// \param made a terrain
+/// \param folder of the output
+/// \param existing under replace, files listed in the old report.json are removed, nothing else
+/// \return the names of the files, report.json last
+/// \throws Error BadInput (the folder has content), IoError, Cancelled: then nothing has changed
 std::vector<std::string> write_terrain(Made const& made, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
 

@@ -52,12 +52,12 @@ double contour_interval(Made const& t) {
     return asked > 0.0 ? asked : round_interval(relief_m(t) / metres_in(t.recipe.output.units));
 }
 
-/// Of pictures and the page, which are in metres.
+/// For pictures and the page, which are in metres.
 double contour_interval_m(Made const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
-/// A file's name as TOML and JSON can hold it.
+/// A file name as TOML and JSON can contain it.
 std::string name_in_utf8(std::string name) {
     if (!is_utf8(name)) {
         std::ranges::replace_if(
@@ -66,7 +66,8 @@ std::string name_in_utf8(std::string name) {
     return name;
 }
 
-/// Copies a named input and its companions into a folder of the output and gives the name it has there.
+/// Copies a named input and its companions into a folder of the output.
+/// \return its new name
 std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
                        std::string const& into) {
     fs::path const given(name);
@@ -84,7 +85,8 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     return into + own;
 }
 
-/// Copies every file the recipe names into inputs/ and gives the recipe that names the copies.
+/// Copies every file of the recipe into inputs/.
+/// \return the recipe with the names of the copies
 Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
     io::RecipeFiles const confined;
     Recipe recipe = made.recipe;
@@ -101,7 +103,7 @@ Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
     return recipe;
 }
 
-/// The network in another schema, its confluences split where that cannot name so many arcs.
+/// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
 void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run) {
     io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
     network::Split split{t.terrain.network, {}};

@@ -19,7 +19,7 @@ struct MendNetworkParams {
     Raster<float> const* dem = nullptr; ///< as network::ImportParams
 };
 
-/// A network without the faults of its file.
+/// A network repaired from the faults of its file.
 struct MendedNetwork {
     ElevatedNetwork network;
     NetworkOrders orders;
@@ -29,22 +29,25 @@ struct MendedNetwork {
     std::vector<std::uint8_t> braided; ///< by arc
     io::UserData user;                 ///< of the file
     std::vector<SecondaryLine> secondary;
-    std::vector<Finding> doubts; ///< of directions, as network::Directions, and what was turned by which evidence
+    std::vector<Finding> doubts; ///< about directions, as network::Directions, and lengths reversed, by evidence
     std::vector<Finding> mended; ///< feature = arc_id of the file
-    bool done = false;           ///< the check finds nothing any more; else mended ends with what is left
+    bool done = false;           ///< a check finds no more faults; otherwise mended ends with the remaining ones
 };
 
-/// Mends what a check has found, without inventing more than it must.
-/// Takes: the file, and what the check of it found with the same near_m. Gives, in this order: vertices that are no
-/// numbers left out, an arc without a line drawn straight between its nodes or left out, ends put onto their node where
-/// no other lies in their place, arcs drawn against the flow turned, loops and spikes cut off,
-/// arcs that are no natural watercourse secondary; then network::adopt, which under a foreign schema is told the file's
-/// links (branches beside the main path secondary, open ends joined, arcs split where they meet, copies left out, what
-/// still runs against the rest turned round) and network::lower_rises. Orders and basins are those of the result. Areas
-/// stay where an arc keeps its end, and are otherwise what flows in, which is the least; 0 where the file does not say.
-/// Heights are 0 in a file without. Kinds of mended: left_out (vertices; arc: 0), drawn [m], moved [m], turned [m], cut
-/// [m], those of adopt, lowered [m], level (arcs), secondary [m], mended (findings of one kind), not_mended. A file
-/// without a fault keeps its arcs, nodes and vertices. Throws: Cancelled; BadParameter.
+/// Repairs the faults that a check found, inventing as little as possible. In order: drops vertices that are not
+/// numbers; draws an arc without a line straight between its nodes, or drops it; moves ends onto their node unless
+/// another node is there; reverses arcs drawn against the flow; cuts loops and spikes; makes arcs that are not natural
+/// watercourses secondary. Then calls network::import_lines, under foreign schemas with the file's links (makes
+/// branches beside the main path secondary, joins open ends, splits arcs where they meet, drops duplicates, reverses
+/// lines that contradict the others) and network::lower_rises. Orders and basins are computed. An arc whose end did not
+/// move keeps its area; other arcs get the sum of their inflows, a lower bound; 0 if the file has none. Heights are 0
+/// in a file without heights. Kinds of mended: left_out (vertices; arc: 0), drawn [m], moved [m], turned [m], cut [m],
+/// those of import_lines, lowered [m], level (arcs), secondary [m], mended (findings of one kind), not_mended. A file
+/// without faults keeps its arcs, nodes and vertices.
+/// \param file as read
+/// \param found result of the check with the same near_m
+/// \return the repaired network
+/// \throws BadParameter when a parameter is outside its range
 MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport const& found,
                            MendNetworkParams const& params = {}, Run const& run = {});
 

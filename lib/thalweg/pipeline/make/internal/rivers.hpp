@@ -14,28 +14,27 @@
 
 namespace thalweg::pipeline {
 
-/// A network in plan on its grid, with the file's heights where lines carry them.
+/// A network in plan on its grid, with the heights of its lines, if any.
 struct RiversInPlan {
     StreamNetwork network;
     Grid grid;
     std::optional<ElevatedNetwork> file_heights = {};
-    Mask land = {}; ///< 0: sea; without cells: all is land
+    Mask land = {}; ///< 0: sea; without cells: all land
     RiverFile file = {};
     NetworkStory story = {};
 };
 
-/// Grows or imports the rivers of a plan: one arm of a cluster, networks by Tokunaga's law, a forest or lines of a
-/// file.
+/// Grows or imports the rivers of a plan: an arm of a cluster, networks by Tokunaga's law, a forest, or a file's lines.
 RiversInPlan rivers_in_plan(Plan const& plan, Diary& diary, Run const& run);
 
-/// A network whose arcs say their types.
+/// A network whose arcs have types.
 struct Typed {
     StreamNetwork plan;
-    network::RiverTypes types; ///< by arc; empty where rivers have none
+    network::RiverTypes types; ///< by arc; empty: rivers have none
 };
 
-/// Gives the rivers types, written to the arcs, where heights follow from them or the recipe asks for braided ones.
-/// To be repeated when arcs are added or removed: types that arcs have stay.
+/// Assigns types to rivers and their arcs if heights depend on them or the recipe requests braided rivers. Repeat it
+/// when arcs are added or removed: existing types stay.
 Typed type_rivers(StreamNetwork plan, NetworkRecipe const& wanted, Run const& run);
 
 } // namespace thalweg::pipeline

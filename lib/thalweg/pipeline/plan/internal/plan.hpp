@@ -18,7 +18,7 @@
 
 namespace thalweg::pipeline {
 
-/// Times the stages and says a line for each.
+/// Times the stages and logs a line for each.
 class Diary {
 public:
     explicit Diary(Run const& run) : run_(run) {}
@@ -32,10 +32,10 @@ public:
         run_.at(1.0, name);
         return result;
     }
-    /// About the last stage.
+    /// Logs a line about the last stage.
     void say(std::string const& words) const;
 
-    /// What the stages took, in order; none is left.
+    /// Returns the times of the stages, in order, and clears them.
     Timings take() { return std::exchange(timings_s_, {}); }
 
 private:
@@ -43,18 +43,18 @@ private:
     Timings timings_s_;
 };
 
-// Which stages a plan asks for: make runs them by these questions, and the forecast names them by the same.
+// Predicates for the stages of a plan, common to make, which runs them, and the forecast, which lists them.
 
 /// Whether coastlines of the rivers' file bound the land.
 bool has_coastlines(Plan const& plan);
 
-/// Whether rivers go through the stage that bends them.
+/// Whether rivers go through the meander stage.
 bool bends_rivers(Plan const& plan);
 
-/// Whether rivers have no heights until the land gives them theirs.
+/// Whether rivers take their heights from the terrain.
 bool follows_land(Recipe const& recipe);
 
-/// Whether random points lie between the rivers, or in the land.
+/// Whether random points lie between the rivers, or in the terrain.
 bool scatters(Recipe const& recipe);
 
 /// Whether ridges are drawn between the rivers.
@@ -63,33 +63,33 @@ bool has_ridges(Recipe const& recipe);
 /// Whether rivers, ridges and points are triangulated.
 bool needs_tin(Recipe const& recipe);
 
-/// Whether the land is made to drain.
+/// Whether the terrain is conditioned hydrologically.
 bool conditions(Recipe const& recipe);
 
-/// Whether the land's own side valleys become arcs.
+/// Whether the terrain's own side valleys become arcs.
 bool fills_space(Recipe const& recipe);
 
 // Networks that branch by Tokunaga's law.
 
-/// What helps where links find no room.
+/// Advice if links find no room.
 inline constexpr char const* more_room =
     "lower network.tokunaga.order or spacing, or take a larger grid (or smaller cells)";
 
 /// The tree that a recipe grows by Tokunaga's law.
 network::TokunagaParams tree_of(Recipe const& recipe);
 
-/// Refuses to take a grid from lines of which one vertex, or at most 1 %, lies more than twenty times as far away as
-/// all others reach: a coordinate that was lost. Fewer than 20 vertices tell nothing. Throws: BadInput naming the line,
-/// the vertex and what to do.
+/// Rejects lines of which one vertex, or at most 1 %, is more than twenty times as far away as all others: a corrupt
+/// coordinate that would enlarge the grid. Fewer than 20 vertices are not judged.
+/// \throws BadInput naming the line, the vertex and the remedy
 void require_no_stray_vertex(RiverLines const& lines);
 
-/// The grid asked for, or the points' box and 5 % around it on multiples of the cell.
+/// The requested grid, or the points' box and 5 % around it on multiples of the cell.
 Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 
-/// Throws BadInput naming the first point off the grid. name: the file, as the recipe has it.
+/// Throws BadInput naming the first point off the grid. name: the file, as in the recipe.
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name);
 
-/// Adds the values of one vector to the end of another.
+/// Appends the values of one vector to another.
 template <class T> void append(std::vector<T>& to, std::vector<T> from) {
     to.insert(to.end(), std::make_move_iterator(from.begin()), std::make_move_iterator(from.end()));
 }

@@ -12,48 +12,49 @@
 
 namespace thalweg::pipeline {
 
-// What files say of the cells of a grid.
+// Values of files by cell of a grid.
 
-/// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
-/// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
+/// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "". Throws
+/// as io::read_mask, io::read_polygons and blend::mask_polygons.
 Mask read_part(std::string const& path, Grid const& grid, Run const& run);
 
-/// The cells of a grid under lines. what: the lines' name, for messages. Throws: as cells_along, for lines that leave
+/// The cells of a grid under lines. what: the lines' name, for messages. Throws as cells_along, for lines that leave
 /// the grid.
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
 
-/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "". Throws: as
-/// io::read_dem; BadInput when it has not as many cells as the grid.
+/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "". Throws as io::read_dem,
+/// and BadInput when its size is not the grid's.
 Mask read_mask_of_land(std::string const& path, Grid const& grid);
 
-/// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
-/// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
-/// Throws: as the doors; BadInput naming the cell where a raster has no value or one that is not above 0.
+/// A positive field over the terrain: a raster, warped to the grid's cells, or polygons with a real field erodibility,
+/// 1 between them (of several the last counts); empty for "". what: the key, for messages. Throws as the readers, and
+/// BadInput naming the cell where a raster has no value or one not above 0.
 Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run);
 
-/// [m] A DEM in a CRS, on cells as large as its own; without cells for "". what: the key or option, for messages.
-/// Throws: as io::read_dem and io::warp_to_grid.
+/// [m] A DEM warped to a CRS, with its own cell size; without cells for "". what: the key or option, for messages.
+/// Throws as io::read_dem and io::warp_to_grid.
 Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::string const& what,
                           std::optional<double> nodata, Run const& run);
 
-// The lines that a recipe names, and what follows from them.
+// The lines of a recipe, and settings derived from them.
 
 /// The lines of network.lines.path.
 RiverLines read_lines(Recipe const& recipe, Run const& run);
 
-/// A recipe with the CRS and, where it is 0, the cell size of its grid by its lines; and a mean slope by the cell size.
+/// A recipe with the CRS and, if it was 0, the cell size of its grid chosen from its lines; and a mean slope chosen by
+/// the cell size.
 struct OnLines {
     Recipe recipe;
-    std::string why; ///< the cell has its size, as the end of a sentence; "" where it was given
+    std::string why; ///< reason for the cell size, as the end of a sentence; "": it was given
 };
 OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run);
 
-/// The usual mean slope [degrees] of land in cells of this size: the coarser, the gentler. Within 6 % of the mean
+/// The usual mean slope [degrees] of terrain with cells of this size: gentler for coarser cells. Within 6 % of the mean
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
 double usual_slope_deg(double cell_m);
 
-/// Throws BadInput where a file's coordinates are known not to be metres.
-/// Takes: the grid read from the file at path; who asks, as messages begin: "pipeline.make_points".
+/// Throws BadInput if a file's coordinates are known not to be metres. grid: read from the file at path; who:
+/// "pipeline.make_points", for the message.
 void require_metres(Grid const& grid, std::string const& path, char const* who);
 
 } // namespace thalweg::pipeline

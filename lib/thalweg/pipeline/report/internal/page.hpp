@@ -17,53 +17,56 @@
 namespace thalweg::pipeline {
 
 struct PageParams {
-    double contour_interval_m = 0.0; ///< [m] of the contours the page draws first; 0 where there is no surface
-    std::string recipe;              ///< TOML as it lies beside the page; "" for none
-    std::string command = "thalweg make recipe.toml -o again"; ///< that makes it again
-    std::vector<std::string> notes = {};                       ///< further ones
+    double contour_interval_m = 0.0;                           ///< [m] of the page's first contours; 0: no surface
+    std::string recipe;                                        ///< TOML as in the file beside the page; "": none
+    std::string command = "thalweg make recipe.toml -o again"; ///< command that reproduces the terrain
+    std::vector<std::string> notes = {};                       ///< additional ones
 };
 
-/// report.html of a terrain: one page that a browser opens without a network.
-/// Gives: the page that is built into the library, filled as web/README.md says. Whatever a title or a file name holds,
-/// it cannot leave its place in the page; bytes that are no UTF-8 become U+FFFD. Throws: Cancelled; IoError.
+/// Makes report.html of a terrain: one page that a browser opens without a network connection. It is the page built
+/// into the library, filled as web/README.md describes. Titles and file names are escaped; invalid UTF-8 becomes
+/// U+FFFD.
+/// \throws IoError when GDAL fails to compress
 std::string page(Made const& made, PageParams const& params = {}, Run const& run = {});
 
-/// Heights as the report page reads them (web/README.md).
+/// Heights in the format of the report page (web/README.md).
 struct PageHeights {
     std::int64_t width = 0;          ///< [values]
     std::int64_t height = 0;         ///< [values]
     std::int64_t cells = 1;          ///< [cells] a value is the mean of a square of cells x cells
     double min = 0.0;                ///< [m] of the values
-    double max = 0.0;                ///< [m] likewise
+    double max = 0.0;                ///< [m] of the values
     std::int64_t nodata = 0;         ///< values without a height
     std::vector<std::uint8_t> bytes; ///< predictors, low bytes, high bytes
 };
 
-/// Side [cells] of the squares that the page shows by one value each.
-/// Gives: the smallest with which no side of the grid has more than 4096 values, and the whole not more than 1 500 000.
+/// Chooses the side [cells] of the squares that the page shows as one value each: the smallest with which no side of
+/// the grid has more than 4096 values, and the whole at most 1 500 000.
 std::int64_t page_cells(Grid const& grid);
 
-/// The means of a DEM's squares in 16 bits, each row against the predictor that leaves the shortest residuals.
-/// Takes: heights, NaN for none: these are left out of means, and a square of them has no value. Gives: nothing when no
-/// cell has a height; otherwise values within (max - min) / 131068 of the means, exactly min where all are alike.
-/// Throws: BadInput: an infinite height; Cancelled.
+/// Encodes the means of a DEM's squares in 16 bits, each row with the predictor that leaves the shortest residuals.
+/// \param dem [m] NaN: no data, left out of means; a square of no data has no value
+/// \return values within (max - min) / 131068 of the means, exactly min if all are equal; nothing: no cell has a height
+/// \throws BadInput for an infinite height
 std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run = {});
 
-/// Lines as the report page reads them (web/README.md).
+/// Lines in the format of the report page (web/README.md).
 struct PageLines {
     double step = 0.0625;               ///< [cells] unit of positions
     std::vector<std::int64_t> vertices; ///< by line
-    std::vector<std::uint8_t> bytes;    ///< differences as zigzagged varints
+    std::vector<std::uint8_t> bytes;    ///< differences as zigzag varints
 };
 
-/// Lines in plan as differences of whole steps, a 16th of the side of the page's squares (page_cells).
-/// Takes: lines of two vertices or more. Gives: every vertex within half a step of its place along either axis; left
-/// out are vertices that fall on the one before, and those on the straight way between their neighbours; the first and
-/// last of a line stay. Throws: BadInput, naming the line: fewer than two vertices, no number, or 2^29 steps from the
-/// grid's corner.
+/// Encodes lines in plan as differences of whole steps, a 16th of the side of the page's squares (page_cells).
+/// \param lines of two vertices or more
+/// \param grid frame of the page
+/// \return every vertex within half a step of its position along either axis; without vertices that coincide with the
+/// previous one or lie on the straight line between their neighbours; the first and last of a line stay
+/// \throws BadInput naming the line: fewer than two vertices, a coordinate that is not a number, or 2^29 steps from the
+/// grid's corner
 PageLines page_lines(std::span<std::span<Vec2 const> const> lines, Grid const& grid);
 
-/// What takes the place of a page's markers, byte for byte: it must be safe where it comes to stand.
+/// Replacements of a page's markers, byte for byte: they must be safe in their places.
 struct PageParts {
     std::string title;   ///< for @@TITLE@@
     std::string data;    ///< for @@DATA@@
@@ -71,22 +74,23 @@ struct PageParts {
     std::string lines;   ///< for @@LINES@@
 };
 
-/// A page with its markers replaced.
-/// Gives: each marker's part where the page holds it; what looks like a marker in a part stays as it is.
-/// Throws: std::logic_error when the page does not hold each of the four markers exactly once: it was built wrongly.
+/// Replaces the markers of a page. Text in a part that looks like a marker stays.
+/// \throws std::logic_error when the page does not have each of the four markers exactly once: it was built wrongly
 std::string fill_page(std::string_view page, PageParts const& parts);
 
-/// The JSON object of the report page (web/README.md).
-/// Takes: a terrain, and its heights and lines as they stand on the page; lines are the arcs by number, then the
-/// ridges.
-/// Gives: one line of JSON without '<'; lengths and heights to the millimetre, what is not a number as null. A figure
-/// has "asked" only where the recipe asks for it.
+/// Makes the JSON object of the report page (web/README.md): lengths and heights to the millimetre, null for values
+/// that are not numbers. A metric has "asked" only if the recipe sets it.
+/// \param heights,lines as on the page; lines are the arcs by number, then the ridges
+/// \return one line of JSON without '<'
 std::string page_data(Made const& made, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines);
 
-/// The report page of a scene: any DEM, with or without rivers, measured and drained for it.
-/// Takes: a scene with a DEM; notes: what was changed in reading it; command: what makes the page again.
-/// Throws: BadInput when the scene has no DEM or the DEM no height; Cancelled; IoError.
+/// Makes the report page of a scene: any DEM, with or without rivers, measured and routed.
+/// \param scene with a DEM
+/// \param notes changes made while reading it
+/// \param command that makes the page again
+/// \throws BadInput when the scene has no DEM or the DEM no height
+/// \throws IoError when GDAL fails to compress
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run = {});
 

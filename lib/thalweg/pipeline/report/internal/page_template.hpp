@@ -6,7 +6,7 @@
 
 namespace thalweg::pipeline {
 
-/// The report page as built into the library, its markers not yet filled in: the bytes of web/dist/report.html.
+/// The report page built into the library, with unfilled markers: the bytes of web/dist/report.html.
 std::string_view page_template();
 
 } // namespace thalweg::pipeline

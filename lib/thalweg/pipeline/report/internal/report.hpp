@@ -10,7 +10,7 @@
 
 namespace thalweg::pipeline {
 
-// Parts of report.json that other reports have too.
+// Parts of report.json common to other reports.
 
 /// Findings as a JSON array.
 std::string findings_json(std::vector<Finding> const& findings);
