@@ -37,7 +37,8 @@ struct RockParams {
     RockNoise noise;        ///< in finest cells
 };
 
-/// in finest cells
+/// Sets erodibility, the cap on slopes and uplift of a level's cells: means of the given fields over each cell, and
+/// noise on land (river cells get the mean). Slopes may be steeper at lower erodibility.
 void set_rock(LandLevel& level, RockFields const& fields, RockParams const& params, Run const& run);
 
 /// Lowers erodibility along flow paths beside rivers whose heights the terrain there does not reach, so that the
