@@ -173,13 +173,14 @@ private:
     Blocks great_blocks_;
 };
 
-/// Where the simple random walk of the lattice, started in the centre of a square, first meets the square's boundary.
-/// The square of half side L is max(|x|,|y|) <= L. By the reflection principle and separation of variables the site
-/// (L, j) has the probability
+/// Computes where a simple random walk of the lattice from the centre of the square max(|x|,|y|) <= L first meets its
+/// boundary. By the reflection principle and separation of variables the site (L, j) has the probability
 ///     p(j) = 1/(2L) sum over odd k < 2L of cos(k pi j / 2L) / cosh(L a_k),   sinh(a_k / 2) = sin(k pi / 4L),
 /// and so have its images on the other sides; the corners cannot be reached.
-/// Gives: p(j) for j = 0 ... L-1, summing to 1/4 over the side; terms below 1e-19 are left out.
-/// half: [1, ...] L. Source: McCrea and Whipple 1940, Proc. R. Soc. Edinburgh 60.
+/// \param half [1, ...] L
+/// \return p(j) for j = 0 ... L-1, with sum 1/4; terms below 1e-19 are left out
+///
+/// Source: McCrea and Whipple 1940, Proc. R. Soc. Edinburgh 60.
 std::vector<double> exit_probabilities(int half);
 
 /// The law above as alias tables (Walker 1977), for the half sides 1 ... 31, 32 ... 248 in steps of 8, 256 ... 960 in
