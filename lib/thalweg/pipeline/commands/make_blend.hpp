@@ -24,10 +24,10 @@ MadeBlend make_blend(MakeBlendParams const& params, Run const& run = {});
 
 /// Options of make_blend_tin().
 struct MakeBlendTinParams {
-    std::string target = {};     ///< the patch, another mesh
-    std::string source = {};     ///< [m] on the target: position of the centre of the patch's box
-    std::optional<Vec2> at = {}; ///< [-360, 360] counterclockwise about that centre
-    double rotate_deg = 0.0;     ///< [-360, 360] counterclockwise about that middle
+    std::string target = {};     ///< a mesh that read_tin reads
+    std::string source = {};     ///< the patch, another mesh
+    std::optional<Vec2> at = {}; ///< [m] on the target: position of the centre of the patch's box
+    double rotate_deg = 0.0;     ///< [-360, 360] counterclockwise about that centre
     double scale = 1.0;          ///< > 0, in plan
     double gain = 1.0;           ///< finite, of heights
     std::string source_crs = {}; ///< of meshes without a CRS, projected, in metres; "": none
