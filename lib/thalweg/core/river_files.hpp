@@ -31,7 +31,7 @@ struct AttributeTable {
 struct Stretch {
     std::int64_t feature = 0; ///< number in its layer's order, from 1
     double from_m = 0.0;      ///< [m] along the arc from its upstream end
-    double to_m = 0.0;        ///< likewise
+    double to_m = 0.0;        ///< [m] along the arc from its upstream end
 };
 
 /// What a file states about a line at a bifurcation.
@@ -141,9 +141,9 @@ struct NetworkFile {
         std::int64_t feature = 0;      ///< number in its layer, from 1; schema native: the file's value, 0 for none
         std::int64_t record = 0;       ///< of its attributes, from 1; 0 for none
         std::vector<double> size = {}; ///< as RiverLine
-        Channel channel = Channel::unknown; ///< likewise
-        std::int64_t rank = 0;              ///< likewise
-        std::string name = {};              ///< likewise
+        Channel channel = Channel::unknown; ///< as RiverLine
+        std::int64_t rank = 0;              ///< as RiverLine
+        std::string name = {};              ///< as RiverLine
         std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
         bool is_channel = false;            ///< unnatural, but carries water: a canal, ditch, drain or pipe
         int runs = 0;                       ///< as RiverLine
