@@ -114,7 +114,7 @@ struct NetworkLaws {
     std::optional<TokunagaLaw> tokunaga;
     std::optional<PowerLaw> hack;      ///< L = c A^h
     std::optional<PowerLaw> concavity; ///< S = k A^-theta: the exponent is -theta
-    double drainage_density_m = 0.0;   ///< [m/m2] length of all rivers / area of the land
+    double drainage_density_m = 0.0;   ///< [m/m2] length of all rivers / area that they drain
     LinkLengths links;
     JunctionAngles junctions;
 };

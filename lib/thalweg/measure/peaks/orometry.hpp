@@ -15,7 +15,8 @@ namespace thalweg::measure {
 struct Peak {
     std::int64_t cell = 0;
     double height_m = 0.0;
-    /// [m] above the highest saddle on a way to higher land; of the highest peak: above the lowest cell of its land
+    /// [m] above the highest saddle on a path to higher terrain; of the highest peak: above the lowest cell connected
+    /// to it
     double prominence_m = 0.0;
 };
 
@@ -29,7 +30,7 @@ struct Peak {
 /// Source: \cite argudo2019.
 std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run const& run = {});
 
-/// Finds the distance to the nearest higher land.
+/// Finds the distance to the nearest higher cell.
 /// \param dem [m] by cell; NaN: no data
 /// \param cell index of a peak's cell
 /// \return [m] from centre to centre; NaN: no cell is higher
@@ -38,7 +39,7 @@ std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run 
 /// Source: \cite argudo2019.
 double isolation(Raster<float> const& dem, std::int64_t cell);
 
-/// How the peaks of a DEM stand to one another; NaN: it has none.
+/// Metrics of a DEM's peaks; NaN: it has none.
 struct Orometry {
     std::int64_t peaks = 0;                                                ///< of least_prominence_m or more
     double peaks_per_km2 = std::numeric_limits<double>::quiet_NaN();       ///< of cells with data

@@ -43,7 +43,7 @@ GradientTexture gradient_texture(Raster<float> const& dem, GradientTextureParams
 /// How straight the channels of a DEM run.
 struct StraightChannels {
     std::int64_t longest_run = 0; ///< [steps] in one D8 direction
-    std::int64_t reaches = 0;     ///< of reach_steps, one from each channel cell whose water goes on so far
+    std::int64_t reaches = 0;     ///< of reach_steps, one from each channel cell with a flow path that long
     /// [0, 1] of the reaches stay within tolerance_cells of their chord; NaN: no reach
     double straight_share = std::numeric_limits<double>::quiet_NaN();
 };
