@@ -10,7 +10,7 @@
 
 namespace thalweg::network {
 
-/// A network and what its file says besides lines and heights.
+/// A network and its file's other attributes.
 struct FileNetwork {
     ElevatedNetwork network;                     ///< heights are all NaN if the file has none
     std::vector<double> us_area_m2;              ///< by arc; NaN: not in the file

@@ -60,7 +60,7 @@ struct Directions {
         double length_m = 0.0; ///< > 0
     };
     std::vector<Turned> turned;    ///< the greatest length first
-    double drawn_downstream = 0.5; ///< [0, 1] estimated share of reaches drawn downstream; 0.5: says nothing
+    double drawn_downstream = 0.5; ///< [0, 1] estimated share of reaches drawn downstream; 0.5: uninformative
     double uncertain_m = 0.0;      ///< length of groups of lines of which more than 5 % may be wrong
     double expected_wrong_m = 0.0; ///< of uncertain_m
     /// One a group: uncertain_direction [expected wrong share of its length], second_outlet [score gained],

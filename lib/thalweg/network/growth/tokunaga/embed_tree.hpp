@@ -15,7 +15,7 @@ namespace thalweg::network {
 /// Options of embed_tree().
 struct EmbedParams {
     std::uint64_t seed = 7;
-    std::vector<Vec2> region = {}; ///< [m] ring of the land to fill, either orientation, not closed
+    std::vector<Vec2> region = {}; ///< [m] ring of the area to fill, either orientation, not closed
     Vec2 mouth = {};               ///< [m] outlet, on the ring or inside it
     Vec2 direction = {};           ///< of the trunk at the outlet, upstream; (0, 0): towards the region's centre
     /// [0.05, 0.35] least distance of links without a common node, relative to the shorter one

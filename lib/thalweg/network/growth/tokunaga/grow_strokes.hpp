@@ -17,7 +17,7 @@ struct StrokesParams {
     /// seed, rule, banks of side branches, and the generator of strokes without their own; order is not used
     TokunagaParams tree;
     int max_depth = 6;          ///< [1, 29] refinements of a stroke as long as the grid is wide
-    double reach = 0.35;        ///< (0, 2] width of a stroke's land on each side, relative to its length
+    double reach = 0.35;        ///< (0, 2] width of a stroke's area on each side, relative to its length
     double clearance = 0.35;    ///< as in EmbedParams
     double min_spacing_m = 0.0; ///< [m] as in EmbedParams
 };
