@@ -41,7 +41,7 @@ struct RandomField {
     std::int64_t torus_width = 0;  ///< [cells]
     std::int64_t torus_height = 0; ///< [cells]
     double negative_share =
-        0.0; ///< of the torus' eigenvalues that were set to 0: how far the covariance is from the one asked for
+        0.0; ///< of the torus' eigenvalues that were set to 0: deviation from the requested covariance
 };
 
 /// Draws a stationary Gaussian random field with given correlation lengths and fractal dimension, by circulant
