@@ -29,7 +29,7 @@ enum class RiverHeights : std::uint8_t {
     yielding ///< kept, but lowered where it would run on a wall
 };
 
-/// What becomes of the heads of graded rivers that would stand above their surroundings.
+/// Treatment of the heads of graded rivers that would stand above their surroundings.
 enum class Heads : std::uint8_t {
     cut, ///< they become terrain
     kept ///< rivers are lowered there, and erodibility below them is reduced
@@ -53,10 +53,10 @@ struct EquilibriumParams {
                                    ///< up to 200 km²
     double roughness = 0.22;       ///< [0, 1] standard deviation of log erodibility, as noise
     double longest_wave_m = 10'800.0; ///< [m] > 0 longest wavelength of that noise
-    double grain = 5.0;               ///< [1, 20] how many times as far rock reaches along its strike as across
-    std::optional<double> strike_deg; ///< [degrees] of rock, clockwise from north; none: by the seed
-    /// [1, 5] with an open edge: coarse levels are solved on land wider than the grid by this factor; 1: on the grid
-    /// alone
+    double grain = 5.0;               ///< [1, 20] ratio of the extents of erodibility noise along and across its strike
+    std::optional<double> strike_deg; ///< [degrees] of that noise, clockwise from north; none: from the seed
+    /// [1, 5] with an open boundary: coarse levels are solved on terrain wider than the grid by this factor; 1: on the
+    /// grid alone
     double region = 3.0;
     bool inflow = true; ///< water of the region may enter the grid; false: beyond an open edge lie valleys as low as
                         ///< the grid's own, to which land drains that no river reaches
