@@ -19,12 +19,12 @@ constexpr std::string_view source_of_poisson = R"(
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
-/* A level holds its numbers as one line, row behind row of an even length, with margins of zeros before and after. The
-   matrix: diagonal, and what ties a cell to its eastern and southern neighbour; 0 where there is no free cell, so that
-   nothing has to ask where rows end. Cells are red and black like a board; the one at 0, 0 is red. Levels are in float:
-   they only guide the search, whose own numbers are double. */
+/* A level stores its numbers as consecutive rows of even length, with margins of zeros before and after. The matrix:
+   diagonal, and weights of the edges to a cell's eastern and southern neighbour; 0 if one is not free, so that no test
+   for the end of a row is needed. Cells are red and black like a chessboard; the one at 0, 0 is red. Levels are in
+   float: they only precondition the iteration, which is in double. */
 
-/* The finest level: free cells are tied by 1; fixed neighbours are in the diagonal and on the right side. */
+/* The finest level: edges between free cells weigh 1; fixed neighbours enter the diagonal and the right-hand side. */
 kernel void assemble(global const uchar* kind, global const double* value, global const double* source, int sourced,
                      int guessed, double start, double scale, long width, long height, long stride, long margin, global float* diagonal,
                      global float* sink, global float* inverse, global float* east, global float* south, global double* right,
@@ -58,8 +58,8 @@ kernel void assemble(global const uchar* kind, global const double* value, globa
     u[at] = scale * (guessed ? value[i] : start);
 }
 
-/* The matrix of cells two by two: Galerkin's of what ties cells to fixed ones, but between cells a share of it: where
-   numbers stay the same two by two, differences between those look steeper than they are. */
+/* The matrix of 2 x 2 cells: Galerkin's edges to fixed cells, and a share of those between free cells: a piecewise
+   constant correction makes differences look steeper than they are. */
 kernel void coarsen(global const float* sink, global const float* east, global const float* south, float share,
                     long stride, long margin, long coarse_width, long coarse_stride, long coarse_margin,
                     global float* coarse_sink, global float* coarse_inverse, global float* coarse_east,
@@ -103,8 +103,8 @@ kernel void smooth_from_zero(global const float* restrict inverse, global const 
     x[at] = (right[at] + (((row + col) & 1) ? reds : 0.0f)) * inverse[at];
 }
 
-/* What smooth_from_zero leaves of the right side, summed two by two: black cells have none, red ones what their black
-   neighbours brought. */
+/* The residual after smooth_from_zero, summed over 2 x 2 cells: 0 in black cells, in red ones the sum of the changes of
+   their black neighbours. */
 kernel void restrict_residual(global const float* restrict east, global const float* restrict south,
                               global const float* restrict x, long stride, long margin, long coarse_width,
                               long coarse_stride, long coarse_margin, global float* restrict coarse_right) {
@@ -120,7 +120,7 @@ kernel void restrict_residual(global const float* restrict east, global const fl
         (east[d] * x[d + 1] + east[d - 1] * x[d - 1] + south[d] * x[d + stride] + south[d - stride] * x[d - stride]);
 }
 
-/* Black cells from red ones to which what the coarser level found is added. */
+/* Adds the coarser level's correction and relaxes the black cells. */
 kernel void correct_black(global const float* restrict inverse, global const float* restrict east,
                           global const float* restrict south, global const float* restrict right,
                           global const float* restrict coarse_x, long width, long stride, long margin,
@@ -141,7 +141,7 @@ kernel void correct_black(global const float* restrict inverse, global const flo
     x[at] = (right[at] + reds) * inverse[at];
 }
 
-/* Red cells from black ones. */
+/* Relaxes the red cells. */
 kernel void smooth_red(global const float* restrict inverse, global const float* restrict east,
                        global const float* restrict south, global const float* restrict right, long width,
                        long stride, long margin, global float* x) {
@@ -156,7 +156,7 @@ kernel void smooth_red(global const float* restrict inverse, global const float*
             inverse[at];
 }
 
-/* The sum of a group's numbers, in one order. */
+/* Sums a group's numbers in a fixed order. */
 void sum_of_group(local double* own, double mine, global double* sums) {
     int const me = get_local_id(0);
     own[me] = mine;
@@ -171,7 +171,7 @@ void sum_of_group(local double* own, double mine, global double* sums) {
     }
 }
 
-/* A group takes GROUP * EACH cells that stand in a line; sums has a number for every group. */
+/* A group sums GROUP * EACH consecutive cells; sums has one number per group. */
 #define FIRST (margin + (long)get_group_id(0) * GROUP * EACH + get_local_id(0))
 
 kernel void square_sum(global const double* restrict a, long margin, global double* restrict sums) {
@@ -183,7 +183,7 @@ kernel void square_sum(global const double* restrict a, long margin, global doub
     sum_of_group(own, sum, sums);
 }
 
-/* Of each work item the greatest |u| and |z|. */
+/* The largest |u| and |z| of each work item. */
 kernel void find_greatest(global const double* restrict u, global const float* restrict z, long margin,
                           global double* restrict most_u, global double* restrict most_z) {
     double a = 0.0;
@@ -264,7 +264,7 @@ kernel void turn(global const float* restrict z, double beta, long margin, globa
     p[at] = z[at] + beta * p[at];
 }
 
-/* Into the free cells of the grid. */
+/* Copies the values to the free cells of the grid. */
 kernel void collect(global const uchar* kind, global const double* u, double times, long width, long stride, long margin,
                     global double* value) {
     long const col = get_global_id(0);

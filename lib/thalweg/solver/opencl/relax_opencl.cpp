@@ -14,7 +14,7 @@ std::string_view relax_kernels() {
 #pragma OPENCL EXTENSION cl_khr_fp64 : enable
 #pragma OPENCL FP_CONTRACT OFF
 
-/* Of every free cell a bit for each neighbour that is not outside: west 1, east 2, north 4, south 8; else 0. */
+/* By free cell one bit for each neighbour that is not outside: west 1, east 2, north 4, south 8; other cells 0. */
 kernel void find_sides(global const uchar* kind, long width, long height, long margin, global uchar* sides) {
     long const col = get_global_id(0);
     long const row = get_global_id(1);
@@ -38,7 +38,7 @@ kernel void find_sides(global const uchar* kind, long width, long height, long m
     sides[margin + i] = open;
 }
 
-/* One sweep over all cells as one line; the margins keep its neighbours inside the arrays. */
+/* One sweep over all cells in index order; the margins keep neighbours inside the arrays. */
 kernel void sweep(global const uchar* restrict sides, global const double* restrict from, double alpha, long width,
                   long margin, global double* restrict to) {
     long const i = margin + get_global_id(0);
