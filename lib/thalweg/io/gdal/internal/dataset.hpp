@@ -66,7 +66,7 @@ Dataset in_memory(Raster<float> const& dem, std::string const& what);
 /// there. Other paths are returned unchanged. Needs a Driver that outlives it.
 std::string inside_archive(std::string const& path);
 
-/// Passes a Run through GDAL, which does not support exceptions: pass &Watch::step and the watch as GDAL's progress
+/// Passes a Run through GDAL, which does not support exceptions: pass &Watch::step and the object as GDAL's progress
 /// function and argument, then call settle() before checking whether GDAL succeeded.
 class Watch {
 public:
