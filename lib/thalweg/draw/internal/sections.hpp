@@ -14,7 +14,7 @@ struct MainStem {
     std::vector<double> from_out_m; ///< by vertex, along the stream
 };
 
-/// The longest flow path of all basins. Takes: a network and its orders.
+/// The course of the main stem. \param orders of this network
 MainStem main_stem(StreamNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::draw

@@ -31,7 +31,6 @@ struct Assessment {
     std::optional<GivenLength> given;          ///< where rivers are read from lines
     std::optional<GivenHeights> given_heights; ///< where the DEM is to have heights of these
     std::optional<GivenAreas> given_areas;     ///< where the lines have areas and the terrain drains
-    flow::ContributingAreas areas;             ///< of the arcs
     RiverLaws laws;
     std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
     std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
@@ -52,9 +51,9 @@ struct Assessment {
 };
 
 /// Measures and checks land and rivers.
-/// \param rivers made of it
+/// \param planform rivers made of it
 /// \param terrain what came of them
 /// \return measures and checks
-Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Run const& run = {});
+Assessment assess(Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run = {});
 
 } // namespace thalweg::pipeline

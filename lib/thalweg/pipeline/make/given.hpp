@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/river_files.hpp>
-#include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
@@ -45,10 +45,10 @@ char const* key_of(LeftOut cause);
 char const* words_of(LeftOut cause);
 
 /// Accounts for the lines of a plan.
-/// \param rivers made of it
+/// \param planform rivers made of it
 /// \param terrain made of them
 /// \return nothing where rivers are not read from lines
-std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
+std::optional<GivenLength> given_length(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// Heights that a file's lines have at their vertices, beside the DEM.
 struct GivenHeights {
@@ -60,10 +60,10 @@ struct GivenHeights {
 };
 
 /// Compares the heights of a plan's lines with the DEM.
-/// \param rivers made of it
+/// \param planform rivers made of it
 /// \param terrain made of them
 /// \return nothing where the network does not take all heights of a file, or there is no DEM
-std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
+std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// Drainage areas that a file's lines have at their lower ends, beside those of the terrain. Ratios: terrain / file.
 struct GivenAreas {
@@ -75,12 +75,10 @@ struct GivenAreas {
 };
 
 /// Compares the drainage areas of a plan's lines with those of the terrain.
-/// \param rivers made of it
+/// \param planform rivers made of it
 /// \param terrain made of them
-/// \param ds_area_m2 [m2] by arc, at its lower end
 /// \return nothing where the file has none
-std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain,
-                                      std::vector<double> const& ds_area_m2);
+std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// \param given the account
 /// \return one line for the log: kilometres read, kept, left out by cause, turned, moved, added

@@ -59,12 +59,10 @@ struct Terrain;
 
 /// Both laws of land and rivers.
 /// \param terrain land and rivers; where it has no drainage, Hack's lengths are from the sources
-/// \param areas of the rivers
 /// \param land_cells that have heights, or the grid's
 /// \return the DEM's rivers as long together as those drawn, where there are any.
 /// \throws Error as laws_of_dem
-RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                          Run const& run = {});
+RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run const& run = {});
 
 /// A law's figure as report.json and the page tell it.
 struct LawRow {

@@ -13,11 +13,11 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
-#include <thalweg/network/elevation/river_types.hpp>
-#include <thalweg/network/order/order.hpp>
+#include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
@@ -39,26 +39,30 @@ struct PatchStory {
     double seam_rms_m = 0.0;
 };
 
-/// What it took to make the land drain.
+/// Volumes changed by hydrological conditioning.
 struct DrainStory {
     flow::DemChange banks;
     flow::DemChange depressions;
 };
 
-/// How a land came into equilibrium with its rivers.
+/// How terrain came into equilibrium with its rivers.
 struct EquilibriumStory {
-    surface::Edge edge = surface::Edge::open; ///< of the land, by recipe, mask or sea
-    bool gave_way = false;            ///< heights of the rivers' file: lowered where they would have needed walls
+    surface::Edge edge = surface::Edge::open; ///< of the terrain, by recipe, mask or sea
+    bool gave_way = false;            ///< true if the file's heights were relaxed because fixed ones needed walls
     std::int64_t channel_cells = 0;   ///< in which rivers run
-    std::int64_t shortened_cells = 0; ///< of perched tips that are rivers no more
-    std::int64_t walled_cells = 0;    ///< of rivers whose given heights only walls hold up
-    double max_lowered_m = 0.0;       ///< soft: below the given heights
+    std::int64_t shortened_cells = 0; ///< of perched tips that were cut
+    std::int64_t walled_cells = 0;    ///< of rivers whose input heights only walls hold up
+    double max_lowered_m = 0.0;       ///< soft: below the input heights
     double p95_lowered_m = 0.0;
     double rise = 0.0; ///< as surface::EquilibriumTerrain, and what follows
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows;
-    std::int64_t side_valleys = 0; ///< arcs that the land has grown, where they are asked for
-    std::int64_t side_valleys_left_out = 0;
+};
+
+/// Arcs made of valleys that the terrain has beside its rivers.
+struct SideValleysStory {
+    std::int64_t grown = 0;
+    std::int64_t left_out = 0;
 };
 
 /// Of fractal detail, as it was made.
@@ -67,37 +71,38 @@ struct DetailStory {
     double sigma = 0.0; ///< as fractal::MidpointParams
 };
 
-/// A surface, the rivers as it has them, and how water flows over it.
+/// A surface, the rivers with the heights that they have in it, and the water that drains over it.
 struct Terrain {
     Grid grid;
-    Mask land;               ///< as Rivers
-    ElevatedNetwork network; ///< without tips that would stand perched, with the side valleys that the land has grown
-    NetworkOrders orders;
-    network::StreamCounts streams; ///< side branches, as drawn
-    network::RiverTypes types;     ///< by arc, where rivers have types; else empty
-    Valley valley;
-    std::optional<surface::Dilated> surface;       ///< none where the recipe wants rivers alone
+    Mask land;     ///< as Planform
+    Rivers rivers; ///< without perched tips, with side valleys where they are asked for; without arcs where the recipe
+                   ///< has no [network]
+    Valley valley; ///< the cells under them
+    flow::ContributingAreas areas;                 ///< of their arcs: by the drainage, or by the nearest river
+    std::optional<surface::Dilated> surface;       ///< none where the recipe asks for rivers alone
     std::optional<flow::FlowField> drainage;       ///< of the surface
     RidgeLines ridges;                             ///< between streams, where they are asked for
-    Channels channels;                             ///< of rivers with which the land is in equilibrium
-    std::int64_t lakes = 0;                        ///< laid into them
-    std::optional<EquilibriumStory> equilibrium;   ///< of a land that is
+    std::optional<Tin> tin;                        ///< of rivers and points, where the surface is drawn over one
+    Channels channels;                             ///< of rivers with which the surface is in equilibrium
+    std::int64_t lakes = 0;                        ///< in them
+    HeightsStory heights;                          ///< of rivers whose heights do not follow from the surface
+    std::optional<EquilibriumStory> equilibrium;   ///< where the surface is
+    SideValleysStory side_valleys;                 ///< where they are asked for
     std::optional<SolverStory> diffusion;          ///< how the surface was solved for, where it was diffused
     std::optional<DetailStory> detail;             ///< where it has fractal detail
     std::vector<PatchStory> patches;               ///< in the recipe's order
-    std::optional<DrainStory> drained;             ///< where the recipe wants the land to drain
-    std::optional<Tin> tin;                        ///< of rivers and points, where the land is drawn over one
+    std::optional<DrainStory> drained;             ///< where the surface was conditioned hydrologically
     std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
-    double fine_forms_cells = 0.0; ///< [cells] below which forms had to come from a Gaussian land to meet them; 0: none
-    std::vector<Finding> notes;    ///< what became of rivers
-    std::vector<Check> checks;     ///< of the recipe's request of the surface
+    double fine_forms_cells = 0.0; ///< [cells] below which forms come from a Gaussian surface to meet them; 0: none
+    std::vector<Finding> notes;    ///< on rivers
+    std::vector<Check> checks;     ///< of what the recipe asks of the surface
     std::vector<Finding> findings; ///< of these
     Timings timings_s;
 };
 
 /// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
-/// \param rivers those of the plan; make_rivers()
+/// \param planform the rivers of the plan; make_planform()
 /// \return the same terrain for the same plan and rivers, whatever the Run.
-Terrain make_terrain(Plan const& plan, Rivers const& rivers, Run const& run = {});
+Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -12,33 +15,77 @@
 
 namespace thalweg::pipeline {
 
-// Land from numbers and from points (paper 001).
+/// Rivers with heights that do not follow from a surface.
+struct RaisedRivers {
+    ElevatedNetwork network;
+    Valley valley;
+    HeightsStory story;
+};
+
+/// Assigns heights to rivers by the recipe, or those of their file.
+RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run);
+
+/// What a stage reports beside its result.
+struct Remarks {
+    std::vector<Finding> notes; ///< as Terrain, like the rest
+    std::vector<Check> checks;
+    std::vector<Finding> findings;
+};
+
+void append(Remarks& to, Remarks from);
 
 /// The check points_missing: random points that found no room, with a warning.
 Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 
-/// Land without rivers: a random one or that of points, with fractal detail, brought to the statistics.
-Terrain make_land(Plan const& plan, Diary& diary, Run const& run);
-
-// Fractal detail.
-
-/// Land with fractal detail, and how that was made.
-struct Detailed {
-    DetailStory story;
-    Raster<float> land;
+/// A surface without rivers (paper 001).
+struct SurfaceAlone {
+    Raster<float> dem;
+    std::optional<Tin> tin;
+    std::optional<SolverStory> diffusion;
+    std::optional<DetailStory> detail;
+    std::optional<fractal::MatchedDem> projection;
+    double fine_forms_cells = 0.0; ///< as Terrain
+    std::vector<Check> checks;
 };
 
-/// Relief of this fractal detail alone, on ground that is flat.
+/// A random surface, or one through points, with fractal detail and the statistics that are asked for.
+SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run);
+
+/// A DEM with fractal detail, and how that was made.
+struct Detailed {
+    DetailStory story;
+    Raster<float> dem;
+};
+
+/// Fractal detail of a plan on a plain.
 Detailed detail_alone(Plan const& plan, Grid const& grid, Run const& run);
 
-// Land in equilibrium with its rivers.
+/// A surface in equilibrium with its rivers.
+struct EquilibriumResult {
+    Rivers rivers; ///< without perched tips, with the heights of the surface
+    Valley valley;
+    Raster<float> dem;
+    Channels channels;
+    std::int64_t lakes = 0;
+    HeightsStory heights;
+    EquilibriumStory story;
+    Remarks remarks;
+};
 
-/// Draws the land around the planned rivers, takes tips off these that would stand perched, and gives them and their
-/// cells the land's heights. Takes: a network in plan; its heights too, where they are asked for; those that are taken
-/// because the lines have them give way where they would need walls.
-Terrain draw_in_equilibrium(Plan const& plan, Terrain terrain, Diary& diary, Run const& run);
+/// Draws the surface around the planned rivers and cuts tips that would be perched. Heights that were taken because
+/// the lines have them give way where they would need walls.
+EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, Diary& diary, Run const& run);
 
-/// Makes arcs of the side valleys the land has grown, where the plan wants them.
-Terrain with_side_valleys(Plan const& plan, Terrain terrain, Diary& diary, Run const& run);
+/// Rivers with the side valleys of a surface in equilibrium as arcs.
+struct WithSideValleys {
+    Rivers rivers;
+    Valley valley;
+    SideValleysStory story;
+};
+
+/// \param dem,drainage the surface as it drains
+WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
+                                  Raster<float> const& dem, flow::FlowField const& drainage, Diary& diary,
+                                  Run const& run);
 
 } // namespace thalweg::pipeline
