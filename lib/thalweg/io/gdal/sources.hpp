@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -20,34 +21,34 @@ struct FileContent {
 
 /// Looks into a file: a raster, text or a layer of points, or lines; where there are both, lines. A folder stands for
 /// its network.gpkg.
-/// \param path path of the file
+/// \param source the file
 /// \return what it holds
 /// \throws BadInput when there is none, GDAL cannot read it or it holds neither
 /// \throws IoError when features cannot be read
-FileContent content_of(std::string const& path);
+FileContent content_of(Source const& source);
 
-/// \param path path of the file
+/// \param source the file
 /// \param layer name of the layer
 /// \return whether a file that OGR reads has a layer of this name; false where there is no file.
 /// \throws BadInput when GDAL cannot read it
-bool has_layer(std::string const& path, std::string const& layer);
+bool has_layer(Source const& source, std::string const& layer);
 
 /// A GeoPackage that is open elsewhere has its NAME-wal too, where changes stand. A database has none.
-/// \param path path of the file
+/// \param source the file
 /// \return every file a vector or raster source consists of, as GDAL knows them (.shp with its .dbf, .prj, ...),
 /// sorted.
 /// \throws BadInput when it is none
-std::vector<std::string> dataset_files(std::string const& path);
+std::vector<std::string> dataset_files(Source const& source);
 
 /// Text, and a file that GDAL does not read, change in nothing.
-/// \param path path of the file
+/// \param source the file
 /// \param layer "" for the one with rivers, or the first
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param source_crs of a layer that has no CRS; "": none
 /// \return what of a file changes when it is read into a grid's CRS in metres, each as a sentence: coordinates of
 /// another CRS are reprojected, heights in another unit are converted, heights of a CRS in feet that have no unit of
 /// their own count as metres.
-std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs,
+std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs = {});
 
 /// Copies what a source holds into a file that a recipe may name: layers into a GeoPackage, a raster into a GeoTIFF.

@@ -10,6 +10,7 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -27,7 +28,7 @@ enum class DuplicatePoints : std::uint8_t {
 
 /// Options of read_points().
 struct ReadPointsParams {
-    std::string path = {};     ///< text (.csv, .txt, .xyz) or anything OGR opens
+    Source path = {};          ///< text (.csv, .txt, .xyz) or anything OGR opens
     std::string layer = {};    ///< "" takes the only layer of points
     std::string z_field = "z"; ///< heights of points that have none themselves
     std::string crs = {};      ///< of the result; "" takes the file's own when projected in metres, else its UTM zone;

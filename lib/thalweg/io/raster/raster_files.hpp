@@ -9,6 +9,7 @@
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -30,37 +31,37 @@ struct ReadDemParams {
 /// vertical part of its CRS names (metres where none is named); no-data and masked cells become NaN; cells that are NaN
 /// themselves are counted in the log. crs may be geographic or "" here; cell_m is in its unit. A raster without
 /// position has cells of 1 and its south-west corner at 0.
-/// \param path path of the file
+/// \param source the file
 /// \return the raster
 /// \throws BadInput no such file, not a raster, more than one band, cells not square (their sides differ by more than
 /// 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated or south-up, larger than memory, no
 /// heights at all, a height beyond 1e30 (a damaged tile), values that no terrain has and the file does not declare as
 /// no-data: -9999, -32767, -32768, -99999; where it declares none and the cells are heights, also the lowest or highest
 /// value when it is not 0, fills 3 x 3 cells and lies farther from the next one than the others are apart
-Raster<float> read_dem(std::string const& path, ReadDemParams const& params, Run const& run = {});
+Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run const& run = {});
 
-/// \param path path of the file
+/// \param source the file
 /// \return the same with default options
-Raster<float> read_dem(std::string const& path, Run const& run = {});
+Raster<float> read_dem(Source const& source, Run const& run = {});
 
-/// \param path path of the file
+/// \param source the file
 /// \return the same, with heights in the file's unit: two that differ there differ here.
-Raster<float> read_stored_dem(std::string const& path, ReadDemParams const& params = {}, Run const& run = {});
+Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
-/// \param path path of the file
+/// \param source the file
 /// \return whether read_dem takes a raster's cells as squares; true also of one that has no place, is rotated or is
 /// south-up
 /// \throws BadInput no such file or not a raster
-bool has_square_cells(std::string const& path);
+bool has_square_cells(Source const& source);
 
 /// Reads a mask: the cells of any raster file whose value is neither 0 nor no-data.
 /// \pre a file whose cells are those of a grid.
-/// \param path path of the file
+/// \param source the file
 /// \param grid the grid
 /// \return a mask on that grid.
 /// \throws BadInput like read_dem; when the file's cells are not the grid's, or only one of both has a CRS, or their
 /// CRS differ, naming both
-Mask read_mask(std::string const& path, Grid const& grid, Run const& run = {});
+Mask read_mask(Source const& source, Grid const& grid, Run const& run = {});
 
 /// Brings a DEM into the coordinates and the cell size of a grid.
 /// \pre what names the DEM in messages: "io.warp_to_grid: source.tif".

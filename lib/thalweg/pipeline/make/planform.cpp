@@ -10,7 +10,6 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
@@ -222,7 +221,6 @@ Planform make_planform(Plan const& plan, Run const& run) {
     if (!plan.recipe.network) {
         return {};
     }
-    io::RecipeFiles const confined;
     Diary diary(run);
     SourceRivers source = rivers_of_source(plan, diary, run);
     std::vector<Finding> conversions = report_conversions(plan.recipe, source.grid, run);

@@ -11,7 +11,6 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangulate.hpp>
-#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
@@ -434,7 +433,6 @@ Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run)
 } // namespace
 
 Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run) {
-    io::RecipeFiles const confined;
     bool const has_rivers = plan.recipe.network.has_value();
     if (has_rivers && !plan.recipe.surface) {
         return rivers_alone(plan, planform, run);

@@ -14,7 +14,6 @@
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/mesh/tin.hpp>
@@ -73,7 +72,7 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
     std::vector<std::string> const files = io::is_text_of_points(path.string())
                                                ? std::vector<std::string>{path.string()}
-                                               : io::dataset_files(path.string());
+                                               : io::dataset_files({path.string(), io::Access::recipe});
     std::string const own = name_in_utf8(path.filename().string());
     std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
     for (std::string const& file : files) {
@@ -86,7 +85,6 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
 
 /// Copies every file the recipe names into inputs/ and gives the recipe that names the copies.
 Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
-    io::RecipeFiles const confined;
     Recipe recipe = made.recipe;
     for (NamedFile const& file : files_of(recipe)) {
         Key const& key = *file.key;

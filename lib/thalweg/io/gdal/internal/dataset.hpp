@@ -9,6 +9,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 class GDALDataset;
 
@@ -26,11 +27,11 @@ inline constexpr float nodata_height = -9999.0F;
 
 /// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only, so that neither a file nor its
 /// folder is changed (see Undisturbed); null when no driver reads it, with the reason in GDAL's errors. What may be
-/// opened: see RecipeFiles. Throws: BadInput when it may not be opened; IoError like Undisturbed.
-Dataset open_undisturbed(std::string const& path, unsigned kinds);
+/// opened: see Access. Throws: BadInput when it may not be opened; IoError like Undisturbed.
+Dataset open_undisturbed(Source const& source, unsigned kinds);
 
 /// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
-Dataset open_file(std::string const& path, unsigned kinds, std::string const& what);
+Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
 
 /// A file that GDAL writes in memory: on a full disk it may say nothing (3.10). Needs a Driver that outlives it.
 class MemoryFile {
