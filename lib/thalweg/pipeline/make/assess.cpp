@@ -49,10 +49,22 @@ measure::Claims claims_of(Plan const& plan, Terrain const& terrain) {
 }
 
 /// Checks that a conditioned surface drains, by its rivers where it honours them.
-std::vector<Check> drainage_checks(Assessment const& found, flow::FlowField const& drainage) {
+std::vector<Check> drainage_checks(SurfaceMeasures const& found, flow::FlowField const& drainage) {
     return found.certificate
                ? found.certificate->checks()
                : std::vector<Check>{none_of("depressions", static_cast<std::int64_t>(drainage.depressions.size()))};
+}
+
+/// Checks of the surface: first of what the recipe asks, then that it kept the rivers' heights and drains.
+std::vector<Check> surface_checks(Plan const& plan, Terrain const& terrain, SurfaceMeasures const& found) {
+    std::vector<Check> checks = terrain.checks;
+    if (terrain.surface && plan.recipe.network) {
+        checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, terrain.surface->dem)));
+    }
+    if (terrain.drained) {
+        append(checks, drainage_checks(found, *terrain.drainage));
+    }
+    return checks;
 }
 
 /// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
@@ -69,11 +81,11 @@ void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief con
 }
 
 /// Measures a surface, with the rivers on it.
-Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Run const& run) {
+SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
     Raster<float> const& dem = terrain.surface->dem;
     StreamNetwork const& network = terrain.rivers.network.plan;
-    Assessment found;
+    SurfaceMeasures found;
     found.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
@@ -86,7 +98,6 @@ Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Ru
         if (plan.recipe.network->inland == InlandEnds::sink) {
             found.sinks = inland_ends(network, dem);
         }
-        found.checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, dem)));
         found.certificate = diary.stage("certify", [&] {
             return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(plan, terrain), run);
         });
@@ -97,9 +108,6 @@ Assessment of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Ru
         diary.say(
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
-    }
-    if (terrain.drained) {
-        append(found.checks, drainage_checks(found, drainage));
     }
     if (plan.recipe.output.accumulation) {
         found.water_areas = diary.stage("areas", [&] {
@@ -167,19 +175,14 @@ bool Assessment::passed() const {
 
 Assessment assess(Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
     Diary diary(run);
-    Assessment found;
-    if (terrain.surface) {
-        found = of_surface(plan, terrain, diary, run);
-    } else {
-        found.laws = laws_of_terrain(terrain, terrain.grid.cells(), run);
-    }
-    std::vector<Check> checks = terrain.checks; // of what the recipe asks, first
-    append(checks, std::move(found.checks));
+    Assessment found{terrain.surface ? of_surface(plan, terrain, diary, run)
+                                     : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
+    found.checks = surface_checks(plan, terrain, found);
     found.findings = terrain.findings;
     if (plan.recipe.network) {
         measure::TopologyReport topology = topology_of(terrain, diary, run);
-        checks.insert(checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.rivers.network)));
-        append(checks, std::move(topology.checks));
+        found.checks.insert(found.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.rivers.network)));
+        append(found.checks, std::move(topology.checks));
         append(found.findings, std::move(topology.findings));
         if (terrain.drained) {
             append(found.findings, findings_of(found.certificate));
@@ -187,7 +190,7 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     }
     found.given = given_length(plan, planform, terrain);
     if (found.given) {
-        checks.push_back(length_check(plan, *found.given, terrain.grid, run));
+        found.checks.push_back(length_check(plan, *found.given, terrain.grid, run));
     }
     found.given_heights = given_heights(plan, planform, terrain);
     if (found.given_heights) {
@@ -199,7 +202,6 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     if (found.given_areas) {
         run.tell("areas", line_of(*found.given_areas));
     }
-    found.checks = std::move(checks);
     found.timings_s = diary.take();
     return found;
 }

@@ -26,25 +26,29 @@ struct WaterAreas {
     Raster<double> dinf;
 };
 
-/// What is measured of land and rivers, and whether they are what the recipe sets.
-struct Assessment {
-    std::optional<GivenLength> given;          ///< where rivers are read from lines
-    std::optional<GivenHeights> given_heights; ///< where the DEM is to have heights of these
-    std::optional<GivenAreas> given_areas;     ///< where the lines have areas and the terrain drains
-    RiverLaws laws;
-    std::vector<NodeId> sinks;                     ///< where rivers end inland, as they were asked to
-    std::optional<measure::Statistics> statistics; ///< of the surface, like the rest
-    std::optional<measure::Hypsometry> hypsometry;
-    std::optional<TerrainRelief> relief; ///< with the rivers
-    std::int64_t pits = 0;               ///< cells that lie in depressions
+/// What is measured of a surface with its rivers.
+struct SurfaceMeasures {
+    std::optional<measure::Statistics> statistics = {}; ///< with hypsometry and relief: where there is a surface
+    std::optional<measure::Hypsometry> hypsometry = {};
+    std::optional<TerrainRelief> relief = {};
+    std::int64_t pits = 0; ///< cells that lie in depressions
     double pit_volume_m3 = 0.0;
-    std::optional<measure::ExtractedRidges> surface_ridges; ///< beside the ridges asked for
-    std::optional<measure::Certificate> certificate;        ///< of rivers and surface, where both are there
-    std::optional<flow::Catchments> catchments;             ///< of the arcs, where they are asked for
-    std::optional<WaterAreas> water_areas;                  ///< where they are asked for
-    std::vector<Check> checks;
-    std::vector<Finding> findings; ///< of the checks
-    Timings timings_s;
+    std::vector<NodeId> sinks = {};                              ///< where rivers end inland, as the recipe asks
+    std::optional<measure::ExtractedRidges> surface_ridges = {}; ///< beside the ridges asked for
+    std::optional<measure::Certificate> certificate = {};        ///< of rivers and surface, where both are there
+    std::optional<flow::Catchments> catchments = {};             ///< of the arcs, where they are asked for
+    std::optional<WaterAreas> water_areas = {};                  ///< where they are asked for
+    RiverLaws laws = {};
+};
+
+/// What is measured of surface and rivers, and whether they are what the recipe sets.
+struct Assessment : SurfaceMeasures {
+    std::optional<GivenLength> given = {};          ///< where rivers are read from lines
+    std::optional<GivenHeights> given_heights = {}; ///< where the DEM is to have heights of these
+    std::optional<GivenAreas> given_areas = {};     ///< where the lines have areas and the terrain drains
+    std::vector<Check> checks = {};
+    std::vector<Finding> findings = {}; ///< of the checks
+    Timings timings_s = {};
 
     /// \return every check is ok
     bool passed() const;

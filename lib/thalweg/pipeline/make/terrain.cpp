@@ -167,6 +167,12 @@ Skeleton gathered(Plan const& plan, Ground const& ground, Run const& run) {
     return skeleton;
 }
 
+surface::Dilated surface_of(Raster<float> dem) {
+    surface::Dilated surface;
+    surface.dem = std::move(dem);
+    return surface;
+}
+
 /// A surface, and how it was solved for where it was.
 struct Filled {
     surface::Dilated surface;
@@ -178,23 +184,17 @@ Filled diffused(Plan const& plan, Ground const& ground, Run const& run) {
     params.seed = plan.recipe.seed;
     params.tolerance = plan.recipe.surface->tolerance.value_or(params.tolerance);
     surface::Diffused solved = surface::diffuse(gathered(plan, ground, run), ground.inside, params, run);
-    Filled result;
-    result.surface.dem = std::move(solved.dem);
-    result.diffusion = SolverStory{solved.iterations, solved.residual};
-    return result;
+    return {surface_of(std::move(solved.dem)), SolverStory{solved.iterations, solved.residual}};
 }
 
 Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     if (wanted.method == Method::tin) {
-        Filled result;
-        result.surface.dem = over_triangles(ground, run);
+        Raster<float> dem = over_triangles(ground, run);
         for (std::int64_t i = 0; i < ground.inside.cells(); ++i) {
-            if (ground.inside[i] == 0) {
-                result.surface.dem[i] = std::numeric_limits<float>::quiet_NaN();
-            }
+            dem[i] = ground.inside[i] != 0 ? dem[i] : std::numeric_limits<float>::quiet_NaN();
         }
-        return result;
+        return {surface_of(std::move(dem))};
     }
     return wanted.method == Method::diffuse ? diffused(plan, ground, run) : Filled{dilated(plan, ground, run)};
 }
@@ -249,45 +249,24 @@ Detailed with_detail_beside_rivers(Plan const& plan, Raster<float> dem, Valley c
 
 /// A surface before patches and drainage, with what it was drawn through.
 struct Undrained {
-    Rivers rivers;
-    Valley valley;
-    surface::Dilated surface;
-    RidgeLines ridges;
-    std::optional<Tin> tin;
-    Channels channels;
+    Rivers rivers = {};
+    Valley valley = {};
+    surface::Dilated surface = {};
+    RidgeLines ridges = {};
+    std::optional<Tin> tin = {};
+    Channels channels = {};
     std::int64_t lakes = 0;
-    HeightsStory heights;
-    std::optional<EquilibriumStory> equilibrium;
-    std::optional<SolverStory> diffusion;
-    std::optional<DetailStory> detail;
-    std::optional<fractal::MatchedDem> projection;
+    HeightsStory heights = {};
+    std::optional<EquilibriumStory> equilibrium = {};
+    std::optional<SolverStory> diffusion = {};
+    std::optional<DetailStory> detail = {};
+    std::optional<fractal::MatchedDem> projection = {};
     double fine_forms_cells = 0.0;
-    Remarks remarks;
+    Remarks remarks = {};
 };
 
-/// Rivers with heights, the cells under them and, in equilibrium, the surface they have these from.
-Undrained with_heights(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
-    Undrained drawn;
-    if (!in_equilibrium(plan.recipe)) {
-        RaisedRivers raised = raise_rivers(plan, planform, diary, run);
-        drawn.rivers = rivers_of(std::move(raised.network), planform.types);
-        drawn.valley = std::move(raised.valley);
-        drawn.heights = raised.story;
-        return drawn;
-    }
-    EquilibriumResult result = draw_in_equilibrium(plan, planform, diary, run);
-    drawn.rivers = std::move(result.rivers);
-    drawn.valley = std::move(result.valley);
-    drawn.surface.dem = std::move(result.dem);
-    drawn.channels = std::move(result.channels);
-    drawn.lakes = result.lakes;
-    drawn.heights = result.heights;
-    drawn.equilibrium = std::move(result.story);
-    drawn.remarks = std::move(result.remarks);
-    return drawn;
-}
-
-/// Draws the surface that the plan asks for through the rivers' cells, which keep their heights, and through points.
+/// Draws the surface that the plan asks for through the rivers' cells, which keep their heights, and through points; in
+/// equilibrium rivers have their heights from it.
 Undrained draw_around_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     if (!plan.grid) { // else it was checked before the rivers were grown
@@ -296,45 +275,57 @@ Undrained draw_around_rivers(Plan const& plan, Planform const& planform, Diary& 
             require_on_grid(plan.points, planform.grid, recipe.skeleton->points);
         }
     }
-    Undrained drawn = with_heights(plan, planform, diary, run);
-    Mask const inside = drawn.equilibrium ? Mask{} : inside_of(recipe, planform.land, drawn.valley);
+    bool const balanced = in_equilibrium(recipe);
+    EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, diary, run) : EquilibriumResult{};
+    RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, diary, run);
+    Rivers rivers = balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types);
+    Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
+    Remarks remarks = std::move(solved.remarks);
+    Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley);
     std::optional<FeaturePoints> own;
     if (scatters(recipe)) {
-        skeleton::Scattered found = scattered(plan, drawn.valley, inside, diary, run);
-        drawn.remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
+        skeleton::Scattered found = scattered(plan, valley, inside, diary, run);
+        remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
         own = std::move(found.points);
     }
     FeaturePoints const& points = own ? *own : plan.points;
-    drawn.ridges = ridges_between(plan, drawn.rivers, planform.grid, diary, run);
-    drawn.tin = triangulated(plan, drawn.rivers.network, drawn.ridges, points, diary, run);
-    if (!drawn.equilibrium) {
-        bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
-        Filled made = filled(plan, {drawn.valley, drawn.ridges, drawn.tin, points, inside, whole}, diary, run);
-        drawn.surface = std::move(made.surface);
-        drawn.diffusion = made.diffusion;
-        append(drawn.remarks.checks, relief_checks(plan, drawn.surface));
-    }
+    RidgeLines ridges = ridges_between(plan, rivers, planform.grid, diary, run);
+    std::optional<Tin> tin = triangulated(plan, rivers.network, ridges, points, diary, run);
+    bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
+    Filled made = balanced ? Filled{surface_of(std::move(solved.dem))}
+                           : filled(plan, {valley, ridges, tin, points, inside, whole}, diary, run);
+    append(remarks.checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
+    std::optional<DetailStory> detail;
     if (levels_of(recipe) > 0) {
-        Detailed detailed = with_detail_beside_rivers(plan, std::move(drawn.surface.dem), drawn.valley, run);
-        drawn.surface.dem = std::move(detailed.dem);
-        drawn.detail = detailed.story;
+        Detailed detailed = with_detail_beside_rivers(plan, std::move(made.surface.dem), valley, run);
+        made.surface.dem = std::move(detailed.dem);
+        detail = detailed.story;
     }
-    return drawn;
+    return {.rivers = std::move(rivers),
+            .valley = std::move(valley),
+            .surface = std::move(made.surface),
+            .ridges = std::move(ridges),
+            .tin = std::move(tin),
+            .channels = std::move(solved.channels),
+            .lakes = solved.lakes,
+            .heights = balanced ? solved.heights : raised.story,
+            .equilibrium = balanced ? std::optional(std::move(solved.story)) : std::nullopt,
+            .diffusion = made.diffusion,
+            .detail = detail,
+            .remarks = std::move(remarks)};
 }
 
 /// A surface from numbers and points, with a note on each conversion.
 Undrained draw_alone(Plan const& plan, Diary& diary, Run const& run) {
     std::vector<Finding> notes = report_conversions(plan.recipe, *plan.grid, run);
     SurfaceAlone alone = draw_without_rivers(plan, diary, run);
-    Undrained drawn;
-    drawn.surface.dem = std::move(alone.dem);
-    drawn.tin = std::move(alone.tin);
-    drawn.diffusion = alone.diffusion;
-    drawn.detail = alone.detail;
-    drawn.projection = std::move(alone.projection);
-    drawn.fine_forms_cells = alone.fine_forms_cells;
-    drawn.remarks = {std::move(notes), std::move(alone.checks), {}};
-    return drawn;
+    return {.surface = surface_of(std::move(alone.dem)),
+            .tin = std::move(alone.tin),
+            .diffusion = alone.diffusion,
+            .detail = alone.detail,
+            .projection = std::move(alone.projection),
+            .fine_forms_cells = alone.fine_forms_cells,
+            .remarks = {std::move(notes), std::move(alone.checks), {}}};
 }
 
 MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
@@ -446,7 +437,7 @@ Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run)
     WithSideValleys made = with_side_valleys(plan, std::move(drawn.rivers), std::move(patched.valley), drawn.channels,
                                              drained.dem, drainage, diary, run);
     surface::Dilated surface = std::move(drawn.surface);
-    surface.dem = std::move(drained.dem);
+    surface.dem = std::move(drained.dem); // with which it was made
     flow::ContributingAreas areas =
         has_rivers ? flow::areas_d8(made.rivers.network.plan, drainage, run) : flow::ContributingAreas{};
     return {.grid = has_rivers ? planform.grid : *plan.grid,

@@ -365,29 +365,34 @@ Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
     return land;
 }
 
-/// The coarse surface that detail starts from, through points or at random.
-SurfaceAlone begun(Plan const& plan, Grid const& grid, Diary& diary, Run const& run) {
+/// The coarse surface that detail starts from.
+struct Coarse {
+    Raster<float> dem;
+    std::optional<Tin> tin = {};
+    std::optional<SolverStory> diffusion = {};
+    std::vector<Check> checks = {};
+};
+
+/// It goes through points or is random.
+Coarse begun(Plan const& plan, Grid const& grid, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
-    SurfaceAlone result;
     if (recipe.statistics && recipe.statistics->skeleton != Prior::points) {
-        result.dem =
-            diary.stage("land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); });
+        Coarse result{
+            diary.stage("land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); })};
         diary.say(fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
         return result;
     }
     skeleton::Scattered const points = points_of(recipe, grid, plan.points, run);
+    std::vector<Check> checks;
     if (scatters(recipe)) {
-        result.checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
+        checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
     }
     LandOfPoints made =
         diary.stage("land", [&] { return land_of_points(recipe, grid.cell_m, points.points, coarse, run); });
     diary.say(fmt::format("{} points", points.points.points.size()));
-    result.dem = std::move(made.land);
-    result.tin = std::move(made.tin);
-    result.diffusion = made.diffusion;
-    return result;
+    return {std::move(made.land), std::move(made.tin), made.diffusion, std::move(checks)};
 }
 
 } // namespace
@@ -412,27 +417,38 @@ SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run)
     if (plan.recipe.statistics) { // before any work
         require_targets(*plan.recipe.statistics, grid, run);
     }
-    SurfaceAlone surface = begun(plan, grid, diary, run);
+    Coarse coarse = begun(plan, grid, diary, run);
+    Raster<float> dem = std::move(coarse.dem);
+    std::optional<DetailStory> detail;
     if (int const levels = levels_of(plan.recipe); levels > 0) {
-        Detailed made = diary.stage("detail", [&] { return with_detail(plan, surface.dem, grid, run); });
-        surface.detail = made.story;
-        surface.dem = std::move(made.dem);
+        Detailed made = diary.stage("detail", [&] { return with_detail(plan, dem, grid, run); });
+        detail = made.story;
+        dem = std::move(made.dem);
         diary.say(fmt::format("midpoint displacement, {} levels", levels));
     }
     if (!plan.recipe.statistics) {
-        surface.dem = left_out(std::move(surface.dem), plan.recipe);
-        return surface;
+        return {.dem = left_out(std::move(dem), plan.recipe),
+                .tin = std::move(coarse.tin),
+                .diffusion = coarse.diffusion,
+                .detail = detail,
+                .checks = std::move(coarse.checks)};
     }
-    Brought brought = diary.stage(
-        "project", [&] { return brought_to_statistics(plan.recipe, std::move(surface.dem), plan.points, run); });
+    Brought brought =
+        diary.stage("project", [&] { return brought_to_statistics(plan.recipe, std::move(dem), plan.points, run); });
     diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
                           100.0 * brought.projection.largest_error, brought.projection.iterations,
                           brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
-    append(surface.checks, residual_checks(brought.projection));
-    surface.dem = std::exchange(brought.projection.dem, {});
-    surface.projection = std::move(brought.projection);
-    surface.fine_forms_cells = brought.fine_forms_cells;
-    return surface;
+    std::vector<Check> checks = std::move(coarse.checks);
+    append(checks, residual_checks(brought.projection));
+    Raster<float> matched = std::move(brought.projection.dem);
+    brought.projection.dem = {};
+    return {.dem = std::move(matched),
+            .tin = std::move(coarse.tin),
+            .diffusion = coarse.diffusion,
+            .detail = detail,
+            .projection = std::move(brought.projection),
+            .fine_forms_cells = brought.fine_forms_cells,
+            .checks = std::move(checks)};
 }
 
 } // namespace thalweg::pipeline

@@ -39,13 +39,13 @@ Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 
 /// A surface without rivers (paper 001).
 struct SurfaceAlone {
-    Raster<float> dem;
-    std::optional<Tin> tin;
-    std::optional<SolverStory> diffusion;
-    std::optional<DetailStory> detail;
-    std::optional<fractal::MatchedDem> projection;
+    Raster<float> dem = {};
+    std::optional<Tin> tin = {};
+    std::optional<SolverStory> diffusion = {};
+    std::optional<DetailStory> detail = {};
+    std::optional<fractal::MatchedDem> projection = {};
     double fine_forms_cells = 0.0; ///< as Terrain
-    std::vector<Check> checks;
+    std::vector<Check> checks = {};
 };
 
 /// A random surface, or one through points, with fractal detail and the statistics that are asked for.
