@@ -97,7 +97,7 @@ void take_numbers(BlendOptions& options) {
 /// Options for cells or handles do not apply to a mesh.
 void refuse_options_of_dems(BlendOptions const& options) {
     for (auto const& [name, given] :
-         {std::pair{"--window", !options.window.empty()}, std::pair{"--mask", !options.params.mask.empty()},
+         {std::pair{"--window", !options.window.empty()}, std::pair{"--mask", !options.params.mask.path.empty()},
           std::pair{"--keep", !options.params.keep.empty()},
           std::pair{"--feather", options.params.feather_cells != 0.0}, std::pair{"--mixed", options.mixed},
           std::pair{"--fill-holes", options.fills}, std::pair{"--nodata", options.params.nodata.has_value()}}) {
@@ -120,7 +120,7 @@ std::string as_json(pipeline::MadeBlendTin const& made, std::string const& file)
 }
 
 int blend_meshes(BlendOptions const& options, Session const& session) {
-    for (std::string const& path : {options.params.target, options.params.source}) {
+    for (std::string const& path : {options.params.target, options.params.source.path}) {
         refuse_if<BadParameter>(
             !io::holds_tin(path),
             "{} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg tin` makes a mesh of a DEM", path);
@@ -129,7 +129,7 @@ int blend_meshes(BlendOptions const& options, Session const& session) {
     auto const format = io::tin_format("", options.file);
     io::OutputFile file(options.file, options.overwrite ? io::Existing::replace : io::Existing::refuse);
     pipeline::MadeBlendTin const made = pipeline::make_blend_tin(
-        {options.params.target, options.params.source, options.params.at, options.params.rotate_deg,
+        {options.params.target, options.params.source.path, options.params.at, options.params.rotate_deg,
          options.params.scale, options.params.gain, options.source_crs},
         session.run);
     io::write_tin(made.fused.tin, made.crs, file.staging(), format, HeightUnit::metre, session.run);
@@ -148,7 +148,7 @@ int blend_meshes(BlendOptions const& options, Session const& session) {
 
 int blend_files(BlendOptions& options, Session const& session) {
     take_numbers(options);
-    if (io::holds_tin(options.params.target) || io::holds_tin(options.params.source)) {
+    if (io::holds_tin(options.params.target) || io::holds_tin(options.params.source.path)) {
         return blend_meshes(options, session);
     }
     refuse_if<BadParameter>(
@@ -171,7 +171,7 @@ Command add_blend(CLI::App& app, Session& session) {
     app.add_option("TARGET", params.target, "The DEM to paste into, or a mesh: .2dm, .obj or .off.")
         ->type_name("FILE")
         ->required();
-    app.add_option("SOURCE", params.source,
+    app.add_option("SOURCE", params.source.path,
                    "The DEM to take the patch from. It is warped (bilinear) if its CRS or cells differ. Into a mesh, "
                    "a mesh with one boundary.")
         ->type_name("FILE")
@@ -190,7 +190,7 @@ Command add_blend(CLI::App& app, Session& session) {
         ->check(CLI::Range(-360.0, 360.0));
     app.add_option("--scale", params.scale, "Scale the patch in plan by this factor.");
     app.add_option("--gain", params.gain, "Multiply heights by this factor.");
-    app.add_option("--mask", params.mask,
+    app.add_option("--mask", params.mask.path,
                    "Replace only these cells: a raster on the target's grid (neither 0 nor no-data), or polygons in "
                    "any format OGR reads.")
         ->type_name("FILE");

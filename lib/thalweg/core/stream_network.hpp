@@ -166,6 +166,7 @@ struct NetworkOrders {
     std::vector<std::int64_t> node_basin;
     std::vector<int> node_strahler;      ///< of the stream that leaves the node (outlet: that enters)
     std::vector<double> node_dist_out_m; ///< [m] along the stream to the outlet
+    std::vector<ArcId> main_stem;        ///< the longest flow path of all basins, from its source down
 };
 
 } // namespace thalweg

@@ -62,7 +62,7 @@ void expect_balanced(GivenLength const& given) {
 }
 
 double stretches_m(Made const& t) {
-    return t.rivers.file.sources.length_m(t.terrain.network.plan);
+    return t.planform.file.sources.length_m(t.terrain.rivers.network.plan);
 }
 
 } // namespace
@@ -153,11 +153,11 @@ TEST(GivenAreas, OfTheFileStandBesideThoseOfTheTerrain) {
         GivenAreas const& given = *t.assessment.given_areas;
         EXPECT_EQ(given.arcs, 2);
         std::vector<double> ratios;
-        StreamNetwork const& network = t.terrain.network.plan;
+        StreamNetwork const& network = t.terrain.rivers.network.plan;
         for (ArcId a = 0; a < network.arc_count(); ++a) {
             double const km2 = network.arc(a).feature == 1 ? 2.0 : network.arc(a).feature == 2 ? 4.0 : 0.0;
             if (km2 > 0.0) {
-                ratios.push_back(t.assessment.areas.ds_area_m2[a] / (1e6 * km2));
+                ratios.push_back(t.terrain.areas.ds_area_m2[a] / (1e6 * km2));
             }
         }
         std::ranges::sort(ratios);

@@ -171,10 +171,10 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
         EXPECT_EQ(check_of(*t, "sources_astray").value, 0.0);
     }
     // The sources lie some 2000 m from the outlet.
-    double const source = fixed.terrain.network.node_z[0];
+    double const source = fixed.terrain.rivers.network.node_z[0];
     EXPECT_GT(source, 100.0);
-    EXPECT_NEAR(ends.terrain.network.node_z[0], source, 0.1);
-    EXPECT_LE(soft.terrain.network.node_z[0], source + 0.1);
+    EXPECT_NEAR(ends.terrain.rivers.network.node_z[0], source, 0.1);
+    EXPECT_LE(soft.terrain.rivers.network.node_z[0], source + 0.1);
     EXPECT_EQ(fixed.terrain.equilibrium->max_lowered_m, 0.0);
 }
 
@@ -244,7 +244,8 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
     ASSERT_EQ(drained.assessment.sinks.size(), 1U);
-    EXPECT_EQ(drained.terrain.network.plan.node(drained.assessment.sinks.front()).at, (Vec2{502000.0, 5001500.0}));
+    EXPECT_EQ(drained.terrain.rivers.network.plan.node(drained.assessment.sinks.front()).at,
+              (Vec2{502000.0, 5001500.0}));
 }
 
 TEST(LandInEquilibrium, GivenHeightsGetTheSlopeThatIsAsked) {
@@ -300,12 +301,12 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     Files const files;
     Made const t = made(lines + "fill_space = true\nsupport = 60\n" + path + equilibrium, files.folder());
     expect_lawful(t);
-    EXPECT_GT(t.terrain.equilibrium->side_valleys, 30);
+    EXPECT_GT(t.terrain.side_valleys.grown, 30);
     std::int64_t grown = 0;
-    for (ArcId arc = 0; arc < t.terrain.network.plan.arc_count(); ++arc) {
-        grown += t.terrain.network.plan.arc(arc).is_input ? 0 : 1;
+    for (ArcId arc = 0; arc < t.terrain.rivers.network.plan.arc_count(); ++arc) {
+        grown += t.terrain.rivers.network.plan.arc(arc).is_input ? 0 : 1;
     }
-    EXPECT_EQ(grown, t.terrain.equilibrium->side_valleys);
+    EXPECT_EQ(grown, t.terrain.side_valleys.grown);
     EXPECT_EQ(t.assessment.relief->perched, 0);
 }
 
@@ -317,7 +318,7 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
     EXPECT_EQ(still.recipe.network->meander, 0.0);
     auto const length = [](Made const& t) {
         double sum = 0.0;
-        for (double const one : t.terrain.network.plan.length_m()) {
+        for (double const one : t.terrain.rivers.network.plan.length_m()) {
             sum += one;
         }
         return sum;
@@ -347,7 +348,7 @@ TEST(LandInEquilibrium, ARiverAlongTheBorderIsTold) {
 TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
     Files const files;
     Made const t = made(lines + "heights = \"straight\"\nslope = 0.08\n" + path + equilibrium, files.folder());
-    for (std::vector<double> const& z : t.terrain.network.arc_z) {
+    for (std::vector<double> const& z : t.terrain.rivers.network.arc_z) {
         EXPECT_TRUE(std::is_sorted(z.rbegin(), z.rend()));
     }
 }
@@ -383,7 +384,7 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
 
 TEST(LandInEquilibrium, RiversOfAnIslandMeetAtAcuteAngles) {
     Made const land = make(recipe_from(THALWEG_SOURCE_DIR "/samples/island.toml"));
-    measure::JunctionAngles const angles = measure::junction_angles(land.terrain.network.plan, 300.0);
+    measure::JunctionAngles const angles = measure::junction_angles(land.terrain.rivers.network.plan, 300.0);
     EXPECT_GT(angles.junctions, 20);
     EXPECT_GT(angles.mean_deg, 45.0);
     EXPECT_LT(angles.mean_deg, 90.0);
@@ -397,8 +398,8 @@ TEST(LandInEquilibrium, AForestTilesALargeMap) {
                         files.folder());
     expect_lawful(t);
     std::vector<std::int64_t> outlets;
-    for (NodeId const n : t.terrain.network.plan.outlets()) {
-        outlets.push_back(t.terrain.grid.index(t.terrain.grid.cell_of(t.terrain.network.plan.node(n).at)));
+    for (NodeId const n : t.terrain.rivers.network.plan.outlets()) {
+        outlets.push_back(t.terrain.grid.index(t.terrain.grid.cell_of(t.terrain.rivers.network.plan.node(n).at)));
     }
     EXPECT_GT(outlets.size(), 50U);
     flow::FlowField const drainage = flow::route(t.terrain.surface->dem);

@@ -94,16 +94,16 @@ TEST(Land, OverTheTrianglesOfRivers) {
     Made const t = made(rivers + "[surface]\nmethod = \"tin\"\n");
     expect_valley_kept(t);
     ASSERT_TRUE(t.terrain.tin);
-    double low = t.terrain.network.node_z[0];
+    double low = t.terrain.rivers.network.node_z[0];
     double high = low;
-    for (double const z : t.terrain.network.node_z) {
+    for (double const z : t.terrain.rivers.network.node_z) {
         low = std::min(low, z);
         high = std::max(high, z);
     }
     EXPECT_GE(t.assessment.statistics->min.z, low - 1e-3);
     EXPECT_LE(t.assessment.statistics->max.z, high + 1e-3);
-    for (ArcId arc = 0; arc < t.terrain.network.plan.arc_count(); ++arc) {
-        for (Vec2 const p : t.terrain.network.plan.arc(arc).line) {
+    for (ArcId arc = 0; arc < t.terrain.rivers.network.plan.arc_count(); ++arc) {
+        for (Vec2 const p : t.terrain.rivers.network.plan.arc(arc).line) {
             EXPECT_TRUE(std::any_of(t.terrain.tin->vertices.begin(), t.terrain.tin->vertices.end(),
                                     [&](Vec3 const& v) { return v.x == p.x && v.y == p.y; }));
         }
@@ -135,10 +135,10 @@ TEST(Land, ClustersStopAtTheirRadius) {
     std::string const radius = "radius = 40\n";
     Made const free = made(rivers);
     Made const bound = made(rivers + radius);
-    EXPECT_FALSE(free.rivers.story.wide);
-    EXPECT_EQ(free.rivers.story.particles, 3000);
-    EXPECT_TRUE(bound.rivers.story.wide);
-    EXPECT_LT(bound.rivers.story.particles, 3000);
+    EXPECT_FALSE(free.planform.story.wide);
+    EXPECT_EQ(free.planform.story.particles, 3000);
+    EXPECT_TRUE(bound.planform.story.wide);
+    EXPECT_LT(bound.planform.story.particles, 3000);
 }
 
 TEST(Land, IncrementsThatJumpAreWarnedOf) {

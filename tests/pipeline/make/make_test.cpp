@@ -39,7 +39,7 @@ void expect_same(std::vector<float> const& a, std::vector<float> const& b) {
 
 /// Two terrains around rivers that are grown once, and as two runs make them.
 void expect_rivers_serve_both(std::string const& one, std::string const& two) {
-    Rivers const rivers = make_rivers(resolve(recipe_of_text(rivers_of + one)));
+    Planform const rivers = make_planform(resolve(recipe_of_text(rivers_of + one)));
     for (std::string const& surface : {one, two}) {
         Recipe const recipe = recipe_of_text(rivers_of + surface);
         Made const whole = make(recipe);
@@ -47,10 +47,10 @@ void expect_rivers_serve_both(std::string const& one, std::string const& two) {
         Terrain const terrain = make_terrain(plan, rivers);
         Assessment const assessment = assess(plan, rivers, terrain);
         expect_same(heights(terrain), heights(whole.terrain));
-        EXPECT_EQ(terrain.network.arc_z, whole.terrain.network.arc_z);
+        EXPECT_EQ(terrain.rivers.network.arc_z, whole.terrain.rivers.network.arc_z);
         EXPECT_EQ(write_recipe(recipe_of(plan, terrain)), write_recipe(whole.recipe));
         EXPECT_EQ(assessment.passed(), whole.assessment.passed());
-        EXPECT_EQ(assessment.areas.ds_area_m2, whole.assessment.areas.ds_area_m2);
+        EXPECT_EQ(terrain.areas.ds_area_m2, whole.terrain.areas.ds_area_m2);
     }
 }
 
@@ -69,13 +69,13 @@ TEST(Make, RiversAloneHaveNoTerrain) {
     Made const made = make(recipe_of_text(rivers_of));
     EXPECT_FALSE(made.terrain.surface);
     EXPECT_FALSE(made.terrain.drainage);
-    EXPECT_GT(made.terrain.network.plan.arc_count(), 0U);
+    EXPECT_GT(made.terrain.rivers.network.plan.arc_count(), 0U);
     EXPECT_TRUE(made.assessment.passed());
 }
 
 TEST(Make, LandAloneHasNoRivers) {
     Made const made = make(recipe_of_text("[grid]\nwidth = 64\nheight = 48\n[statistics]\nmean = 100\nstd = 10\n"));
-    EXPECT_EQ(made.rivers.network.plan.arc_count(), 0U);
+    EXPECT_EQ(made.planform.network.arc_count(), 0U);
     EXPECT_EQ(made.terrain.grid, made.plan.grid);
     EXPECT_TRUE(made.terrain.drainage);
 }
@@ -84,10 +84,10 @@ TEST(Make, LandAloneHasNoRivers) {
 TEST(Make, TimingsAreThoseOfTheValues) {
     Made const made = make(recipe_of_text(rivers_of + "[surface]\n"));
     EXPECT_EQ(made.plan.timings_s.front().first, "grow");
-    EXPECT_EQ(made.rivers.timings_s.front().first, "embed");
+    EXPECT_EQ(made.planform.timings_s.front().first, "embed");
     EXPECT_EQ(made.terrain.timings_s.front().first, "channels");
     EXPECT_EQ(made.assessment.timings_s.back().first, "check");
-    EXPECT_EQ(timings_of(made).size(), made.plan.timings_s.size() + made.rivers.timings_s.size() +
+    EXPECT_EQ(timings_of(made).size(), made.plan.timings_s.size() + made.planform.timings_s.size() +
                                            made.terrain.timings_s.size() + made.assessment.timings_s.size());
 }
 

@@ -20,21 +20,21 @@ namespace {
 /// The rivers 1 and 2 of a file, which go on as 3.
 Made terrain() {
     Made t;
-    t.terrain.network.plan =
+    t.terrain.rivers.network.plan =
         test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
                          {{.from = 0, .to = 2, .between = {}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
-    t.terrain.network.node_z = {4.0, 4.0, 2.0, 0.0};
-    t.terrain.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
-    t.terrain.orders = network::order(t.terrain.network.plan);
-    t.assessment.areas.us_area_m2 = t.assessment.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
-    t.assessment.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
-    t.rivers.file.attributes.columns = {{"name", AttributeTable::Type::text},
-                                        {"name_of_the_river", AttributeTable::Type::text}};
+    t.terrain.rivers.network.node_z = {4.0, 4.0, 2.0, 0.0};
+    t.terrain.rivers.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
+    t.terrain.rivers.orders = network::order(t.terrain.rivers.network.plan);
+    t.terrain.areas.us_area_m2 = t.terrain.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
+    t.terrain.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
+    t.planform.file.attributes.columns = {{"name", AttributeTable::Type::text},
+                                          {"name_of_the_river", AttributeTable::Type::text}};
     for (std::string const name : {"one", "two", "three", "four", "five"}) {
-        t.rivers.file.attributes.rows.push_back({name, name});
+        t.planform.file.attributes.rows.push_back({name, name});
     }
-    t.rivers.file.sources =
-        pipeline::LineSources(t.terrain.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    t.planform.file.sources =
+        pipeline::LineSources(t.terrain.rivers.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
     return t;
 }
 
@@ -42,14 +42,14 @@ Made terrain() {
 
 TEST(UserData, GrownRiversHaveNone) {
     Made t = terrain();
-    t.rivers.file.sources = {};
-    EXPECT_FALSE(pipeline::user_data(t, t.terrain.network.plan));
+    t.planform.file.sources = {};
+    EXPECT_FALSE(pipeline::user_data(t, t.terrain.rivers.network.plan));
     EXPECT_TRUE(pipeline::shortened_names(t).empty());
 }
 
 TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
     Made const t = terrain();
-    auto const user = pipeline::user_data(t, t.terrain.network.plan);
+    auto const user = pipeline::user_data(t, t.terrain.rivers.network.plan);
     ASSERT_TRUE(user);
     EXPECT_EQ(user->record, (std::vector<std::int64_t>{1, 2, 3}));
     EXPECT_EQ(user->attributes.rows.size(), 5U);

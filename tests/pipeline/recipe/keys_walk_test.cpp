@@ -276,16 +276,16 @@ std::string digest(Made const& t) {
         hash.add(x);
     }
     add_text(hash, t.terrain.grid.crs);
-    for (std::size_t a = 0; a < t.terrain.network.plan.arc_count(); ++a) {
-        Arc const& arc = t.terrain.network.plan.arc(a);
+    for (std::size_t a = 0; a < t.terrain.rivers.network.plan.arc_count(); ++a) {
+        Arc const& arc = t.terrain.rivers.network.plan.arc(a);
         for (Vec2 const p : arc.line) {
             hash.add(p.x);
             hash.add(p.y);
         }
         add_text(hash, arc.type);
-        hash.add_all(t.terrain.network.arc_z[a]);
+        hash.add_all(t.terrain.rivers.network.arc_z[a]);
     }
-    hash.add_all(t.terrain.types.braided);
+    hash.add_all(t.terrain.rivers.types.braided);
     if (t.terrain.surface) {
         hash.add_all(t.terrain.surface->dem.values());
     }

@@ -75,14 +75,14 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     json const& arcs = data["rivers"]["arcs"];
     auto const lines = page_decoder::lines(unpacked(page_decoder::part(html, "@@LINES@@")),
                                            arcs["n"].get<std::vector<std::int64_t>>());
-    ASSERT_EQ(lines.size(), terrain.terrain.network.plan.arc_count());
+    ASSERT_EQ(lines.size(), terrain.terrain.rivers.network.plan.arc_count());
     double const step_m = data["rivers"]["step"].get<double>() * terrain.terrain.grid.cell_m;
     for (auto const& [name, column] : arcs.items()) {
         EXPECT_EQ(column.size(), lines.size()) << name;
     }
     for (std::size_t a = 0; a < lines.size(); ++a) {
-        Vec2 const from = terrain.terrain.network.plan.node(terrain.terrain.network.plan.from(a)).at;
-        Vec2 const to = terrain.terrain.network.plan.node(terrain.terrain.network.plan.to(a)).at;
+        Vec2 const from = terrain.terrain.rivers.network.plan.node(terrain.terrain.rivers.network.plan.from(a)).at;
+        Vec2 const to = terrain.terrain.rivers.network.plan.node(terrain.terrain.rivers.network.plan.to(a)).at;
         EXPECT_NEAR(terrain.terrain.grid.west + lines[a].front().x * step_m, from.x, step_m / 2.0);
         EXPECT_NEAR(terrain.terrain.grid.north - lines[a].front().y * step_m, from.y, step_m / 2.0);
         EXPECT_NEAR(terrain.terrain.grid.west + lines[a].back().x * step_m, to.x, step_m / 2.0);
@@ -92,10 +92,10 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
         if (ds > 0) {
             EXPECT_EQ(lines[a].back(), lines[ds - 1].front()) << "rivers are not torn apart";
         }
-        EXPECT_NEAR(arcs["length"][a].get<double>(), terrain.terrain.network.plan.length_m(a), 0.001);
-        EXPECT_NEAR(arcs["z_up"][a].get<double>(), terrain.terrain.network.arc_z[a].front(), 0.001);
-        EXPECT_EQ(arcs["ds_area"][a], terrain.assessment.areas.ds_area_m2[a]);
-        double const persistence = terrain.terrain.network.plan.arc(a).persistence;
+        EXPECT_NEAR(arcs["length"][a].get<double>(), terrain.terrain.rivers.network.plan.length_m(a), 0.001);
+        EXPECT_NEAR(arcs["z_up"][a].get<double>(), terrain.terrain.rivers.network.arc_z[a].front(), 0.001);
+        EXPECT_EQ(arcs["ds_area"][a], terrain.terrain.areas.ds_area_m2[a]);
+        double const persistence = terrain.terrain.rivers.network.plan.arc(a).persistence;
         EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(persistence));
     }
 }
@@ -168,28 +168,29 @@ TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
         EXPECT_LT(profile[i][0], profile[i - 1][0]);
         EXPECT_LE(profile[i][1], profile[i - 1][1]);
     }
-    auto const& far = terrain.terrain.orders.node_dist_out_m;
+    auto const& far = terrain.terrain.rivers.orders.node_dist_out_m;
     EXPECT_NEAR(profile.front()[0].get<double>(), *std::max_element(far.begin(), far.end()), 0.001);
 
     // Two straight rivers: the one that drains more, though shorter; among equals the first.
     Made two = terrain;
-    two.terrain.network = {};
-    two.terrain.orders = {};
+    two.terrain.rivers.network = {};
+    two.terrain.rivers.orders = {};
     NetworkDraft plan;
     for (double const length : {100.0, 50.0, 70.0}) {
         auto const source = plan.add_node({two.terrain.grid.west + length, two.terrain.grid.north});
         auto const outlet = plan.add_node({two.terrain.grid.west, two.terrain.grid.north});
         plan.add_arc(source, outlet);
-        two.terrain.network.arc_z.push_back({length, 1.0});
-        two.terrain.orders.node_dist_out_m.insert(two.terrain.orders.node_dist_out_m.end(), {length, 0.0});
+        two.terrain.rivers.network.arc_z.push_back({length, 1.0});
+        two.terrain.rivers.orders.node_dist_out_m.insert(two.terrain.rivers.orders.node_dist_out_m.end(),
+                                                         {length, 0.0});
     }
-    two.terrain.network.plan = std::move(plan);
-    two.terrain.orders.strahler = {1, 1, 1};
-    two.terrain.orders.hack = {1, 1, 1};
-    two.terrain.orders.shreve = {1, 1, 1};
-    two.terrain.orders.arc_basin = {1, 2, 3};
-    two.assessment.areas.us_area_m2 = two.assessment.areas.ds_area_m2 = {1.0, 2.0, 2.0};
-    two.assessment.areas.node_m2 = {0.0, 1.0, 0.0, 2.0, 0.0, 2.0};
+    two.terrain.rivers.network.plan = std::move(plan);
+    two.terrain.rivers.orders.strahler = {1, 1, 1};
+    two.terrain.rivers.orders.hack = {1, 1, 1};
+    two.terrain.rivers.orders.shreve = {1, 1, 1};
+    two.terrain.rivers.orders.arc_basin = {1, 2, 3};
+    two.terrain.areas.us_area_m2 = two.terrain.areas.ds_area_m2 = {1.0, 2.0, 2.0};
+    two.terrain.areas.node_m2 = {0.0, 1.0, 0.0, 2.0, 0.0, 2.0};
     EXPECT_EQ(data_of(page(two))["profile"], json::parse("[[50.0, 50.0], [0.0, 1.0]]"));
 }
 
@@ -197,7 +198,7 @@ TEST(Page, LongListsAreCut) {
     Made terrain = small_terrain(Land::with);
     terrain.terrain.surface->increments.assign(5000, 2.0);
     terrain.assessment.findings.assign(61, {"uphill", 1, {}, 0.0, "arc 1 runs uphill"});
-    terrain.rivers.story.repairs.clear();
+    terrain.planform.story.repairs.clear();
     terrain.terrain.notes.clear();
     json const data = data_of(page(terrain));
     json const& points = data["curve"]["points"];

@@ -14,10 +14,7 @@ struct MainStem {
     std::vector<double> from_out_m; ///< by vertex, along the stream
 };
 
-/// Finds the longest flow path of all basins.
-/// \param network any
-/// \param orders the network's orders
-/// \return empty: there is no stream
+/// The course of the main stem. \param orders of this network
 MainStem main_stem(StreamNetwork const& network, NetworkOrders const& orders);
 
 } // namespace thalweg::draw

@@ -32,12 +32,6 @@ namespace thalweg::io {
 
 namespace fs = std::filesystem;
 
-namespace {
-
-std::atomic<int> recipes{0};
-
-} // namespace
-
 bool names_connection(std::string const& path) {
     static constexpr std::array local{"/vsimem/", "/vsizip/", "/vsigzip/", "/vsitar/", "/vsisubfile/", "/vsisparse/"};
     std::string_view const name = path;
@@ -56,22 +50,11 @@ bool names_connection(std::string const& path) {
     return !fs::exists(path, ignored);
 }
 
-RecipeFiles::RecipeFiles() {
-    ++recipes;
-}
-
-RecipeFiles::~RecipeFiles() {
-    --recipes;
-}
-
-bool reads_recipe_files() {
-    return recipes > 0;
-}
-
-void require_allowed(std::string const& path) {
-    if (!reads_recipe_files()) {
+void require_allowed(Source const& source) {
+    if (source.access != Access::recipe) {
         return;
     }
+    std::string const& path = source.path;
     refuse_if<BadInput>(names_connection(path),
                         "io.require_allowed: a recipe names files, and '{}' is a connection: name it on the command "
                         "line, or convert it to a file (ogr2ogr)",

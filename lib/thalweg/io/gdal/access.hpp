@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
+#include <utility>
 
 struct pj_ctx; // PROJ's PJ_CONTEXT
 
@@ -14,26 +16,27 @@ namespace thalweg::io {
 /// \return true: it connects
 bool names_connection(std::string const& path);
 
-/// While an object lives, every source is opened as a file named by a recipe, which may come from an untrusted source:
-/// it must be an existing file or folder in a format that holds its data and names no other sources, and its driver may
-/// open other files in the same folder only. Anything else is BadInput. Otherwise files may have any format that GDAL
-/// reads from disk, and a connection is made only to what the path itself names, with a timeout. Applies to all
-/// threads.
-class RecipeFiles {
-public:
-    RecipeFiles();
-    ~RecipeFiles();
-    RecipeFiles(RecipeFiles const&) = delete;
-    RecipeFiles& operator=(RecipeFiles const&) = delete;
+/// Who names a source, which decides what may be opened.
+enum class Access : std::uint8_t {
+    user,  ///< The user: any format that GDAL reads from the disk, and a connection only to what the path itself names,
+           ///< with a timeout.
+    recipe ///< A recipe, which may come from anywhere: an existing file or folder in a format that holds its data and
+           ///< names no other sources; its driver opens files of the same folder alone. Anything else is BadInput.
 };
 
-/// \return whether a RecipeFiles lives
-bool reads_recipe_files();
+/// A source of data by its name.
+struct Source {
+    Source() = default;
+    Source(std::string name, Access by = Access::user) : path(std::move(name)), access(by) {} // NOLINT(*-explicit-*)
+    Source(char const* name) : path(name) {}                                                  // NOLINT(*-explicit-*)
 
-/// Rejects sources that a recipe may not name.
-/// \param path of the source
-/// \throws BadInput when a RecipeFiles lives and the path names a connection, or is neither a file nor a folder
-void require_allowed(std::string const& path);
+    std::string path; ///< "" for none
+    Access access = Access::user;
+};
+
+/// \param source the source
+/// \throws BadInput where a recipe names a connection, or what is neither a file nor a folder
+void require_allowed(Source const& source);
 
 /// Tells whether a recipe may name a source.
 /// \param path of the source

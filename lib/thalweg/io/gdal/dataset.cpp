@@ -274,7 +274,7 @@ Dataset open_connection(std::string const& path, unsigned kinds) {
 }
 
 Dataset open_recipe_file(std::string const& path, unsigned kinds) {
-    require_allowed(path);
+    require_allowed({path, Access::recipe});
     auto held = std::make_shared<Held>();
     held->file = std::make_unique<Undisturbed const>(path);
     held->folder = std::make_unique<Confined const>(path);
@@ -293,8 +293,9 @@ Dataset open_recipe_file(std::string const& path, unsigned kinds) {
 
 } // namespace
 
-Dataset open_undisturbed(std::string const& path, unsigned kinds) {
-    if (reads_recipe_files()) {
+Dataset open_undisturbed(Source const& source, unsigned kinds) {
+    std::string const& path = source.path;
+    if (source.access == Access::recipe) {
         return open_recipe_file(path, kinds);
     }
     if (names_connection(path)) {
@@ -309,9 +310,8 @@ Dataset open_undisturbed(std::string const& path, unsigned kinds) {
 
 bool is_recipe_file(std::string const& path) {
     Driver const driver;
-    RecipeFiles const strictly;
     try {
-        bool const opens = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR) != nullptr;
+        bool const opens = open_undisturbed({path, Access::recipe}, GDAL_OF_RASTER | GDAL_OF_VECTOR) != nullptr;
         driver.take();
         return opens;
     } catch (BadInput const&) {
@@ -320,13 +320,13 @@ bool is_recipe_file(std::string const& path) {
     }
 }
 
-Dataset open_file(std::string const& path, unsigned kinds, std::string const& what) {
-    // GDAL accepts addresses and connection strings as file names.
-    if (std::error_code ignored; !fs::exists(path, ignored)) {
+Dataset open_file(Source const& source, unsigned kinds, std::string const& what) {
+    // GDAL takes addresses and connection strings for file names.
+    if (std::error_code ignored; !fs::exists(source.path, ignored)) {
         throw BadInput(what + " does not exist");
     }
     CPLErrorReset();
-    Dataset dataset = open_undisturbed(path, kinds);
+    Dataset dataset = open_undisturbed(source, kinds);
     if (dataset == nullptr) {
         std::string const words = CPLGetLastErrorMsg();
         throw BadInput(fmt::format("{} cannot be read: {}", what, words.empty() ? "its format is not known" : words));

@@ -47,7 +47,8 @@ OGRwkbGeometryType shape_of(OGRLayer& layer) {
 
 } // namespace
 
-FileContent content_of(std::string const& path) {
+FileContent content_of(Source const& source) {
+    std::string const& path = source.path;
     FileContent content;
     std::error_code ignored;
     content.path =
@@ -58,7 +59,7 @@ FileContent content_of(std::string const& path) {
         return content;
     }
     Driver const driver;
-    Dataset const data = open_file(content.path, GDAL_OF_RASTER | GDAL_OF_VECTOR, what);
+    Dataset const data = open_file({content.path, source.access}, GDAL_OF_RASTER | GDAL_OF_VECTOR, what);
     if (data->GetRasterCount() > 0) {
         return content;
     }
@@ -79,25 +80,25 @@ FileContent content_of(std::string const& path) {
     return content;
 }
 
-bool has_layer(std::string const& path, std::string const& layer) {
+bool has_layer(Source const& source, std::string const& layer) {
     std::error_code ignored;
-    if (!std::filesystem::exists(path, ignored)) {
+    if (!std::filesystem::exists(source.path, ignored)) {
         return false;
     }
     Driver const driver;
-    return open_file(path, GDAL_OF_VECTOR, "io.has_layer")->GetLayerByName(layer.c_str()) != nullptr;
+    return open_file(source, GDAL_OF_VECTOR, "io.has_layer")->GetLayerByName(layer.c_str()) != nullptr;
 }
 
-std::vector<std::string> dataset_files(std::string const& path) {
+std::vector<std::string> dataset_files(Source const& source) {
     Driver const driver;
-    Dataset const source = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
-    if (!source) {
-        throw BadInput("io.dataset_files: " + path + " is not a vector or raster source");
+    Dataset const data = open_undisturbed(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+    if (!data) {
+        throw BadInput("io.dataset_files: " + source.path + " is not a vector or raster source");
     }
-    if (inside_archive(path) != path) {
-        return {path};
+    if (inside_archive(source.path) != source.path) {
+        return {source.path};
     }
-    CPLStringList const list(source->GetFileList(), TRUE);
+    CPLStringList const list(data->GetFileList(), TRUE);
     std::vector<std::string> files;
     for (int i = 0; i < list.size(); ++i) {
         // GDAL 3.7 also lists files named by companions, wherever they are.
@@ -105,9 +106,9 @@ std::vector<std::string> dataset_files(std::string const& path) {
             files.emplace_back(list[i]);
         }
     }
-    // a copy was read, because the file has uncommitted changes
-    if (!files.empty() && source->GetDescription() != path) {
-        files = {path, path + "-wal"};
+    if (!files.empty() &&
+        data->GetDescription() != source.path) { // a copy was read, because changes stand beside the file
+        files = {source.path, source.path + "-wal"};
     }
     std::sort(files.begin(), files.end());
     return files;
@@ -181,19 +182,19 @@ std::string unit_in_plan(OGRSpatialReference const& crs, std::optional<FileBox> 
 
 } // namespace
 
-std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs,
+std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs) {
-    if (is_text_of_points(path) || crs.empty()) {
+    if (is_text_of_points(source.path) || crs.empty()) {
         return {};
     }
     Driver const driver;
-    Dataset const data = open_undisturbed(path, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+    Dataset const data = open_undisturbed(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     std::string const ignored = driver.take();
     if (!data) {
         return {};
     }
-    Units const units = units_of(*data, layer, path, source_crs);
-    std::string const name = std::filesystem::path(path).filename().string();
+    Units const units = units_of(*data, layer, source.path, source_crs);
+    std::string const name = std::filesystem::path(source.path).filename().string();
     std::vector<std::string> said;
     bool in_feet = false;
     if (units.crs.IsEmpty() == 0) {

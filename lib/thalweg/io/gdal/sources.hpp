@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -18,37 +19,36 @@ struct FileContent {
     std::string layer; ///< of lines: "arcs" in thalweg's own files, else ""
 };
 
-/// Detects the content of a file: a raster, text or a layer of points, or lines; lines if there are both. A folder
-/// stands for its network.gpkg.
-/// \param path of the file or folder
-/// \return kind and layer
-/// \throws BadInput when it does not exist, GDAL cannot read it or it has neither
+/// Looks into a file: a raster, text or a layer of points, or lines; where there are both, lines. A folder stands for
+/// its network.gpkg.
+/// \param source the file
+/// \return what it holds
+/// \throws BadInput when there is none, GDAL cannot read it or it holds neither
 /// \throws IoError when features cannot be read
-FileContent content_of(std::string const& path);
+FileContent content_of(Source const& source);
 
-/// Tells whether a file that OGR reads has a layer with a name.
-/// \param path of the file
+/// \param source the file
 /// \param layer name of the layer
 /// \return false also if the file does not exist
 /// \throws BadInput when GDAL cannot read it
-bool has_layer(std::string const& path, std::string const& layer);
+bool has_layer(Source const& source, std::string const& layer);
 
-/// Lists the files of a vector or raster source, as known to GDAL (.shp with its .dbf, .prj, ...). A GeoPackage that is
-/// open elsewhere includes its NAME-wal with changes. A database has no files.
-/// \param path of the source
-/// \return sorted
-/// \throws BadInput when it is not a source
-std::vector<std::string> dataset_files(std::string const& path);
+/// A GeoPackage that is open elsewhere has its NAME-wal too, where changes stand. A database has none.
+/// \param source the file
+/// \return every file a vector or raster source consists of, as GDAL knows them (.shp with its .dbf, .prj, ...),
+/// sorted.
+/// \throws BadInput when it is none
+std::vector<std::string> dataset_files(Source const& source);
 
-/// Describes the changes to a file's data when it is read into a grid's CRS in metres: reprojected coordinates,
-/// converted heights, heights of a CRS in feet without their own unit, which count as metres. Text and files that GDAL
-/// does not read are not changed.
-/// \param path of the file
-/// \param layer "": the one with rivers, or the first
+/// Text, and a file that GDAL does not read, change in nothing.
+/// \param source the file
+/// \param layer "" for the one with rivers, or the first
 /// \param crs "EPSG:n" or WKT; "": none
-/// \param source_crs of a layer without a CRS; "": none
-/// \return one sentence per change
-std::vector<std::string> conversions_of(std::string const& path, std::string const& layer, std::string const& crs,
+/// \param source_crs of a layer that has no CRS; "": none
+/// \return what of a file changes when it is read into a grid's CRS in metres, each as a sentence: coordinates of
+/// another CRS are reprojected, heights in another unit are converted, heights of a CRS in feet that have no unit of
+/// their own count as metres.
+std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs = {});
 
 /// Copies a source into a file that a recipe may name: layers into a GeoPackage, a raster into a GeoTIFF.

@@ -10,6 +10,7 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -27,12 +28,11 @@ enum class DuplicatePoints : std::uint8_t {
 
 /// Options of read_points().
 struct ReadPointsParams {
-    std::string path = {};     ///< text (.csv, .txt, .xyz) or anything OGR opens
-    std::string layer = {};    ///< "": the only layer of points
-    std::string z_field = "z"; ///< source of heights for points without their own
-    /// of the result; "": the file's own if projected in metres, else its UTM zone; a file without a CRS, text
-    /// included, is assumed to be in it unless source_crs is set
-    std::string crs = {};
+    Source path = {};          ///< text (.csv, .txt, .xyz) or anything OGR opens
+    std::string layer = {};    ///< "" takes the only layer of points
+    std::string z_field = "z"; ///< heights of points that have none themselves
+    std::string crs = {};      ///< of the result; "" takes the file's own when projected in metres, else its UTM zone;
+                               ///< a file without one, text included, is taken to be in it unless source_crs says
     PointHeights heights = PointHeights::wanted;
     DuplicatePoints duplicates = DuplicatePoints::refused;
     /// Text: the columns of x, y and z, as names in a first line or numbers from 1 ("3,2,4"), or "pnezd" (number,

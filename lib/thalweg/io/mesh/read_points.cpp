@@ -326,11 +326,11 @@ void bring_points(FeaturePoints& read, OGRSpatialReference const& own, std::stri
 
 FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name, Run const& run) {
     Driver const driver;
-    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, "io.read_points: " + params.path);
+    Dataset const data = open_file(params.path, GDAL_OF_VECTOR, "io.read_points: " + params.path.path);
     OGRLayer& layer = choose_layer(*data, params.layer, name);
     FeaturePoints read;
     read.points = take(layer, params, name, run);
-    driver.check("io.read_points: " + params.path);
+    driver.check("io.read_points: " + params.path.path);
     if (read.points.empty()) {
         return read;
     }
@@ -351,7 +351,7 @@ FeaturePoints read_point_text(ReadPointsParams const& params, std::string const&
     constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
     Driver const driver;
     FeaturePoints read;
-    read.points = parse(read_text(params.path, most_bytes), params, name, run);
+    read.points = parse(read_text(params.path.path, most_bytes), params, name, run);
     OGRSpatialReference const own = crs_of_layer(nullptr, params.source_crs.value_or(""));
     if (own.IsEmpty() == 0 && !read.points.empty()) {
         bring_points(read, own, params.crs, name, driver);
@@ -442,12 +442,12 @@ bool is_text_of_points(std::string const& path) {
 }
 
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
-    auto const name = std::filesystem::path(params.path).filename().string();
-    refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path),
+    auto const name = std::filesystem::path(params.path.path).filename().string();
+    refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path.path),
                             "io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns to name",
                             name);
     FeaturePoints read;
-    if (is_text_of_points(params.path)) {
+    if (is_text_of_points(params.path.path)) {
         require_allowed(params.path);
         read = read_point_text(params, name, run);
     } else {

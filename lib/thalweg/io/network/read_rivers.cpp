@@ -381,22 +381,23 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
                                        "field of a line's id and that of the id downstream",
                                        params.id_field.empty() ? params.down_field : params.id_field));
     }
+    std::string const& path = params.path.path;
     Driver const driver;
-    auto const name = std::filesystem::path(params.path).filename().string();
+    auto const name = std::filesystem::path(path).filename().string();
     Dataset const data = open_undisturbed(params.path, GDAL_OF_VECTOR);
     if (!data) {
         auto const words = driver.take();
         VSIStatBufL status;
-        if (params.path.empty() || VSIStatL(params.path.c_str(), &status) != 0) {
-            refuse_rivers(fmt::format("there is no file '{}'{}", params.path, words.empty() ? "" : " (" + words + ")"));
+        if (path.empty() || VSIStatL(path.c_str(), &status) != 0) {
+            refuse_rivers(fmt::format("there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")"));
         }
-        refuse_rivers(params.path + " is not a vector file that GDAL can read (" + words + ")");
+        refuse_rivers(path + " is not a vector file that GDAL can read (" + words + ")");
     }
     OGRLayer& layer = rivers_layer(*data, params.layer, name, "io.read_rivers");
     RiverLines rivers;
     rivers.name = name;
     Read read = read_lines(layer, params, name, run);
-    driver.check("io.read_rivers: " + params.path);
+    driver.check("io.read_rivers: " + path);
     if (read.lines.empty()) {
         refuse_rivers(nothing_left(read, fmt::format("layer {} of {}", layer.GetName(), name)));
     }

@@ -8,6 +8,7 @@
 
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -33,7 +34,7 @@ enum class LineFilter : std::uint8_t {
 
 /// Options of read_rivers().
 struct ReadRiversParams {
-    std::string path = {};             ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
+    Source path = {};                  ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
     std::string layer = {};            ///< "" takes the only line layer
     std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
     std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one

@@ -178,16 +178,16 @@ void reproject(std::vector<Polygon>& polygons, OGRSpatialReference const& from, 
 
 } // namespace
 
-bool holds_polygons(std::string const& path) {
+bool holds_polygons(Source const& source) {
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_RASTER | GDAL_OF_VECTOR, "io.holds_polygons: " + path);
+    Dataset const data = open_file(source, GDAL_OF_RASTER | GDAL_OF_VECTOR, "io.holds_polygons: " + source.path);
     return data->GetRasterCount() == 0 && !polygon_layers(*data).empty();
 }
 
-std::string crs_for_polygons(std::string const& path) {
-    auto const name = std::filesystem::path(path).filename().string();
+std::string crs_for_polygons(Source const& source) {
+    auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_VECTOR, "io.read_polygons: " + path);
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
     OGRLayer& layer = choose_layer(*data, name);
     OGREnvelope box;
     if (is_missing(layer.GetSpatialRef()) || layer.GetExtent(&box) != OGRERR_NONE) {
@@ -197,26 +197,26 @@ std::string crs_for_polygons(std::string const& path) {
     return IntoMetres(*layer.GetSpatialRef(), "", {{box.MinX, box.MinY}, {box.MaxX, box.MaxY}}, name).crs();
 }
 
-PolygonsCrs crs_of_polygons(std::string const& path) {
-    auto const name = std::filesystem::path(path).filename().string();
+PolygonsCrs crs_of_polygons(Source const& source) {
+    auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_VECTOR, "io.read_polygons: " + path);
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
     OGRSpatialReference own = crs_of_layer(choose_layer(*data, name).GetSpatialRef(), "");
     own.StripVertical();
     return own.IsEmpty() != 0 ? PolygonsCrs() : PolygonsCrs{name_of(own), is_projected_in_metres(own)};
 }
 
-Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run) {
-    return read_polygons(path, crs, "", run);
+Polygons read_polygons(Source const& source, std::string const& crs, Run const& run) {
+    return read_polygons(source, crs, "", run);
 }
 
-Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run) {
-    auto const name = std::filesystem::path(path).filename().string();
+Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
+    auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
-    Dataset const data = open_file(path, GDAL_OF_VECTOR, "io.read_polygons: " + path);
+    Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
     OGRLayer& layer = choose_layer(*data, name);
     Polygons read{take(layer, name, field, run), crs, name};
-    driver.check("io.read_polygons: " + path);
+    driver.check("io.read_polygons: " + source.path);
     if (read.polygons.empty()) {
         refuse_polygons(fmt::format("layer {} of {} is empty", layer.GetName(), name));
     }

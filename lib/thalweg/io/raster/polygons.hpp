@@ -9,20 +9,20 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
-/// Tells whether OGR reads a file and it has a layer of polygons.
-/// \param path of the file
-/// \return true: it has
-/// \throws BadInput when it does not exist or GDAL cannot read it
-bool holds_polygons(std::string const& path);
+/// \param source the file
+/// \return whether a file is one that OGR reads and has a layer of polygons.
+/// \throws BadInput when there is none or GDAL cannot read it
+bool holds_polygons(Source const& source);
 
-/// Chooses the CRS in metres for a file's polygons if none is set.
-/// \param path of the file
-/// \return the file's own if projected in metres, else the UTM zone of the middle of its box
-/// \throws BadInput as read_polygons, and for a file without a CRS
-std::string crs_for_polygons(std::string const& path);
+/// \param source the file
+/// \return the CRS in metres in which a file's polygons are read where none is set: the file's own when it is projected
+/// in metres, else the UTM zone of the middle of its box.
+/// \throws BadInput as read_polygons, and for a file without CRS
+std::string crs_for_polygons(Source const& source);
 
 /// The CRS of a file's polygons.
 struct PolygonsCrs {
@@ -30,30 +30,28 @@ struct PolygonsCrs {
     bool in_metres = false; ///< projected, in metres
 };
 
-/// Reads the CRS of a file's layer of polygons.
-/// \param path of the file
-/// \return "" and false for none
+/// \param source the file
+/// \return the CRS of the file's layer of polygons
 /// \throws BadInput as read_polygons
-PolygonsCrs crs_of_polygons(std::string const& path);
+PolygonsCrs crs_of_polygons(Source const& source);
 
-/// Reads the polygons of any OGR source: multi-part ones part by part, curves as linearised by OGR.
-/// \param path of the file
-/// \param crs of the result, as in Grid; "": none
-/// \return vertices reprojected and rounded to 1e-6 of a unit
-/// \throws BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features, a
-/// feature that is not a polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
+/// Reads the polygons of any OGR source, multi-part ones part by part, curves as OGR linearises them.
+/// \pre the CRS of the result as in Grid, "" for none.
+/// \param source the file
+/// \param crs "EPSG:n" or WKT; "": none
+/// \return vertices reprojected and rounded to 1e-6 of a unit.
+/// \throws BadInput naming file, layer and feature: missing file, no or several layers of polygons, no features,
+/// something that is not a polygon, coordinates that are not finite or cannot be reprojected, a CRS on one side only
 /// (naming both)
 /// \throws IoError when the file cannot be read to its end
-Polygons read_polygons(std::string const& path, std::string const& crs, Run const& run = {});
+Polygons read_polygons(Source const& source, std::string const& crs, Run const& run = {});
 
-/// Reads polygons with the values of a numeric field.
-/// \param path of the file
-/// \param crs of the result, as in Grid; "": none
-/// \param field name of the field
-/// \return as without a field
-/// \throws Error as without a field, and BadInput when the layer has no such field, or a feature has no finite value in
-/// it
-Polygons read_polygons(std::string const& path, std::string const& crs, std::string const& field, Run const& run = {});
+/// \param source the file
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param field name of a numeric field
+/// \return the same, each with the value of a numeric field.
+/// \throws Error also BadInput when the layer has no such field, or a feature no finite value in it
+Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run = {});
 
 /// The catchment of an arc as a row.
 struct CatchmentRow {

@@ -9,6 +9,7 @@
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::io {
 
@@ -26,42 +27,41 @@ struct ReadDemParams {
     CellValues values = CellValues::heights;
 };
 
-/// Reads the only band of any GDAL raster file, with scale and offset applied, in metres according to the unit of the
-/// band or the vertical part of its CRS (metres if neither names one). No-data and masked cells become NaN; cells that
-/// are NaN in the file are counted in the log. crs may be geographic or "" here; cell_m is in its unit. A raster
-/// without a position has cells of 1 and its south-west corner at 0.
-/// \param path of the file
-/// \return heights; NaN: no data
-/// \throws BadInput for a missing file, one that is not a raster, more than one band, cells that are not square (sides
-/// differ by more than 0.1 %, or over the raster by a tenth of a cell; names both sizes), a raster that is rotated,
-/// south-up or larger than memory, no heights at all, a height beyond 1e30 (a damaged tile), or undeclared no-data:
-/// values -9999, -32767, -32768, -99999; if the file declares none and the cells are heights, also the lowest or
-/// highest value if it is not 0, fills 3 x 3 cells and is farther from the next value than the others are apart
-Raster<float> read_dem(std::string const& path, ReadDemParams const& params, Run const& run = {});
+/// Reads the only band of any GDAL raster file, scale and offset applied, in metres by the unit that the band or the
+/// vertical part of its CRS names (metres where none is named); no-data and masked cells become NaN; cells that are NaN
+/// themselves are counted in the log. crs may be geographic or "" here; cell_m is in its unit. A raster without
+/// position has cells of 1 and its south-west corner at 0.
+/// \param source the file
+/// \return the raster
+/// \throws BadInput no such file, not a raster, more than one band, cells not square (their sides differ by more than
+/// 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated or south-up, larger than memory, no
+/// heights at all, a height beyond 1e30 (a damaged tile), values that no terrain has and the file does not declare as
+/// no-data: -9999, -32767, -32768, -99999; where it declares none and the cells are heights, also the lowest or highest
+/// value when it is not 0, fills 3 x 3 cells and lies farther from the next one than the others are apart
+Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run const& run = {});
 
-/// Reads a DEM with default options.
-/// \param path of the file
-/// \return as with options
-Raster<float> read_dem(std::string const& path, Run const& run = {});
+/// \param source the file
+/// \return the same with default options
+Raster<float> read_dem(Source const& source, Run const& run = {});
 
-/// Reads a DEM in the file's unit: values that differ in the file differ here.
-/// \param path of the file
-/// \return as read_dem
-Raster<float> read_stored_dem(std::string const& path, ReadDemParams const& params = {}, Run const& run = {});
+/// \param source the file
+/// \return the same, with heights in the file's unit: two that differ there differ here.
+Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
-/// Tells whether read_dem accepts a raster's cells as squares.
-/// \param path of the file
-/// \return true also for a raster without a position, or one that is rotated or south-up
-/// \throws BadInput for a missing file or one that is not a raster
-bool has_square_cells(std::string const& path);
+/// \param source the file
+/// \return whether read_dem takes a raster's cells as squares; true also of one that has no place, is rotated or is
+/// south-up
+/// \throws BadInput no such file or not a raster
+bool has_square_cells(Source const& source);
 
-/// Reads a mask: the cells of a raster file whose value is neither 0 nor no-data.
-/// \param path of the file
-/// \param grid the file's cells must be those of this grid
-/// \return 1: marked
-/// \throws BadInput as read_dem; and, naming both, when the file has other cells or another CRS than the grid, or only
-/// one of them has a CRS
-Mask read_mask(std::string const& path, Grid const& grid, Run const& run = {});
+/// Reads a mask: the cells of any raster file whose value is neither 0 nor no-data.
+/// \pre a file whose cells are those of a grid.
+/// \param source the file
+/// \param grid the grid
+/// \return a mask on that grid.
+/// \throws BadInput like read_dem; when the file's cells are not the grid's, or only one of both has a CRS, or their
+/// CRS differ, naming both
+Mask read_mask(Source const& source, Grid const& grid, Run const& run = {});
 
 /// Warps a DEM to the coordinates and the cell size of a grid.
 /// \param dem [m] by cell; NaN: no data

@@ -189,10 +189,10 @@ void tell_of(TakenAway const& taken, ReadDemParams const& params, std::string co
     }
 }
 
-Raster<float> read(std::string const& path, Unit wanted, ReadDemParams const& params, Run const& run) {
-    std::string const what = "io.read_dem: " + path;
+Raster<float> read(Source const& source, Unit wanted, ReadDemParams const& params, Run const& run) {
+    std::string const what = "io.read_dem: " + source.path;
     Driver const driver;
-    Dataset const dataset = open_file(path, GDAL_OF_RASTER, what);
+    Dataset const dataset = open_file(source, GDAL_OF_RASTER, what);
     refuse_if<BadInput>(dataset->GetRasterCount() != 1, "{} has {} bands: a DEM has one", what,
                         dataset->GetRasterCount());
     Grid const grid = frame_of(*dataset, what);
@@ -243,28 +243,28 @@ Raster<float> read(std::string const& path, Unit wanted, ReadDemParams const& pa
     }
     driver.check(what);
     refuse_if<BadInput>(empty, "{} holds no heights, only no-data", what);
-    undeclared.require_none(what, path);
-    tell_of(taken, params, path, run);
+    undeclared.require_none(what, source.path);
+    tell_of(taken, params, source.path, run);
     return dem;
 }
 
 } // namespace
 
-Raster<float> read_dem(std::string const& path, ReadDemParams const& params, Run const& run) {
-    return read(path, Unit::metre, params, run);
+Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run const& run) {
+    return read(source, Unit::metre, params, run);
 }
 
-Raster<float> read_dem(std::string const& path, Run const& run) {
-    return read(path, Unit::metre, {}, run);
+Raster<float> read_dem(Source const& source, Run const& run) {
+    return read(source, Unit::metre, {}, run);
 }
 
-Raster<float> read_stored_dem(std::string const& path, ReadDemParams const& params, Run const& run) {
-    return read(path, Unit::stored, params, run);
+Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params, Run const& run) {
+    return read(source, Unit::stored, params, run);
 }
 
-bool has_square_cells(std::string const& path) {
+bool has_square_cells(Source const& source) {
     Driver const driver;
-    Dataset const dataset = open_file(path, GDAL_OF_RASTER, "io.read_dem: " + path);
+    Dataset const dataset = open_file(source, GDAL_OF_RASTER, "io.read_dem: " + source.path);
     std::array<double, 6> place{};
     bool const is_placed = dataset->GetGeoTransform(place.data()) == CE_None;
     auto const [west, dx, skew_x, north, skew_y, dy] = place;
@@ -272,9 +272,9 @@ bool has_square_cells(std::string const& path) {
     return !is_placed || !is_north_up || are_squares(dx, -dy, dataset->GetRasterXSize(), dataset->GetRasterYSize());
 }
 
-Mask read_mask(std::string const& path, Grid const& grid, Run const& run) {
-    Raster<float> const values = read_dem(path, {.values = CellValues::numbers}, run);
-    std::string const what = "io.read_mask: " + path;
+Mask read_mask(Source const& source, Grid const& grid, Run const& run) {
+    Raster<float> const values = read_dem(source, {.values = CellValues::numbers}, run);
+    std::string const what = "io.read_mask: " + source.path;
     Grid const& own = values.grid();
     refuse_if<BadInput>(!same_cells(own, grid),
                         "{} has {} x {} cells of {} from ({}, {}), the grid {} x {} of {} from ({}, {}): a mask has "

@@ -56,6 +56,24 @@ int strahler_below(std::span<ArcId const> in, std::vector<int> const& strahler) 
     return how_many > 1 ? highest + 1 : highest;
 }
 
+/// The arcs of the longest flow path, from its source down; of equal ones that with the lowest arc at its source.
+std::vector<ArcId> longest_path(StreamNetwork const& network, NetworkOrders const& orders) {
+    ArcId source = no_arc;
+    double longest = -1.0;
+    for (ArcId a = 0; a < network.arc_count(); ++a) {
+        double const far = orders.node_dist_out_m[network.from(a)];
+        if (far > longest) {
+            longest = far;
+            source = a;
+        }
+    }
+    std::vector<ArcId> path;
+    for (ArcId a = source; a != no_arc; a = network.out(network.to(a))) {
+        path.push_back(a);
+    }
+    return path;
+}
+
 } // namespace
 
 NetworkOrders order(StreamNetwork const& network) {
@@ -74,14 +92,14 @@ NetworkOrders order(StreamNetwork const& network) {
     orders.node_dist_out_m.assign(nodes, 0.0);
 
     std::vector<double> longest_above(nodes, 0.0); // [m] flow path from a source to the node
-    std::vector<ArcId> main_stem(nodes, no_arc);   // the arc by which that path arrives
+    std::vector<ArcId> longest_in(nodes, no_arc);  // the arc by which that path arrives
     for (auto n = network.upstream_order().rbegin(); n != network.upstream_order().rend(); ++n) {
         std::int64_t shreve = 0;
         for (ArcId const a : network.in(*n)) {
             shreve += orders.shreve[a];
             double const path = longest_above[network.from(a)] + network.length_m(a);
-            if (main_stem[*n] == no_arc || path > longest_above[*n]) {
-                main_stem[*n] = a;
+            if (longest_in[*n] == no_arc || path > longest_above[*n]) {
+                longest_in[*n] = a;
                 longest_above[*n] = path;
             }
             orders.node_strahler[*n] = std::max(orders.node_strahler[*n], orders.strahler[a]);
@@ -95,12 +113,13 @@ NetworkOrders order(StreamNetwork const& network) {
     for (NodeId const n : network.upstream_order()) {
         ArcId const out = network.out(n);
         for (ArcId const a : network.in(n)) {
-            orders.hack[a] = (out == no_arc ? 1 : orders.hack[out]) + (a == main_stem[n] ? 0 : 1);
+            orders.hack[a] = (out == no_arc ? 1 : orders.hack[out]) + (a == longest_in[n] ? 0 : 1);
             orders.topological[a] = (out == no_arc ? 0 : orders.topological[out]) + 1;
             orders.arc_basin[a] = network.basin(n);
             orders.node_dist_out_m[network.from(a)] = orders.node_dist_out_m[n] + network.length_m(a);
         }
     }
+    orders.main_stem = longest_path(network, orders);
     return orders;
 }
 

@@ -26,36 +26,38 @@ struct WaterAreas {
     Raster<double> dinf;
 };
 
-/// Measures of terrain and rivers, and the recipe's checks.
-struct Assessment {
-    std::optional<GivenLength> given;          ///< if rivers are read from lines
-    std::optional<GivenHeights> given_heights; ///< if the DEM should have the lines' heights
-    std::optional<GivenAreas> given_areas;     ///< if the lines have areas and the terrain drains
-    flow::ContributingAreas areas;             ///< of the arcs
-    RiverLaws laws;
-    std::vector<NodeId> sinks;                     ///< where rivers are meant to end inland
-    std::optional<measure::Statistics> statistics; ///< of the surface, like the others
-    std::optional<measure::Hypsometry> hypsometry;
-    std::optional<TerrainRelief> relief; ///< with the rivers
-    std::int64_t pits = 0;               ///< cells in depressions
+/// What is measured of a surface with its rivers.
+struct SurfaceMeasures {
+    std::optional<measure::Statistics> statistics = {}; ///< with hypsometry and relief: where there is a surface
+    std::optional<measure::Hypsometry> hypsometry = {};
+    std::optional<TerrainRelief> relief = {};
+    std::int64_t pits = 0; ///< cells that lie in depressions
     double pit_volume_m3 = 0.0;
-    std::optional<measure::ExtractedRidges> surface_ridges; ///< compared with the requested ridges
-    std::optional<measure::Certificate> certificate;        ///< of rivers and surface, if both exist
-    std::optional<flow::Catchments> catchments;             ///< of the arcs, if requested
-    std::optional<WaterAreas> water_areas;                  ///< if requested
-    std::vector<Check> checks;
-    std::vector<Finding> findings; ///< of the checks
-    Timings timings_s;
+    std::vector<NodeId> sinks = {};                              ///< where rivers end inland, as the recipe asks
+    std::optional<measure::ExtractedRidges> surface_ridges = {}; ///< beside the ridges asked for
+    std::optional<measure::Certificate> certificate = {};        ///< of rivers and surface, where both are there
+    std::optional<flow::Catchments> catchments = {};             ///< of the arcs, where they are asked for
+    std::optional<WaterAreas> water_areas = {};                  ///< where they are asked for
+    RiverLaws laws = {};
+};
+
+/// What is measured of surface and rivers, and whether they are what the recipe sets.
+struct Assessment : SurfaceMeasures {
+    std::optional<GivenLength> given = {};          ///< where rivers are read from lines
+    std::optional<GivenHeights> given_heights = {}; ///< where the DEM is to have heights of these
+    std::optional<GivenAreas> given_areas = {};     ///< where the lines have areas and the terrain drains
+    std::vector<Check> checks = {};
+    std::vector<Finding> findings = {}; ///< of the checks
+    Timings timings_s = {};
 
     /// \return whether every check is ok
     bool passed() const;
 };
 
-/// Measures and checks terrain and rivers.
-/// \param plan of both
-/// \param rivers made from the plan
-/// \param terrain made from plan and rivers
+/// Measures and checks land and rivers.
+/// \param planform rivers made of it
+/// \param terrain what came of them
 /// \return measures and checks
-Assessment assess(Plan const& plan, Rivers const& rivers, Terrain const& terrain, Run const& run = {});
+Assessment assess(Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run = {});
 
 } // namespace thalweg::pipeline

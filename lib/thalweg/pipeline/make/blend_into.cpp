@@ -46,7 +46,7 @@ struct PastedSource {
 
 /// The coordinates in which a source is placed on the target.
 Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
-    std::string const whose = "pipeline.make_blend: " + params.source;
+    std::string const whose = "pipeline.make_blend: " + params.source.path;
     std::string const target_words = "the target " + params.target;
     bool const is_same = io::same_crs(source.crs, target.crs, whose, target_words);
     bool const is_distorted = io::is_distorted(target); // a metre has its local length
@@ -73,7 +73,7 @@ PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run co
     Raster<float> dem = io::read_dem(params.source, {.nodata = params.nodata}, run);
     PastedSource source;
     Grid const frame = frame_for(dem.grid(), grid, params, source);
-    std::string const what = "pipeline.make_blend: " + params.source;
+    std::string const what = "pipeline.make_blend: " + params.source.path;
     source.is_warped =
         !io::same_crs(dem.grid().crs, frame.crs, what, "the target") || !io::same_size(dem.grid(), frame);
     if (!source.is_warped) {
@@ -81,7 +81,7 @@ PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run co
         source.dem = std::move(dem);
         return source;
     }
-    source.dem = io::warp_to_grid(params.window ? cut(dem, *params.window, params.source) : dem, frame, what, run);
+    source.dem = io::warp_to_grid(params.window ? cut(dem, *params.window, params.source.path) : dem, frame, what, run);
     source.window = {0, 0, source.dem.width(), source.dem.height()};
     return source;
 }

@@ -8,20 +8,21 @@
 
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 namespace thalweg::pipeline {
 
 /// Options of make_blend().
 struct MakeBlendParams {
     std::string target = {};     ///< a DEM
-    std::string source = {};     ///< a DEM, in any CRS and with any cell size
-    std::optional<Vec2> at = {}; ///< [m] on the target: position of the patch's centre
+    io::Source source = {};      ///< a DEM, in any CRS and of any cell size
+    std::optional<Vec2> at = {}; ///< [m] of the target: where the patch's middle comes to lie
     double rotate_deg = 0.0;     ///< [deg] as in blend::PlacePatchParams
     double scale = 1.0;          ///< > 0, in plan
     double gain = 1.0;           ///< of heights
-    std::string mask = {};       ///< a raster on the target's grid, or polygons; "": everything that the source covers
-    std::string keep = {};       ///< a raster on the target's grid, or lines; "": none
-    std::optional<blend::SourceWindow> window = {}; ///< of the source file; not set: all of it
+    io::Source mask = {};        ///< a raster on the target's grid, or polygons; "" for all the source covers
+    std::string keep = {};       ///< a raster on the target's grid, or lines; "" for none
+    std::optional<blend::SourceWindow> window = {}; ///< of the source file; all of it without
     double feather_cells = 0.0;                     ///< [cells] as in blend::PasteParams
     blend::Relief relief = blend::Relief::source;
     blend::Holes holes = blend::Holes::leave;

@@ -57,10 +57,10 @@ Tin in_unit(Tin tin, HeightUnit unit) {
 }
 
 std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) {
-    if (!t.rivers.file.sources.knows_any()) {
+    if (!t.planform.file.sources.knows_any()) {
         return std::nullopt;
     }
-    io::UserData user{t.rivers.file.attributes, {}, t.rivers.file.sources.of(plan)};
+    io::UserData user{t.planform.file.attributes, {}, t.planform.file.sources.of(plan)};
     for (Arc const& arc : plan.arcs()) {
         user.record.push_back(arc.feature);
     }
@@ -68,15 +68,15 @@ std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) 
 }
 
 std::vector<io::ShortenedName> shortened_names(Made const& t) {
-    auto const user = user_data(t, t.terrain.network.plan);
+    auto const user = user_data(t, t.terrain.rivers.network.plan);
     if (!user) {
         return {};
     }
-    io::NetworkTables tables{t.terrain.network,
-                             t.terrain.orders,
-                             t.assessment.areas.us_area_m2,
-                             t.assessment.areas.ds_area_m2,
-                             t.assessment.areas.node_m2,
+    io::NetworkTables tables{t.terrain.rivers.network,
+                             t.terrain.rivers.orders,
+                             t.terrain.areas.us_area_m2,
+                             t.terrain.areas.ds_area_m2,
+                             t.terrain.areas.node_m2,
                              t.terrain.grid.crs,
                              {}};
     tables.user = &*user;

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/vec.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
@@ -116,15 +117,16 @@ char const* words_of(LeftOut cause) {
     return words[static_cast<std::size_t>(cause)].text;
 }
 
-std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain) {
+std::optional<GivenLength> given_length(Plan const& plan, Planform const& planform, Terrain const& terrain) {
     if (!plan.recipe.network || plan.recipe.network->source != Source::lines) {
         return std::nullopt;
     }
-    RiverFile const& file = rivers.file;
+    RiverFile const& file = planform.file;
     GivenLength given;
     given.secondary = file.secondary;
-    append(given.secondary, file.sources.missing(file.adopted, terrain.network.plan, LeftOut::head, "cut at its head"));
-    double of_adopted_m = 0.0; // left out of the imported network, and of the lines before it
+    append(given.secondary,
+           file.sources.missing(file.adopted, terrain.rivers.network.plan, LeftOut::head, "cut at its head"));
+    double of_adopted_m = 0.0; // left out of the adopted network, and of the lines before it
     double of_file_m = 0.0;
     double of_import_m = 0.0;
     for (SecondaryLine const& line : given.secondary) {
@@ -145,7 +147,7 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
     given.kept_m = adopted_m - of_adopted_m;
     given.read_m = file.taken_m + of_file_m;
     given.closed_m = adopted_m + given.left_out(LeftOut::pruned) + of_import_m - file.taken_m;
-    std::vector<Finding> const& repairs = rivers.story.repairs;
+    std::vector<Finding> const& repairs = planform.story.repairs;
     given.carried_m = sum_of(repairs, {"carried_outlet", "joined_outlet"});
     given.turned_m = sum_of(repairs, {"reversed"});
     given.connector_m = sum_of(repairs, {"connector"});
@@ -155,15 +157,15 @@ std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, 
     return given;
 }
 
-std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain) {
+std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& planform, Terrain const& terrain) {
     auto const asks = [&](Heights heights) { return plan.recipe.network && plan.recipe.network->heights == heights; };
     bool const taken = asks(Heights::file) || asks(Heights::soft) || asks(Heights::fixed);
-    if (!taken || !plan.lines.has_z || rivers.network.arc_z.empty() || !terrain.surface) {
+    if (!taken || !plan.lines.has_z || !planform.file_heights || !terrain.surface) {
         return std::nullopt;
     }
-    std::set<std::pair<double, double>> of_file; // without extended outlets
-    for (ArcId a = 0; a < rivers.file.adopted.arc_count(); ++a) {
-        for (Vec2 const v : rivers.file.adopted.arc(a).line) {
+    std::set<std::pair<double, double>> of_file; // without those of outlets that were carried on
+    for (ArcId a = 0; a < planform.file.adopted.arc_count(); ++a) {
+        for (Vec2 const v : planform.file.adopted.arc(a).line) {
             of_file.insert({v.x, v.y});
         }
     }
@@ -172,9 +174,10 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
     GivenHeights given;
     given.tolerance_m = plan.recipe.network->heights_tolerance_m;
     double sum_m = 0.0;
-    for (ArcId a = 0; a < rivers.network.plan.arc_count(); ++a) {
-        std::vector<Vec2> const& line = rivers.network.plan.arc(a).line;
-        std::vector<double> const& z = rivers.network.arc_z[a];
+    ElevatedNetwork const asked = network::keep_heights(planform.network, *planform.file_heights);
+    for (ArcId a = 0; a < asked.plan.arc_count(); ++a) {
+        std::vector<Vec2> const& line = asked.plan.arc(a).line;
+        std::vector<double> const& z = asked.arc_z[a];
         auto const fall_in_cell = [&](std::size_t i) { // between vertices i and i + 1
             double const way_m = distance(line[i], line[i + 1]);
             return std::fabs(z[i] - z[i + 1]) * std::min(1.0, cell_m / std::max(way_m, 1e-9));
@@ -199,8 +202,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers
     return given;
 }
 
-std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain,
-                                      std::vector<double> const& ds_area_m2) {
+std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform, Terrain const& terrain) {
     std::map<std::int64_t, double> area_of; // by feature
     for (auto const* lines : {&plan.lines.lines, &plan.lines.channels}) {
         for (RiverLine const& line : *lines) {
@@ -212,8 +214,8 @@ std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Te
     if (area_of.empty()) {
         return std::nullopt;
     }
-    StreamNetwork const& network = terrain.network.plan;
-    std::vector<std::vector<Stretch>> const stretches = rivers.file.sources.of(network);
+    StreamNetwork const& network = terrain.rivers.network.plan;
+    std::vector<std::vector<Stretch>> const stretches = planform.file.sources.of(network);
     std::vector<double> ratios;
     for (ArcId a = 0; a < network.arc_count(); ++a) {
         if (stretches[a].empty() || network.length_m(a) - stretches[a].back().to_m > terrain.grid.cell_m) {
@@ -224,7 +226,7 @@ std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Te
         bool const goes_on =
             below != no_arc && !stretches[below].empty() && stretches[below].front().feature == feature;
         if (auto const area = area_of.find(feature); area != area_of.end() && !goes_on) {
-            ratios.push_back(ds_area_m2[a] / area->second);
+            ratios.push_back(terrain.areas.ds_area_m2[a] / area->second);
         }
     }
     if (ratios.empty()) {

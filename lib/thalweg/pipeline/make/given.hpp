@@ -9,7 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/river_files.hpp>
-#include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
@@ -47,12 +47,11 @@ char const* key_of(LeftOut cause);
 /// \return for readers: "cut at heads"
 char const* words_of(LeftOut cause);
 
-/// Accounts for the lengths of a plan's lines.
-/// \param plan with lines
-/// \param rivers made from the plan
-/// \param terrain made from plan and rivers
-/// \return nothing if rivers are not read from lines
-std::optional<GivenLength> given_length(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
+/// Accounts for the lines of a plan.
+/// \param planform rivers made of it
+/// \param terrain made of them
+/// \return nothing where rivers are not read from lines
+std::optional<GivenLength> given_length(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// Heights of a file's lines at their vertices, compared with the DEM.
 struct GivenHeights {
@@ -64,11 +63,10 @@ struct GivenHeights {
 };
 
 /// Compares the heights of a plan's lines with the DEM.
-/// \param plan with lines
-/// \param rivers made from the plan
-/// \param terrain made from plan and rivers
-/// \return nothing if the network does not take all heights from a file, or there is no DEM
-std::optional<GivenHeights> given_heights(Plan const& plan, Rivers const& rivers, Terrain const& terrain);
+/// \param planform rivers made of it
+/// \param terrain made of them
+/// \return nothing where the network does not take all heights of a file, or there is no DEM
+std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// Drainage areas at the lower ends of a file's lines, compared with the terrain's. Ratios: terrain / file.
 struct GivenAreas {
@@ -80,13 +78,10 @@ struct GivenAreas {
 };
 
 /// Compares the drainage areas of a plan's lines with those of the terrain.
-/// \param plan with lines
-/// \param rivers made from the plan
-/// \param terrain made from plan and rivers
-/// \param ds_area_m2 [m2] by arc, at its lower end
-/// \return nothing if the file has none
-std::optional<GivenAreas> given_areas(Plan const& plan, Rivers const& rivers, Terrain const& terrain,
-                                      std::vector<double> const& ds_area_m2);
+/// \param planform rivers made of it
+/// \param terrain made of them
+/// \return nothing where the file has none
+std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// Formats the account.
 /// \param given the account

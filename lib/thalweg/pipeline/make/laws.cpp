@@ -61,8 +61,7 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run c
     return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
-RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                          Run const& run) {
+RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run const& run) {
     RiverLaws found;
     std::optional<Raster<float>> flow_length;
     if (terrain.drainage) {
@@ -70,9 +69,9 @@ RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const&
     }
     Grid const& grid = terrain.grid;
     DemLawsParams params;
-    if (terrain.network.plan.arc_count() > 0) {
-        found.network =
-            laws_of(terrain.network, terrain.orders, areas, grid, land_cells, flow_length ? &*flow_length : nullptr);
+    if (terrain.rivers.network.plan.arc_count() > 0) {
+        found.network = laws_of(terrain.rivers.network, terrain.rivers.orders, terrain.areas, grid, land_cells,
+                                flow_length ? &*flow_length : nullptr);
         params.network_m =
             found.network->drainage_density_m * static_cast<double>(land_cells) * grid.cell_m * grid.cell_m;
     }

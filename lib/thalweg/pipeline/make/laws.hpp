@@ -59,15 +59,12 @@ DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params = {}, 
 
 struct Terrain;
 
-/// Computes the laws of a terrain's drawn and extracted rivers; if there are drawn ones, the extracted ones have the
-/// same total length.
-/// \param terrain if it has no drainage, Hack's lengths begin at the sources
-/// \param areas of the rivers
-/// \param land_cells cells with heights, or the grid's
-/// \return both laws
+/// Both laws of land and rivers.
+/// \param terrain land and rivers; where it has no drainage, Hack's lengths are from the sources
+/// \param land_cells that have heights, or the grid's
+/// \return the DEM's rivers as long together as those drawn, where there are any.
 /// \throws Error as laws_of_dem
-RiverLaws laws_of_terrain(Terrain const& terrain, flow::ContributingAreas const& areas, std::int64_t land_cells,
-                          Run const& run = {});
+RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run const& run = {});
 
 /// One metric of the laws, for report.json and the page.
 struct LawRow {

@@ -27,23 +27,23 @@ Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
 Made make(Recipe const& recipe, Run const& run) {
     Made made;
     made.plan = resolve(recipe, run);
-    made.rivers = make_rivers(made.plan, run);
-    made.terrain = make_terrain(made.plan, made.rivers, run);
-    made.assessment = assess(made.plan, made.rivers, made.terrain, run);
+    made.planform = make_planform(made.plan, run);
+    made.terrain = make_terrain(made.plan, made.planform, run);
+    made.assessment = assess(made.plan, made.planform, made.terrain, run);
     made.recipe = recipe_of(made.plan, made.terrain);
     return made;
 }
 
 Timings timings_of(Made const& made) {
     Timings all = made.plan.timings_s;
-    append(all, made.rivers.timings_s);
+    append(all, made.planform.timings_s);
     append(all, made.terrain.timings_s);
     append(all, made.assessment.timings_s);
     return all;
 }
 
 std::vector<Finding> repairs_of(Made const& made) {
-    std::vector<Finding> all = made.rivers.story.repairs;
+    std::vector<Finding> all = made.planform.story.repairs;
     append(all, made.terrain.notes);
     return all;
 }

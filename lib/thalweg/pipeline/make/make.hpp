@@ -7,7 +7,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
-#include <thalweg/pipeline/make/rivers.hpp>
+#include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
@@ -17,7 +17,7 @@ namespace thalweg::pipeline {
 /// A terrain with its plan and rivers.
 struct Made {
     Plan plan;
-    Rivers rivers; ///< none if the plan has no [network]
+    Planform planform; ///< without arcs where the plan has no [network]
     Terrain terrain;
     Assessment assessment;
     Recipe recipe; ///< recipe_of() these

@@ -11,7 +11,6 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/triangulate.hpp>
-#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
@@ -37,24 +36,27 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
     return out;
 }
 
-/// Adds ridges between the terrain's streams.
-Terrain with_ridges(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+/// Ridges between the streams, where the recipe asks for them.
+RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& grid, Diary& diary, Run const& run) {
+    if (!has_ridges(plan.recipe)) {
+        return {};
+    }
     SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::RidgesParams params;
     params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
                                                      : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
-    terrain.ridges = diary.stage("ridge", [&] {
-        return skeleton::ridges(terrain.network, network::streams(terrain.network.plan, terrain.orders), terrain.grid,
-                                params, run);
+    RidgeLines ridges = diary.stage("ridge", [&] {
+        return skeleton::ridges(rivers.network, network::streams(rivers.network.plan, rivers.orders), grid, params,
+                                run);
     });
-    diary.say(fmt::format("{} ridges", terrain.ridges.lines.size()));
-    return terrain;
+    diary.say(fmt::format("{} ridges", ridges.lines.size()));
+    return ridges;
 }
 
-/// Scatters random points between the rivers, if the recipe requests them.
-skeleton::Scattered scattered(Plan const& plan, Terrain const& terrain, Mask const& inside, Diary& diary,
+/// Random points between the rivers.
+skeleton::Scattered scattered(Plan const& plan, Valley const& valley, Mask const& inside, Diary& diary,
                               Run const& run) {
     SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
@@ -65,23 +67,27 @@ skeleton::Scattered scattered(Plan const& plan, Terrain const& terrain, Mask con
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
     skeleton::Scattered points =
-        diary.stage("scatter", [&] { return skeleton::scatter_between(terrain.valley, inside, params, run); });
+        diary.stage("scatter", [&] { return skeleton::scatter_between(valley, inside, params, run); });
     diary.say(fmt::format("{} points", points.points.points.size()));
     return points;
 }
 
-/// Triangulates points, rivers and ridges, whose lines are breaklines.
-Terrain with_tin(Terrain terrain, FeaturePoints const& points, Diary& diary, Run const& run) {
-    std::vector<std::vector<Vec3>> breaklines;
-    for (ArcId a = 0; a < terrain.network.plan.arc_count(); ++a) {
-        breaklines.push_back(in_space(terrain.network.plan.arc(a).line, terrain.network.arc_z[a]));
+/// The triangles of points, rivers and ridges, whose lines are breaklines, where the recipe needs them.
+std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network, RidgeLines const& ridges,
+                                FeaturePoints const& points, Diary& diary, Run const& run) {
+    if (!needs_tin(plan.recipe)) {
+        return std::nullopt;
     }
-    for (RidgeLine const& ridge : terrain.ridges.lines) {
+    std::vector<std::vector<Vec3>> breaklines;
+    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
+        breaklines.push_back(in_space(network.plan.arc(a).line, network.arc_z[a]));
+    }
+    for (RidgeLine const& ridge : ridges.lines) {
         breaklines.push_back(ridge.line);
     }
-    terrain.tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
-    diary.say(fmt::format("{} triangles of {} vertices", terrain.tin->triangles.size(), terrain.tin->vertices.size()));
-    return terrain;
+    Tin tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    diary.say(fmt::format("{} triangles of {} vertices", tin.triangles.size(), tin.vertices.size()));
+    return tin;
 }
 
 /// The cells of the terrain: those of the recipe's mask, or all; without the sea.
@@ -102,14 +108,24 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
     return inside;
 }
 
-/// Terrain over the skeleton's triangles. Valley cells keep their heights.
-Raster<float> over_triangles(Terrain const& terrain, Run const& run) {
-    Raster<float> land =
-        surface::rasterise_tin(*terrain.tin, terrain.grid, {surface::RasteriseTinParams::Outside::nearest}, run);
-    for (std::int64_t i = 0; i < land.cells(); ++i) {
-        land[i] = std::isnan(terrain.valley.z[i]) ? land[i] : terrain.valley.z[i];
+/// What a surface is drawn through.
+struct Ground {
+    Valley const& valley;
+    RidgeLines const& ridges;
+    std::optional<Tin> const& tin;
+    FeaturePoints const& points;
+    Mask const& inside; ///< cells that get heights
+    bool whole;         ///< all of them
+};
+
+/// A surface over the skeleton's triangles. Valley cells keep their heights.
+Raster<float> over_triangles(Ground const& ground, Run const& run) {
+    Raster<float> dem = surface::rasterise_tin(*ground.tin, ground.valley.z.grid(),
+                                               {surface::RasteriseTinParams::Outside::nearest}, run);
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        dem[i] = std::isnan(ground.valley.z[i]) ? dem[i] : ground.valley.z[i];
     }
-    return land;
+    return dem;
 }
 
 void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams const& params, Run const& run) {
@@ -122,105 +138,72 @@ void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams con
     }
 }
 
-surface::Dilated dilated(Plan const& plan, Terrain const& terrain, Mask const& inside, Run const& run) {
+surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run) {
     SurfaceRecipe const& wanted = *plan.recipe.surface;
-    bool const whole = wanted.mask.empty() && terrain.land.values().empty();
+    Valley const& valley = ground.valley;
     if (wanted.base == Base::paper) { // without a mask by the closed form
-        return whole ? surface::dilate(terrain.valley, wanted.dilate, run)
-                     : surface::dilate(terrain.valley, inside, wanted.dilate, run);
+        return ground.whole ? surface::dilate(valley, wanted.dilate, run)
+                            : surface::dilate(valley, ground.inside, wanted.dilate, run);
     }
     surface::HarmonicParams params;
     params.tolerance = wanted.tolerance.value_or(params.tolerance);
-    Raster<float> const base = wanted.base == Base::tin ? over_triangles(terrain, run)
-                                                        : surface::harmonic(terrain.valley, inside, params, run);
-    return whole ? surface::dilate_over(terrain.valley, base, wanted.dilate, run)
-                 : surface::dilate_over(terrain.valley, base, inside, wanted.dilate, run);
+    Raster<float> const base =
+        wanted.base == Base::tin ? over_triangles(ground, run) : surface::harmonic(valley, ground.inside, params, run);
+    return ground.whole ? surface::dilate_over(valley, base, wanted.dilate, run)
+                        : surface::dilate_over(valley, base, ground.inside, wanted.dilate, run);
 }
 
-/// The skeleton of a diffusion: rivers, ridges, points, and cells derived from them.
-Skeleton gathered(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Run const& run) {
+/// What a surface is diffused from: rivers, ridges, points, and what follows from them beside them.
+Skeleton gathered(Plan const& plan, Ground const& ground, Run const& run) {
     SkeletonRecipe const wanted = plan.recipe.skeleton.value_or(SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
     params.noise.amplitude_m = wanted.ridge_noise_m;
     params.noise.wavelength_m = wanted.ridge_wavelength_m;
     params.noise.seed = plan.recipe.seed;
-    Skeleton skeleton = skeleton::draw_skeleton(terrain.valley, terrain.ridges, points, params, run).skeleton;
+    Skeleton skeleton = skeleton::draw_skeleton(ground.valley, ground.ridges, ground.points, params, run).skeleton;
     if (wanted.midpoint_inverse_cells > 0.0) {
         skeleton = skeleton::midpoint_inverse(skeleton, {wanted.midpoint_inverse_cells}, run);
     }
     return skeleton;
 }
 
-/// A surface, and the statistics of its solver, if any.
-struct Surface {
-    surface::Dilated drawn;
+surface::Dilated surface_of(Raster<float> dem) {
+    surface::Dilated surface;
+    surface.dem = std::move(dem);
+    return surface;
+}
+
+/// A surface, and how it was solved for where it was.
+struct Filled {
+    surface::Dilated surface;
     std::optional<SolverStory> diffusion = {};
 };
 
-Surface diffused(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Mask const& inside,
-                 Run const& run) {
+Filled diffused(Plan const& plan, Ground const& ground, Run const& run) {
     surface::DiffuseParams params = plan.recipe.surface->diffuse;
     params.seed = plan.recipe.seed;
     params.tolerance = plan.recipe.surface->tolerance.value_or(params.tolerance);
-    surface::Diffused land = surface::diffuse(gathered(plan, terrain, points, run), inside, params, run);
-    Surface made;
-    made.drawn.dem = std::move(land.dem);
-    made.diffusion = SolverStory{land.iterations, land.residual};
-    return made;
+    surface::Diffused solved = surface::diffuse(gathered(plan, ground, run), ground.inside, params, run);
+    return {surface_of(std::move(solved.dem)), SolverStory{solved.iterations, solved.residual}};
 }
 
-/// Adds fractal detail to terrain with rivers: none in the valleys, all of it some cells away.
-Terrain with_detail_beside_rivers(Plan const& plan, Terrain terrain, Run const& run) {
-    constexpr double near_cells = 8.0; // distance over which detail grows from nothing to two thirds
-    if (levels_of(plan.recipe) == 0) {
-        return terrain;
-    }
-    Detailed const detail = detail_alone(plan, terrain.grid, run);
-    terrain.detail = detail.story;
-    Raster<float> const& noise = detail.land;
-    Raster<float>& dem = terrain.surface->dem;
-    surface::Expansion const expansion = surface::expand(terrain.valley, run);
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        double const share = 1.0 - portable::exp(-static_cast<double>(expansion.level[i]) / near_cells);
-        dem[i] = static_cast<float>(static_cast<double>(dem[i]) + share * static_cast<double>(noise[i]));
-    }
-    return terrain;
-}
-
-Surface surface_of(Plan const& plan, Terrain const& terrain, FeaturePoints const& points, Mask const& inside,
-                   Run const& run) {
+Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     if (wanted.method == Method::tin) {
-        Surface made;
-        made.drawn.dem = over_triangles(terrain, run);
-        for (std::int64_t i = 0; i < inside.cells(); ++i) {
-            if (inside[i] == 0) {
-                made.drawn.dem[i] = std::numeric_limits<float>::quiet_NaN();
-            }
+        Raster<float> dem = over_triangles(ground, run);
+        for (std::int64_t i = 0; i < ground.inside.cells(); ++i) {
+            dem[i] = ground.inside[i] != 0 ? dem[i] : std::numeric_limits<float>::quiet_NaN();
         }
-        return made;
+        return {surface_of(std::move(dem))};
     }
-    return wanted.method == Method::diffuse ? diffused(plan, terrain, points, inside, run)
-                                            : Surface{dilated(plan, terrain, inside, run)};
+    return wanted.method == Method::diffuse ? diffused(plan, ground, run) : Filled{dilated(plan, ground, run)};
 }
 
-/// Checks whether the slopes rise as high above their rivers as requested.
-std::vector<Check> relief_checks(Plan const& plan, Terrain const& terrain) {
-    constexpr double allowed = 0.01;
-    double const asked = plan.recipe.surface->dilate.relief_m;
-    if (!(asked > 0.0)) {
-        return {};
-    }
-    double const error = std::fabs(terrain.surface->rise_m / asked - 1.0);
-    return {{"relief_error", error, allowed, error <= allowed}};
-}
-
-std::string about(Plan const& plan, Terrain const& terrain) {
+std::string about(Plan const& plan, Filled const& filled) {
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     switch (wanted.method) {
-    case Method::dilate:
-        return fmt::format("{}, {} levels", wanted.dilate.increment.increment, terrain.surface->levels);
-    case Method::diffuse: return fmt::format("diffused, {} iterations", terrain.diffusion->iterations);
+    case Method::dilate: return fmt::format("{}, {} levels", wanted.dilate.increment.increment, filled.surface.levels);
+    case Method::diffuse: return fmt::format("diffused, {} iterations", filled.diffusion->iterations);
     case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
@@ -228,63 +211,121 @@ std::string about(Plan const& plan, Terrain const& terrain) {
     return "over triangles";
 }
 
-/// Draws the terrain between the rivers, with its checks and findings.
-Terrain filled(Plan const& plan, Terrain terrain, FeaturePoints const& points, Mask const& inside, Diary& diary,
-               Run const& run) {
-    Surface made = diary.stage("fill", [&] { return surface_of(plan, terrain, points, inside, run); });
-    terrain.surface = std::move(made.drawn);
-    terrain.diffusion = made.diffusion;
-    diary.say(fmt::format("{}x{}, {}", terrain.grid.width, terrain.grid.height, about(plan, terrain)));
+/// The surface between the rivers.
+Filled filled(Plan const& plan, Ground const& ground, Diary& diary, Run const& run) {
+    Filled result = diary.stage("fill", [&] { return by_method(plan, ground, run); });
+    Grid const& grid = ground.valley.z.grid();
+    diary.say(fmt::format("{}x{}, {}", grid.width, grid.height, about(plan, result)));
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     if (wanted.method == Method::dilate) {
-        std::vector<Check> const checks = relief_checks(plan, terrain);
-        terrain.checks.insert(terrain.checks.end(), checks.begin(), checks.end());
-        warn_of_jumps(*terrain.surface, wanted.dilate.increment, run);
+        warn_of_jumps(result.surface, wanted.dilate.increment, run);
     }
-    return terrain;
+    return result;
 }
 
-// Makes a terrain of rivers without a surface.
-Terrain without_land(Rivers const& rivers) {
-    Terrain terrain;
-    terrain.grid = rivers.grid;
-    terrain.land = rivers.land;
-    terrain.network = rivers.network;
-    terrain.orders = rivers.orders;
-    terrain.streams = rivers.streams;
-    terrain.types = rivers.types;
-    terrain.valley = rivers.valley;
-    return terrain;
+/// Checks that slopes rise as high above their rivers as the recipe asks.
+std::vector<Check> relief_checks(Plan const& plan, surface::Dilated const& surface) {
+    constexpr double allowed = 0.01;
+    double const asked = plan.recipe.surface->dilate.relief_m;
+    if (plan.recipe.surface->method != Method::dilate || !(asked > 0.0)) {
+        return {};
+    }
+    double const error = std::fabs(surface.rise_m / asked - 1.0);
+    return {{"relief_error", error, allowed, error <= allowed}};
 }
 
-// Draws the planned terrain through the rivers' cells, which keep their heights, and through the points.
-Terrain draw_around_rivers(Plan const& plan, Rivers const& rivers, Diary& diary, Run const& run) {
+/// Adds fractal detail: none in the valleys, all of it some cells away.
+Detailed with_detail_beside_rivers(Plan const& plan, Raster<float> dem, Valley const& valley, Run const& run) {
+    constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
+    Detailed const detail = detail_alone(plan, dem.grid(), run);
+    Raster<float> result = std::move(dem);
+    surface::Expansion const expansion = surface::expand(valley, run);
+    for (std::int64_t i = 0; i < result.cells(); ++i) {
+        double const share = 1.0 - portable::exp(-static_cast<double>(expansion.level[i]) / near_cells);
+        result[i] = static_cast<float>(static_cast<double>(result[i]) + share * static_cast<double>(detail.dem[i]));
+    }
+    return {detail.story, std::move(result)};
+}
+
+/// A surface before patches and drainage, with what it was drawn through.
+struct Undrained {
+    Rivers rivers = {};
+    Valley valley = {};
+    surface::Dilated surface = {};
+    RidgeLines ridges = {};
+    std::optional<Tin> tin = {};
+    Channels channels = {};
+    std::int64_t lakes = 0;
+    HeightsStory heights = {};
+    std::optional<EquilibriumStory> equilibrium = {};
+    std::optional<SolverStory> diffusion = {};
+    std::optional<DetailStory> detail = {};
+    std::optional<fractal::MatchedDem> projection = {};
+    double fine_forms_cells = 0.0;
+    Remarks remarks = {};
+};
+
+/// Draws the surface that the plan asks for through the rivers' cells, which keep their heights, and through points; in
+/// equilibrium rivers have their heights from it.
+Undrained draw_around_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
-    Terrain terrain = without_land(rivers);
-    bool const balanced = in_equilibrium(recipe);
-    Mask inside;
-    if (balanced) { // the rivers take their heights from it
-        terrain = draw_in_equilibrium(plan, std::move(terrain), diary, run);
-    } else {
-        inside = inside_of(recipe, terrain.land, terrain.valley);
+    if (!plan.grid) { // else it was checked before the rivers were grown
+        check_detail(recipe, planform.grid.width, planform.grid.height);
+        if (recipe.skeleton) {
+            require_on_grid(plan.points, planform.grid, recipe.skeleton->points);
+        }
     }
+    bool const balanced = in_equilibrium(recipe);
+    EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, diary, run) : EquilibriumResult{};
+    RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, diary, run);
+    Rivers rivers = balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types);
+    Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
+    Remarks remarks = std::move(solved.remarks);
+    Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley);
     std::optional<FeaturePoints> own;
     if (scatters(recipe)) {
-        skeleton::Scattered found = scattered(plan, terrain, inside, diary, run);
-        terrain.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
+        skeleton::Scattered found = scattered(plan, valley, inside, diary, run);
+        remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
         own = std::move(found.points);
     }
     FeaturePoints const& points = own ? *own : plan.points;
-    if (has_ridges(recipe)) {
-        terrain = with_ridges(plan, std::move(terrain), diary, run);
+    RidgeLines ridges = ridges_between(plan, rivers, planform.grid, diary, run);
+    std::optional<Tin> tin = triangulated(plan, rivers.network, ridges, points, diary, run);
+    bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
+    Filled made = balanced ? Filled{surface_of(std::move(solved.dem))}
+                           : filled(plan, {valley, ridges, tin, points, inside, whole}, diary, run);
+    append(remarks.checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
+    std::optional<DetailStory> detail;
+    if (levels_of(recipe) > 0) {
+        Detailed detailed = with_detail_beside_rivers(plan, std::move(made.surface.dem), valley, run);
+        made.surface.dem = std::move(detailed.dem);
+        detail = detailed.story;
     }
-    if (needs_tin(recipe)) {
-        terrain = with_tin(std::move(terrain), points, diary, run);
-    }
-    if (!balanced) {
-        terrain = filled(plan, std::move(terrain), points, inside, diary, run);
-    }
-    return with_detail_beside_rivers(plan, std::move(terrain), run);
+    return {.rivers = std::move(rivers),
+            .valley = std::move(valley),
+            .surface = std::move(made.surface),
+            .ridges = std::move(ridges),
+            .tin = std::move(tin),
+            .channels = std::move(solved.channels),
+            .lakes = solved.lakes,
+            .heights = balanced ? solved.heights : raised.story,
+            .equilibrium = balanced ? std::optional(std::move(solved.story)) : std::nullopt,
+            .diffusion = made.diffusion,
+            .detail = detail,
+            .remarks = std::move(remarks)};
+}
+
+/// A surface from numbers and points, with a note on each conversion.
+Undrained draw_alone(Plan const& plan, Diary& diary, Run const& run) {
+    std::vector<Finding> notes = report_conversions(plan.recipe, *plan.grid, run);
+    SurfaceAlone alone = draw_without_rivers(plan, diary, run);
+    return {.surface = surface_of(std::move(alone.dem)),
+            .tin = std::move(alone.tin),
+            .diffusion = alone.diffusion,
+            .detail = alone.detail,
+            .projection = std::move(alone.projection),
+            .fine_forms_cells = alone.fine_forms_cells,
+            .remarks = {std::move(notes), std::move(alone.checks), {}}};
 }
 
 MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
@@ -306,89 +347,123 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
     return params;
 }
 
-// Pastes the recipe's patches into the terrain in order; rivers keep their cells' heights unless a patch overrides
-// this.
-Terrain with_patches(Plan const& plan, Terrain drawn, Diary& diary, Run const& run) {
+/// A surface with patches, and the valley cells that it honours.
+struct Patched {
+    Raster<float> dem;
+    Valley valley;
+    std::vector<PatchStory> patches;
+};
+
+/// Pastes the recipe's patches into the surface, in their order; rivers keep their cells' heights unless a patch says
+/// otherwise.
+Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network, Diary& diary,
+                     Run const& run) {
+    Patched result{std::move(dem), std::move(valley), {}};
     for (PatchRecipe const& patch : plan.recipe.patches) {
         bool const keeps = patch.rivers == PatchRivers::keep && plan.recipe.network.has_value();
         MadeBlend made = diary.stage("blend", [&] {
-            return blend_into(drawn.surface->dem, keeps ? river_mask(drawn.valley) : Mask{},
-                              params_of(plan.recipe, patch), run);
+            return blend_into(result.dem, keeps ? river_mask(result.valley) : Mask{}, params_of(plan.recipe, patch),
+                              run);
         });
-        drawn.surface->dem = std::move(made.pasted.dem);
-        drawn.patches.push_back({made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
+        result.dem = std::move(made.pasted.dem);
+        result.patches.push_back({made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
         diary.say(
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
     }
     if (plan.recipe.network && replaces_rivers(plan.recipe)) {
-        drawn.valley = honoured_valley(std::move(drawn.valley), drawn.network.plan, drawn.surface->dem);
+        result.valley = honoured_valley(std::move(result.valley), network, result.dem);
     }
-    return drawn;
+    return result;
 }
 
-/// Terrain without rivers, with a note on each conversion.
-Terrain land_alone(Plan const& plan, Diary& diary, Run const& run) {
-    std::vector<Finding> notes = report_conversions(plan.recipe, *plan.grid, run);
-    Terrain terrain = make_land(plan, diary, run);
-    terrain.notes = std::move(notes);
-    return terrain;
-}
+/// A surface after hydrological conditioning.
+struct Conditioned {
+    Raster<float> dem;
+    std::optional<DrainStory> story;
+};
 
-/// Rivers without terrain, or with the terrain around them.
-Terrain land_with(Plan const& plan, Rivers const& rivers, Diary& diary, Run const& run) {
-    if (!plan.grid) { // otherwise checked before the rivers were grown
-        check_detail(plan.recipe, rivers.grid.width, rivers.grid.height);
-        if (plan.recipe.skeleton) {
-            require_on_grid(plan.points, rivers.grid, plan.recipe.skeleton->points);
-        }
-    }
-    return plan.recipe.surface ? draw_around_rivers(plan, rivers, diary, run) : without_land(rivers);
-}
-
-/// Conditions the terrain hydrologically, if the plan requests it.
-Terrain made_to_drain(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley const& valley, Diary& diary, Run const& run) {
     if (!conditions(plan.recipe)) {
-        return terrain;
+        return {std::move(dem), std::nullopt};
     }
-    Valley const none{Raster<float>(terrain.grid, std::numeric_limits<float>::quiet_NaN())};
-    flow::ConditionedDem land = diary.stage("carve", [&] {
-        return flow::condition(std::move(terrain.surface->dem), plan.recipe.network ? terrain.valley : none,
-                               {*plan.recipe.surface->drain}, run);
+    Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
+    flow::ConditionedDem result = diary.stage("carve", [&] {
+        return flow::condition(std::move(dem), plan.recipe.network ? valley : none, {*plan.recipe.surface->drain}, run);
     });
-    terrain.surface->dem = std::move(land.dem);
-    terrain.drained = {land.banks, land.depressions};
-    diary.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3", land.banks.raised_m3,
-                          land.depressions.raised_m3, land.depressions.cut_m3));
-    return terrain;
+    diary.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3", result.banks.raised_m3,
+                          result.depressions.raised_m3, result.depressions.cut_m3));
+    return {std::move(result.dem), DrainStory{result.banks, result.depressions}};
 }
 
-/// Adds the terrain's flow directions and areas.
-Terrain with_drainage(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
-    Raster<float> const& dem = terrain.surface->dem;
-    StreamNetwork const& network = terrain.network.plan;
+flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network, Diary& diary,
+                            Run const& run) {
     bool const sinks = plan.recipe.network && plan.recipe.network->inland == InlandEnds::sink;
-    run.at(0.0, fmt::format("drain {} cells", terrain.grid.cells()).c_str());
-    terrain.drainage = diary.stage("drain", [&] {
+    run.at(0.0, fmt::format("drain {} cells", dem.cells()).c_str());
+    return diary.stage("drain", [&] {
         return flow::route(
-            dem, sinks ? cells_of(inland_ends(network, dem), network, terrain.grid) : std::vector<std::int64_t>{}, run);
+            dem, sinks ? cells_of(inland_ends(network, dem), network, dem.grid()) : std::vector<std::int64_t>{}, run);
     });
+}
+
+/// Rivers that have heights of their own, where the recipe asks for no surface.
+Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run) {
+    Diary diary(run);
+    RaisedRivers raised = raise_rivers(plan, planform, diary, run);
+    flow::ContributingAreas areas = flow::areas_nearest(planform.network, planform.grid, run);
+    Terrain terrain;
+    terrain.grid = planform.grid;
+    terrain.land = planform.land;
+    terrain.rivers = rivers_of(std::move(raised.network), planform.types);
+    terrain.valley = std::move(raised.valley);
+    terrain.areas = std::move(areas);
+    terrain.heights = raised.story;
+    terrain.timings_s = diary.take();
     return terrain;
 }
 
 } // namespace
 
-Terrain make_terrain(Plan const& plan, Rivers const& rivers, Run const& run) {
-    io::RecipeFiles const confined;
-    Diary diary(run);
-    Terrain terrain = plan.recipe.network ? land_with(plan, rivers, diary, run) : land_alone(plan, diary, run);
-    if (terrain.surface) {
-        terrain = with_patches(plan, std::move(terrain), diary, run);
-        terrain = made_to_drain(plan, std::move(terrain), diary, run);
-        terrain = with_drainage(plan, std::move(terrain), diary, run);
-        terrain = with_side_valleys(plan, std::move(terrain), diary, run);
+Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run) {
+    bool const has_rivers = plan.recipe.network.has_value();
+    if (has_rivers && !plan.recipe.surface) {
+        return rivers_alone(plan, planform, run);
     }
-    terrain.timings_s = diary.take();
-    return terrain;
+    Diary diary(run);
+    Undrained drawn = has_rivers ? draw_around_rivers(plan, planform, diary, run) : draw_alone(plan, diary, run);
+    Patched patched = with_patches(plan, std::move(drawn.surface.dem), std::move(drawn.valley),
+                                   drawn.rivers.network.plan, diary, run);
+    Conditioned drained = conditioned(plan, std::move(patched.dem), patched.valley, diary, run);
+    flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.plan, diary, run);
+    WithSideValleys made = with_side_valleys(plan, std::move(drawn.rivers), std::move(patched.valley), drawn.channels,
+                                             drained.dem, drainage, diary, run);
+    surface::Dilated surface = std::move(drawn.surface);
+    surface.dem = std::move(drained.dem); // with which it was made
+    flow::ContributingAreas areas =
+        has_rivers ? flow::areas_d8(made.rivers.network.plan, drainage, run) : flow::ContributingAreas{};
+    return {.grid = has_rivers ? planform.grid : *plan.grid,
+            .land = planform.land,
+            .rivers = std::move(made.rivers),
+            .valley = std::move(made.valley),
+            .areas = std::move(areas),
+            .surface = std::move(surface),
+            .drainage = std::move(drainage),
+            .ridges = std::move(drawn.ridges),
+            .tin = std::move(drawn.tin),
+            .channels = std::move(drawn.channels),
+            .lakes = drawn.lakes,
+            .heights = drawn.heights,
+            .equilibrium = std::move(drawn.equilibrium),
+            .side_valleys = made.story,
+            .diffusion = drawn.diffusion,
+            .detail = drawn.detail,
+            .patches = std::move(patched.patches),
+            .drained = drained.story,
+            .projection = std::move(drawn.projection),
+            .fine_forms_cells = drawn.fine_forms_cells,
+            .notes = std::move(drawn.remarks.notes),
+            .checks = std::move(drawn.remarks.checks),
+            .findings = std::move(drawn.remarks.findings),
+            .timings_s = diary.take()};
 }
 
 } // namespace thalweg::pipeline

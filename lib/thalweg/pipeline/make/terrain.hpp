@@ -13,11 +13,11 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
+#include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/fractal/match_statistics.hpp>
-#include <thalweg/network/elevation/river_types.hpp>
-#include <thalweg/network/order/order.hpp>
+#include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
@@ -45,20 +45,24 @@ struct DrainStory {
     flow::DemChange depressions;
 };
 
-/// Statistics of a terrain in equilibrium with its rivers.
+/// How terrain came into equilibrium with its rivers.
 struct EquilibriumStory {
-    surface::Edge edge = surface::Edge::open; ///< boundary condition, from recipe, mask or sea
+    surface::Edge edge = surface::Edge::open; ///< of the terrain, by recipe, mask or sea
     bool gave_way = false;            ///< true if the file's heights were relaxed because fixed ones needed walls
-    std::int64_t channel_cells = 0;   ///< cells of rivers
-    std::int64_t shortened_cells = 0; ///< of removed perched tips
-    std::int64_t walled_cells = 0;    ///< of rivers whose prescribed heights need walls
-    double max_lowered_m = 0.0;       ///< soft: below the prescribed heights
+    std::int64_t channel_cells = 0;   ///< in which rivers run
+    std::int64_t shortened_cells = 0; ///< of perched tips that were cut
+    std::int64_t walled_cells = 0;    ///< of rivers whose input heights only walls hold up
+    double max_lowered_m = 0.0;       ///< soft: below the input heights
     double p95_lowered_m = 0.0;
     double rise = 0.0; ///< as surface::EquilibriumTerrain, like the following
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows;
-    std::int64_t side_valleys = 0; ///< arcs grown by the terrain, if requested
-    std::int64_t side_valleys_left_out = 0;
+};
+
+/// Arcs made of valleys that the terrain has beside its rivers.
+struct SideValleysStory {
+    std::int64_t grown = 0;
+    std::int64_t left_out = 0;
 };
 
 /// Parameters of fractal detail, as used.
@@ -67,39 +71,38 @@ struct DetailStory {
     double sigma = 0.0; ///< as fractal::MidpointParams
 };
 
-/// A surface, its rivers, and its flow.
+/// A surface, the rivers with the heights that they have in it, and the water that drains over it.
 struct Terrain {
     Grid grid;
-    Mask land;               ///< as Rivers
-    ElevatedNetwork network; ///< without perched tips, with side valleys grown by the terrain
-    NetworkOrders orders;
-    network::StreamCounts streams; ///< side branches, as drawn
-    network::RiverTypes types;     ///< by arc; empty: rivers have no types
-    Valley valley;
-    std::optional<surface::Dilated> surface;       ///< none if the recipe requests rivers alone
+    Mask land;     ///< as Planform
+    Rivers rivers; ///< without perched tips, with side valleys where they are asked for; without arcs where the recipe
+                   ///< has no [network]
+    Valley valley; ///< the cells under them
+    flow::ContributingAreas areas;                 ///< of their arcs: by the drainage, or by the nearest river
+    std::optional<surface::Dilated> surface;       ///< none where the recipe asks for rivers alone
     std::optional<flow::FlowField> drainage;       ///< of the surface
-    RidgeLines ridges;                             ///< between streams, if requested
-    Channels channels;                             ///< of rivers in equilibrium with the terrain
-    std::int64_t lakes = 0;                        ///< inserted into the channels
-    std::optional<EquilibriumStory> equilibrium;   ///< of terrain in equilibrium
-    std::optional<SolverStory> diffusion;          ///< statistics of the solver, if the surface was diffused
-    std::optional<DetailStory> detail;             ///< if it has fractal detail
+    RidgeLines ridges;                             ///< between streams, where they are asked for
+    std::optional<Tin> tin;                        ///< of rivers and points, where the surface is drawn over one
+    Channels channels;                             ///< of rivers with which the surface is in equilibrium
+    std::int64_t lakes = 0;                        ///< in them
+    HeightsStory heights;                          ///< of rivers whose heights do not follow from the surface
+    std::optional<EquilibriumStory> equilibrium;   ///< where the surface is
+    SideValleysStory side_valleys;                 ///< where they are asked for
+    std::optional<SolverStory> diffusion;          ///< how the surface was solved for, where it was diffused
+    std::optional<DetailStory> detail;             ///< where it has fractal detail
     std::vector<PatchStory> patches;               ///< in the recipe's order
-    std::optional<DrainStory> drained;             ///< if the recipe requests conditioning
-    std::optional<Tin> tin;                        ///< of rivers and points, if the terrain is drawn over one
-    std::optional<fractal::MatchedDem> projection; ///< result of matching statistics; its dem is moved to surface
-    /// [cells] size below which forms had to be taken from a Gaussian terrain to match them; 0: none
-    double fine_forms_cells = 0.0;
-    std::vector<Finding> notes;    ///< on changes to rivers
-    std::vector<Check> checks;     ///< of the recipe's targets for the surface
-    std::vector<Finding> findings; ///< of these checks
+    std::optional<DrainStory> drained;             ///< where the surface was conditioned hydrologically
+    std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
+    double fine_forms_cells = 0.0; ///< [cells] below which forms come from a Gaussian surface to meet them; 0: none
+    std::vector<Finding> notes;    ///< on rivers
+    std::vector<Check> checks;     ///< of what the recipe asks of the surface
+    std::vector<Finding> findings; ///< of these
     Timings timings_s;
 };
 
-/// Makes the terrain of a plan around its rivers; or from statistics and points alone if it has none.
-/// \param plan of the terrain
-/// \param rivers made from the plan by make_rivers()
-/// \return the same terrain for the same plan and rivers, with any Run
-Terrain make_terrain(Plan const& plan, Rivers const& rivers, Run const& run = {});
+/// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
+/// \param planform the rivers of the plan; make_planform()
+/// \return the same terrain for the same plan and rivers, whatever the Run.
+Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -16,7 +16,7 @@
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
-#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -64,14 +64,14 @@ Raster<float> with_pattern(Raster<float> of_file, Recipe const& recipe, Grid con
     return uplift;
 }
 
-// Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its uplift pattern.
-surface::EquilibriumFields equilibrium_fields(Plan const& plan, Terrain const& terrain, Channels const& channels,
+// Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its pattern of uplift.
+surface::EquilibriumFields equilibrium_fields(Plan const& plan, Planform const& planform, Channels const& channels,
                                               Run const& run) {
     Recipe const& recipe = plan.recipe;
-    Grid const& grid = terrain.grid;
+    Grid const& grid = planform.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), terrain.land, channels);
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), planform.land, channels);
     fields.uplift = with_pattern(read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run),
                                  recipe, grid, run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
@@ -90,11 +90,11 @@ bool has_sea(Mask const& land) {
     return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
 }
 
-surface::Edge edge_of(Plan const& plan, Terrain const& terrain, Mask const& land) {
+surface::Edge edge_of(Plan const& plan, Planform const& planform, Mask const& land) {
     if (plan.recipe.surface->equilibrium.edge) {
         return *plan.recipe.surface->equilibrium.edge;
     }
-    bool const by_coastlines = plan.recipe.network->source == Source::lines && terrain.land.cells() > 0;
+    bool const by_coastlines = plan.recipe.network->source == Source::lines && planform.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
 
@@ -148,25 +148,26 @@ std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& 
     return z;
 }
 
-/// Checks the terrain against its target.
-Terrain with_target_checked(Terrain terrain, surface::EquilibriumTerrain const& land,
-                            surface::EquilibriumParams const& params, Run const& run) {
+/// Checks the relief or mean slope that the recipe asks for, with a warning where it is missed.
+Remarks target_remarks(surface::EquilibriumTerrain const& surface, surface::EquilibriumParams const& params,
+                       Run const& run) {
     constexpr double allowed = 0.05;
+    Remarks remarks;
     if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
-        return terrain; // there is no target
+        return remarks;
     }
-    double const error = std::fabs(land.target_share - 1.0);
-    terrain.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
+    double const error = std::fabs(surface.target_share - 1.0);
+    remarks.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
     if (error > allowed) {
         double const asked = params.relief_m ? *params.relief_m : params.mean_slope_deg;
         char const* const unit = params.relief_m ? "m" : "degrees";
         std::string const text =
             fmt::format("surface.{} = {:.6g} {} cannot be reached with the heights of the rivers: it is {:.4g} {}",
-                        params.relief_m ? "relief" : "mean_slope", asked, unit, land.target_share * asked, unit);
+                        params.relief_m ? "relief" : "mean_slope", asked, unit, surface.target_share * asked, unit);
         run.say("warning: " + text);
-        terrain.findings.push_back({"target_missed", 0, {}, land.target_share * asked, text});
+        remarks.findings.push_back({"target_missed", 0, {}, surface.target_share * asked, text});
     }
-    return terrain;
+    return remarks;
 }
 
 double most_walled(Channels const& channels) {
@@ -177,28 +178,29 @@ bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channel
     return static_cast<double>(land.walled.size()) > most_walled(channels);
 }
 
-/// Checks for river cells that need walls.
-Terrain with_walls_checked(Terrain terrain, surface::EquilibriumTerrain const& land, Channels const& channels,
-                           bool given, Run const& run) {
+/// Checks how many river cells only walls hold up. given: rivers have input heights.
+Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const& channels, bool given, Run const& run) {
     constexpr std::size_t listed = 1000;
-    bool const ok = !too_walled(land, channels);
-    terrain.checks.push_back(
-        {"walled_cells", static_cast<double>(land.walled.size()), std::floor(most_walled(channels)), ok});
+    bool const ok = !too_walled(surface, channels);
+    Remarks remarks;
+    remarks.checks.push_back(
+        {"walled_cells", static_cast<double>(surface.walled.size()), std::floor(most_walled(channels)), ok});
     if (!ok) {
-        run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. {}", land.walled.size(),
+        run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. {}", surface.walled.size(),
                             channels.cell.size(),
                             given ? R"(network.heights = "graded" or "soft" lets rivers follow it.)"
                                   : "A smaller grid.cell gives slopes room between rivers."));
     }
-    for (std::size_t i = 0; i < std::min(listed, land.walled.size()); ++i) {
-        std::int64_t const cell = channels.cell[static_cast<std::size_t>(land.walled[i])];
-        Vec2 const at = terrain.grid.centre(terrain.grid.at(cell));
-        terrain.findings.push_back({"walled_cell", 0, at, static_cast<double>(land.dem[cell]),
+    Grid const& grid = surface.dem.grid();
+    for (std::size_t i = 0; i < std::min(listed, surface.walled.size()); ++i) {
+        std::int64_t const cell = channels.cell[static_cast<std::size_t>(surface.walled[i])];
+        Vec2 const at = grid.centre(grid.at(cell));
+        remarks.findings.push_back({"walled_cell", 0, at, static_cast<double>(surface.dem[cell]),
                                     fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
                                                 "land around is lower",
-                                                at.x, at.y, land.dem[cell])});
+                                                at.x, at.y, surface.dem[cell])});
     }
-    return terrain;
+    return remarks;
 }
 
 /// One note for all lakes of a file that cover no cell.
@@ -224,18 +226,18 @@ struct Lakes {
     std::vector<Finding> notes = {};
 };
 
-Lakes lakes_of(Plan const& plan, Terrain const& terrain, network::ChannelsOfArcs const& rivers, Run const& run) {
+Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfArcs const& rivers, Run const& run) {
     EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
-        flow::ContributingAreas const areas = flow::areas_nearest(terrain.network.plan, terrain.grid, run);
+        flow::ContributingAreas const areas = flow::areas_nearest(planform.network, planform.grid, run);
         return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = plan.recipe.seed},
                                       run)};
     }
     if (wanted.lakes.empty()) {
         return {};
     }
-    Polygons const polygons = io::read_polygons(file_in(plan.recipe, wanted.lakes), terrain.grid.crs, run);
-    Lakes lakes{blend::number_polygons(polygons, terrain.grid)};
+    Polygons const polygons = io::read_polygons(file_in(plan.recipe, wanted.lakes), planform.grid.crs, run);
+    Lakes lakes{blend::number_polygons(polygons, planform.grid)};
     lakes.notes = unseen_lakes(polygons, lakes.labels);
     return lakes;
 }
@@ -247,11 +249,11 @@ struct Solved {
     bool gave_way = false; ///< as EquilibriumStory
 };
 
-/// Solves for the terrain. Heights used only because the lines have them are relaxed where they would need walls.
-Solved solve(Plan const& plan, Terrain const& terrain, Channels const& channels, Diary& diary, Run const& run) {
-    surface::EquilibriumFields const fields = equilibrium_fields(plan, terrain, channels, run);
-    run.at(0.0, fmt::format("fill {} cells", terrain.grid.cells()).c_str());
-    surface::Edge const edge = edge_of(plan, terrain, fields.land);
+/// Solves for the land. Heights that were taken because the lines have them give way where they would need walls.
+Solved solve(Plan const& plan, Planform const& planform, Channels const& channels, Diary& diary, Run const& run) {
+    surface::EquilibriumFields const fields = equilibrium_fields(plan, planform, channels, run);
+    run.at(0.0, fmt::format("fill {} cells", planform.grid.cells()).c_str());
+    surface::Edge const edge = edge_of(plan, planform, fields.land);
     auto const solved_with = [&](surface::EquilibriumParams const& params) {
         return Solved{diary.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }), params};
     };
@@ -316,24 +318,14 @@ struct WithLakes {
     std::vector<Finding> notes = {};
 };
 
-WithLakes with_lakes(Plan const& plan, network::ChannelsOfArcs rivers, Terrain const& terrain, Run const& run) {
-    Lakes lakes = lakes_of(plan, terrain, rivers, run);
+WithLakes with_lakes(Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers, Run const& run) {
+    Lakes lakes = lakes_of(plan, planform, rivers, run);
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};
     }
     network::Flooded flooded = network::flood_lakes(rivers, lakes.labels, run);
     append(lakes.notes, flooded.notes);
     return {std::move(flooded.drawn), static_cast<std::int64_t>(flooded.lakes.size()), std::move(lakes.notes)};
-}
-
-/// The terrain with other arcs in plan, and their types.
-Terrain with_types(Plan const& plan, Terrain terrain, StreamNetwork network, Run const& run) {
-    Typed typed = type_rivers(std::move(network), *plan.recipe.network, run);
-    terrain.network.plan = std::move(typed.plan);
-    if (!typed.types.type.empty()) {
-        terrain.types = std::move(typed.types);
-    }
-    return terrain;
 }
 
 Valley valley_of(Channels const& channels, Raster<float> const& dem) {
@@ -346,75 +338,81 @@ Valley valley_of(Channels const& channels, Raster<float> const& dem) {
 
 } // namespace
 
-Terrain draw_in_equilibrium(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
-    network::ChannelsOfArcs rivers =
-        diary.stage("channels", [&] { return network::channels(terrain.network.plan, terrain.grid, {}, run); });
-    append(terrain.notes, rivers.notes);
+EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
     Heights const heights = plan.recipe.network->heights;
-    if (heights != Heights::graded) {
-        rivers.channels.z = asked_heights(terrain.network, rivers.channels, heights);
+    std::optional<RaisedRivers> raised;
+    if (!follows_land(plan.recipe)) {
+        raised = raise_rivers(plan, planform, diary, run);
     }
-    WithLakes flooded = with_lakes(plan, std::move(rivers), terrain, run);
-    append(terrain.notes, flooded.notes);
-    terrain.lakes = flooded.lakes;
+    EquilibriumResult result;
+    result.heights = raised ? raised->story : HeightsStory{};
+    std::vector<Finding>& notes = result.remarks.notes;
+    network::ChannelsOfArcs rivers =
+        diary.stage("channels", [&] { return network::channels(planform.network, planform.grid, {}, run); });
+    append(notes, rivers.notes);
+    if (heights != Heights::graded) {
+        rivers.channels.z = asked_heights(raised->network, rivers.channels, heights);
+    }
+    WithLakes flooded = with_lakes(plan, planform, std::move(rivers), run);
+    append(notes, flooded.notes);
+    result.lakes = flooded.lakes;
     rivers = std::move(flooded.rivers);
-    Solved solved = solve(plan, terrain, rivers.channels, diary, run);
-    surface::EquilibriumTerrain& land = solved.land;
-    terrain.equilibrium = story_of(solved, rivers.channels);
-    terrain = with_target_checked(std::move(terrain), land, solved.params, run);
+    Solved solved = solve(plan, planform, rivers.channels, diary, run);
+    surface::EquilibriumTerrain& surface = solved.land;
+    result.story = story_of(solved, rivers.channels);
+    append(result.remarks, target_remarks(surface, solved.params, run));
     bool const given = solved.params.heights != surface::RiverHeights::graded;
     if (given || solved.params.heads == surface::Heads::kept) {
-        terrain = with_walls_checked(std::move(terrain), land, rivers.channels, given, run);
+        append(result.remarks, wall_remarks(surface, rivers.channels, given, run));
     }
-    warn_of_region(land, plan.recipe.surface->equilibrium.region, run);
-    warn_of_heights(land.dem, run);
-    if (!land.shortened.empty()) {
-        network::Shortened shortened = network::shorten(terrain.network.plan, rivers, land.shortened);
-        append(terrain.notes, shortened.notes);
+    warn_of_region(surface, plan.recipe.surface->equilibrium.region, run);
+    warn_of_heights(surface.dem, run);
+    Typed typed{planform.network, planform.types};
+    if (!surface.shortened.empty()) {
+        network::Shortened shortened = network::shorten(planform.network, rivers, surface.shortened);
+        append(notes, shortened.notes);
         rivers = std::move(shortened.drawn);
-        terrain = with_types(plan, std::move(terrain), std::move(shortened.network), run);
+        typed = type_rivers(std::move(shortened.network), *plan.recipe.network, run);
     }
-    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", terrain.grid.width, terrain.grid.height,
+    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", planform.grid.width, planform.grid.height,
                           rivers.channels.cell.size()));
-    terrain.network = network::elevate_from_dem(terrain.network.plan, rivers.channels, land.dem);
-    terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = network::count_streams(terrain.network.plan);
-    terrain.valley = valley_of(rivers.channels, land.dem);
-    terrain.channels = std::move(rivers.channels);
-    terrain.surface.emplace();
-    terrain.surface->dem = std::move(land.dem);
-    return terrain;
+    result.rivers =
+        rivers_of(network::elevate_from_dem(typed.network, rivers.channels, surface.dem), std::move(typed.types));
+    result.valley = valley_of(rivers.channels, surface.dem);
+    result.channels = std::move(rivers.channels);
+    result.dem = std::move(surface.dem);
+    return result;
 }
 
-Terrain with_side_valleys(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
+                                  Raster<float> const& dem, flow::FlowField const& drainage, Diary& diary,
+                                  Run const& run) {
     if (!fills_space(plan.recipe)) {
-        return terrain;
+        return {std::move(rivers), std::move(valley), {}};
     }
     std::int64_t const support_cells = plan.recipe.network->support_cells;
     network::SideValleys made = diary.stage("valleys", [&] {
-        return network::side_valleys(terrain.network, terrain.channels, terrain.surface->dem, *terrain.drainage,
-                                     {support_cells}, run);
+        return network::side_valleys(rivers.network, channels, dem, drainage, {support_cells}, run);
     });
-    terrain.equilibrium->side_valleys = made.grown;
-    terrain.equilibrium->side_valleys_left_out = made.left_out;
     diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
                           static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
-    terrain.network = std::move(made.network);
-    // The pruning lengths at which each arc is kept.
-    StreamNetwork kept = network::prune(terrain.network.plan, {0.0, terrain.grid.cell_m}, run).network;
-    terrain = with_types(plan, std::move(terrain), std::move(kept), run);
-    terrain.orders = network::order(terrain.network.plan);
-    terrain.streams = network::count_streams(terrain.network.plan);
-    for (ArcId a = 0; a < terrain.network.plan.arc_count(); ++a) {
-        Arc const& of = terrain.network.plan.arc(a);
-        bool const leaves = terrain.network.plan.out(terrain.network.plan.to(a)) == no_arc;
+    Grid const& grid = dem.grid();
+    // Lengths at which each is kept.
+    Typed typed =
+        type_rivers(network::prune(made.network.plan, {0.0, grid.cell_m}, run).network, *plan.recipe.network, run);
+    ElevatedNetwork network = std::move(made.network);
+    network.plan = std::move(typed.network);
+    Valley cells = std::move(valley);
+    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
+        Arc const& of = network.plan.arc(a);
+        bool const leaves = network.plan.out(network.plan.to(a)) == no_arc;
         for (std::size_t v = 0; !of.is_input && v + (leaves ? 0 : 1) < of.line.size();
              ++v) { // the last may join a line
-            std::int64_t const cell = terrain.grid.index(terrain.grid.cell_of(of.line[v]));
-            terrain.valley.z[cell] = terrain.surface->dem[cell];
+            std::int64_t const cell = grid.index(grid.cell_of(of.line[v]));
+            cells.z[cell] = dem[cell];
         }
     }
-    return terrain;
+    return {rivers_of(std::move(network), std::move(typed.types)), std::move(cells), {made.grown, made.left_out}};
 }
 
 } // namespace thalweg::pipeline

@@ -365,58 +365,34 @@ Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
     return land;
 }
 
-/// The coarse terrain from which detail starts, through points or random.
-Terrain begun(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
+/// The coarse surface that detail starts from.
+struct Coarse {
+    Raster<float> dem;
+    std::optional<Tin> tin = {};
+    std::optional<SolverStory> diffusion = {};
+    std::vector<Check> checks = {};
+};
+
+/// It goes through points or is random.
+Coarse begun(Plan const& plan, Grid const& grid, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     int const levels = levels_of(recipe);
-    Grid const coarse = coarse_grid(terrain.grid, levels);
-    terrain.surface.emplace();
+    Grid const coarse = coarse_grid(grid, levels);
     if (recipe.statistics && recipe.statistics->skeleton != Prior::points) {
-        terrain.surface->dem =
-            diary.stage("land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); });
+        Coarse result{
+            diary.stage("land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); })};
         diary.say(fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
-        return terrain;
+        return result;
     }
-    skeleton::Scattered const points = points_of(recipe, terrain.grid, plan.points, run);
+    skeleton::Scattered const points = points_of(recipe, grid, plan.points, run);
+    std::vector<Check> checks;
     if (scatters(recipe)) {
-        terrain.checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
+        checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
     }
     LandOfPoints made =
-        diary.stage("land", [&] { return land_of_points(recipe, terrain.grid.cell_m, points.points, coarse, run); });
+        diary.stage("land", [&] { return land_of_points(recipe, grid.cell_m, points.points, coarse, run); });
     diary.say(fmt::format("{} points", points.points.points.size()));
-    terrain.surface->dem = std::move(made.land);
-    terrain.tin = std::move(made.tin);
-    terrain.diffusion = made.diffusion;
-    return terrain;
-}
-
-/// Adds fractal detail, if the plan requests it.
-Terrain detailed(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
-    int const levels = levels_of(plan.recipe);
-    if (levels == 0) {
-        return terrain;
-    }
-    Detailed made = diary.stage("detail", [&] { return with_detail(plan, terrain.surface->dem, terrain.grid, run); });
-    terrain.detail = made.story;
-    terrain.surface->dem = std::move(made.land);
-    diary.say(fmt::format("midpoint displacement, {} levels", levels));
-    return terrain;
-}
-
-/// Matches the terrain to the target statistics.
-Terrain projected(Plan const& plan, Terrain terrain, Diary& diary, Run const& run) {
-    Brought brought = diary.stage("project", [&] {
-        return brought_to_statistics(plan.recipe, std::move(terrain.surface->dem), plan.points, run);
-    });
-    diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
-                          100.0 * brought.projection.largest_error, brought.projection.iterations,
-                          brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
-    append(terrain.checks, residual_checks(brought.projection));
-    terrain.surface->dem = std::move(brought.projection.dem);
-    brought.projection.dem = Raster<float>();
-    terrain.projection = std::move(brought.projection);
-    terrain.fine_forms_cells = brought.fine_forms_cells;
-    return terrain;
+    return {std::move(made.land), std::move(made.tin), made.diffusion, std::move(checks)};
 }
 
 } // namespace
@@ -430,19 +406,49 @@ Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run) 
     return {"points_missing", static_cast<double>(missing), 0.0, missing == 0};
 }
 
-Terrain make_land(Plan const& plan, Diary& diary, Run const& run) {
-    Terrain terrain;
-    terrain.grid = *plan.grid;
+void append(Remarks& to, Remarks from) {
+    append(to.notes, std::move(from.notes));
+    append(to.checks, std::move(from.checks));
+    append(to.findings, std::move(from.findings));
+}
+
+SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run) {
+    Grid const& grid = *plan.grid;
     if (plan.recipe.statistics) { // before any work
-        require_targets(*plan.recipe.statistics, terrain.grid, run);
+        require_targets(*plan.recipe.statistics, grid, run);
     }
-    terrain = begun(plan, std::move(terrain), diary, run);
-    terrain = detailed(plan, std::move(terrain), diary, run);
-    if (plan.recipe.statistics) {
-        return projected(plan, std::move(terrain), diary, run);
+    Coarse coarse = begun(plan, grid, diary, run);
+    Raster<float> dem = std::move(coarse.dem);
+    std::optional<DetailStory> detail;
+    if (int const levels = levels_of(plan.recipe); levels > 0) {
+        Detailed made = diary.stage("detail", [&] { return with_detail(plan, dem, grid, run); });
+        detail = made.story;
+        dem = std::move(made.dem);
+        diary.say(fmt::format("midpoint displacement, {} levels", levels));
     }
-    terrain.surface->dem = left_out(std::move(terrain.surface->dem), plan.recipe);
-    return terrain;
+    if (!plan.recipe.statistics) {
+        return {.dem = left_out(std::move(dem), plan.recipe),
+                .tin = std::move(coarse.tin),
+                .diffusion = coarse.diffusion,
+                .detail = detail,
+                .checks = std::move(coarse.checks)};
+    }
+    Brought brought =
+        diary.stage("project", [&] { return brought_to_statistics(plan.recipe, std::move(dem), plan.points, run); });
+    diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
+                          100.0 * brought.projection.largest_error, brought.projection.iterations,
+                          brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
+    std::vector<Check> checks = std::move(coarse.checks);
+    append(checks, residual_checks(brought.projection));
+    Raster<float> matched = std::move(brought.projection.dem);
+    brought.projection.dem = {};
+    return {.dem = std::move(matched),
+            .tin = std::move(coarse.tin),
+            .diffusion = coarse.diffusion,
+            .detail = detail,
+            .projection = std::move(brought.projection),
+            .fine_forms_cells = brought.fine_forms_cells,
+            .checks = std::move(checks)};
 }
 
 } // namespace thalweg::pipeline

@@ -110,7 +110,6 @@ Recipe recipe_from(std::string const& path) {
 
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     check_recipe(wanted);
-    io::RecipeFiles const confined;
     bool const on_lines = wanted.network && wanted.network->source == Source::lines;
     return with_absolute_files(on_lines ? settle_on_lines(wanted, read_lines(wanted, run), run).recipe : wanted);
 }

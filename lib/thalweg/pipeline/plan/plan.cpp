@@ -158,16 +158,16 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<
 std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
-    std::string const path = file_in(recipe, wanted.outlets);
+    io::Source const file = file_in(recipe, wanted.outlets);
     Mask marked;
     std::int64_t reach = 1;
-    if (io::holds_polygons(path)) {
-        marked = blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid);
+    if (io::holds_polygons(file)) {
+        marked = blend::mask_polygons(io::read_polygons(file, grid.crs, run), grid);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             land[i] = marked[i] != 0 ? 0 : land[i];
         }
     } else {
-        RiverLines const lines = io::read_rivers({.path = path, .crs = grid.crs}, run);
+        RiverLines const lines = io::read_rivers({.path = file, .crs = grid.crs}, run);
         marked = cells_under(network::clip_lines(lines, grid), grid, wanted.outlets);
         reach = wanted.spacing_cells; // coasts are drawn at different levels of detail
     }
@@ -181,13 +181,13 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
 
 std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Finding>& notes, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
-    std::string const path = file_in(recipe, wanted.outlets);
+    io::Source const file = file_in(recipe, wanted.outlets);
     if (wanted.outlets.empty()) {
         std::vector<Cell> const coast = network::coast_cells(land);
         return coast.empty() ? coast : spread(recipe, land, coast, run);
     }
-    bool const points = io::is_text_of_points(path) ||
-                        (!io::holds_polygons(path) && io::content_of(path).kind == io::FileContent::Kind::points);
+    bool const points = io::is_text_of_points(file.path) ||
+                        (!io::holds_polygons(file) && io::content_of(file).kind == io::FileContent::Kind::points);
     return points ? at_points(recipe, land, notes, run)
                   : spread(recipe, land, coast_along_file(recipe, land, run), run);
 }
@@ -278,7 +278,7 @@ Plan plan_strokes(Recipe recipe, Diary& diary, Run const& run) {
 void require_files(Recipe const& recipe) {
     for (NamedFile const& file : files_of(recipe)) {
         std::error_code ignored;
-        if (!std::filesystem::exists(file_in(recipe, file.name), ignored)) {
+        if (!std::filesystem::exists(file_in(recipe, file.name).path, ignored)) {
             throw BadInput(fmt::format("pipeline.resolve: {} = \"{}\": there is no such file",
                                        file.key->place(file.item), file.name));
         }
@@ -346,8 +346,7 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
     if (recipe.skeleton && !recipe.skeleton->points.empty()) {
         std::string const& name = recipe.skeleton->points;
-        std::string const path = file_in(recipe, name);
-        points = io::read_points({.path = path, .crs = crs}, run);
+        points = io::read_points({.path = file_in(recipe, name), .crs = crs}, run);
     }
     if (points.crs.empty()) {
         points.crs = io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
@@ -435,7 +434,6 @@ void require_fit(Plan const& plan) {
 
 Plan resolve(Recipe const& recipe, Run const& run) {
     check_recipe(recipe);
-    io::RecipeFiles const confined;
     Diary diary(run);
     Plan plan = by_source(recipe, diary, run);
     plan = with_rivers_settled(std::move(plan), run);

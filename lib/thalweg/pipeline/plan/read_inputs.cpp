@@ -40,12 +40,12 @@ Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {
 
 } // namespace
 
-Mask read_part(std::string const& path, Grid const& grid, Run const& run) {
-    if (path.empty()) {
+Mask read_part(io::Source const& source, Grid const& grid, Run const& run) {
+    if (source.path.empty()) {
         return {};
     }
-    return io::holds_polygons(path) ? blend::mask_polygons(io::read_polygons(path, grid.crs, run), grid)
-                                    : io::read_mask(path, grid, run);
+    return io::holds_polygons(source) ? blend::mask_polygons(io::read_polygons(source, grid.crs, run), grid)
+                                      : io::read_mask(source, grid, run);
 }
 
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what) {
@@ -62,14 +62,14 @@ Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& w
     return under;
 }
 
-Mask read_mask_of_land(std::string const& path, Grid const& grid) {
-    if (path.empty()) {
+Mask read_mask_of_land(io::Source const& source, Grid const& grid) {
+    if (source.path.empty()) {
         return {};
     }
-    Raster<float> const given = io::read_dem(path, {.values = io::CellValues::numbers});
+    Raster<float> const given = io::read_dem(source, {.values = io::CellValues::numbers});
     refuse_if<BadInput>(given.width() != grid.width || given.height() != grid.height,
-                        "surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", path, given.width(), given.height(),
-                        grid.width, grid.height);
+                        "surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", source.path, given.width(),
+                        given.height(), grid.width, grid.height);
     Mask inside(grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         inside[i] = !std::isnan(given[i]) && given[i] != 0.0F ? 1 : 0;
@@ -77,16 +77,16 @@ Mask read_mask_of_land(std::string const& path, Grid const& grid) {
     return inside;
 }
 
-Raster<float> read_field(std::string const& path, Grid const& grid, std::string const& what, Run const& run) {
-    if (path.empty()) {
+Raster<float> read_field(io::Source const& source, Grid const& grid, std::string const& what, Run const& run) {
+    if (source.path.empty()) {
         return {};
     }
     Raster<float> field;
-    if (io::holds_polygons(path)) {
-        field = valued_polygons(io::read_polygons(path, grid.crs, "erodibility", run), grid);
+    if (io::holds_polygons(source)) {
+        field = valued_polygons(io::read_polygons(source, grid.crs, "erodibility", run), grid);
     } else {
-        Raster<float> const given = io::warp_to_grid(io::read_dem(path, {.values = io::CellValues::numbers}, run), grid,
-                                                     fmt::format("{} = \"{}\"", what, path), run);
+        Raster<float> const given = io::warp_to_grid(io::read_dem(source, {.values = io::CellValues::numbers}, run),
+                                                     grid, fmt::format("{} = \"{}\"", what, source.path), run);
         field = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             Cell const at = given.grid().cell_of(grid.centre(grid.at(i)));
@@ -98,23 +98,23 @@ Raster<float> read_field(std::string const& path, Grid const& grid, std::string 
             Cell const c = grid.at(i);
             throw BadInput(fmt::format("{} = \"{}\" has {} in cell ({}, {}) of the grid: every value must be above "
                                        "0",
-                                       what, path, std::isnan(field[i]) ? "none" : fmt::format("{}", field[i]), c.col,
-                                       c.row));
+                                       what, source.path, std::isnan(field[i]) ? "none" : fmt::format("{}", field[i]),
+                                       c.col, c.row));
         }
     }
     return field;
 }
 
-Raster<float> read_dem_in(std::string const& path, std::string const& crs, std::string const& what,
+Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
                           std::optional<double> nodata, Run const& run) {
-    if (path.empty()) {
+    if (source.path.empty()) {
         return {};
     }
-    Raster<float> dem = io::read_dem(path, {.nodata = nodata}, run);
+    Raster<float> dem = io::read_dem(source, {.nodata = nodata}, run);
     Grid lattice;
     lattice.cell_m = io::ground_cell(dem.grid()).side_m;
     lattice.crs = crs;
-    return io::warp_to_grid(dem, lattice, fmt::format("{} = \"{}\"", what, path), run);
+    return io::warp_to_grid(dem, lattice, fmt::format("{} = \"{}\"", what, source.path), run);
 }
 
 namespace {

@@ -18,9 +18,9 @@ bool is_address(std::string const& name) {
     return io::names_connection(name) || name.starts_with("/vsi");
 }
 
-std::string file_in(Recipe const& recipe, std::string const& name) {
+io::Source file_in(Recipe const& recipe, std::string const& name) {
     bool const stands_alone = name.empty() || name.front() == '/' || is_address(name);
-    return recipe.folder.empty() || stands_alone ? name : recipe.folder + "/" + name;
+    return {recipe.folder.empty() || stands_alone ? name : recipe.folder + "/" + name, io::Access::recipe};
 }
 
 std::vector<NamedFile> files_of(Recipe const& recipe) {
@@ -43,7 +43,7 @@ std::vector<NamedFile> files_of(Recipe const& recipe) {
 Recipe with_absolute_files(Recipe recipe) {
     for (NamedFile const& file : files_of(recipe)) {
         if (!is_address(file.name)) {
-            std::filesystem::path const path = std::filesystem::absolute(file_in(recipe, file.name));
+            std::filesystem::path const path = std::filesystem::absolute(file_in(recipe, file.name).path);
             file.key->put(recipe, path.lexically_normal().string(), file.item);
         }
     }
@@ -113,7 +113,7 @@ UserFiles::UserFiles(Recipe& recipe, Run const& run) {
 }
 
 std::string UserFiles::copied(Recipe const& recipe, std::string const& name, std::string const& layer, Run const& run) {
-    std::string const path = file_in(recipe, name);
+    std::string const path = file_in(recipe, name).path;
     std::error_code ignored;
     bool const is_missing = !io::names_connection(path) && !fs::exists(path, ignored) && !path.starts_with("/vsi");
     if (name.empty() || is_missing || io::is_text_of_points(path) || io::is_recipe_file(path)) {

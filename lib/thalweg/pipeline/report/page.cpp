@@ -329,7 +329,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights =
         made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
     run.check();
-    PageLines const lines = lines_of(made.terrain.network.plan, made.terrain.ridges, made.terrain.grid);
+    PageLines const lines = lines_of(made.terrain.rivers.network.plan, made.terrain.ridges, made.terrain.grid);
     PageParts parts;
     parts.title = html_text(as_utf8(title_of(made.recipe)));
     parts.data = page_data(made, params, heights, lines);
@@ -359,8 +359,16 @@ Terrain terrain_of(Scene const& scene, Run const& run) {
     terrain.surface->dem = *scene.dem;
     terrain.drainage = flow::route(*scene.dem, run);
     if (scene.network) {
-        terrain.network = *scene.network;
-        terrain.orders = scene.orders;
+        StreamNetwork const& network = scene.network->plan;
+        terrain.rivers.network = *scene.network;
+        terrain.rivers.orders = scene.orders;
+        if (lies_on(*scene.network, terrain.grid)) {
+            terrain.areas = flow::areas_d8(network, *terrain.drainage, run);
+        } else {
+            terrain.areas.us_area_m2.assign(network.arc_count(), 0.0);
+            terrain.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+            terrain.areas.node_m2.assign(network.node_count(), 0.0);
+        }
     }
     return terrain;
 }
@@ -373,19 +381,12 @@ Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& 
     found.pits = terrain.drainage->pits;
     found.pit_volume_m3 = terrain.drainage->pit_volume_m3;
     if (scene.network) {
-        StreamNetwork const& network = terrain.network.plan;
-        if (lies_on(terrain.network, terrain.grid)) {
-            found.areas = flow::areas_d8(network, *terrain.drainage, run);
-        } else {
-            found.areas.us_area_m2.assign(network.arc_count(), 0.0);
-            found.areas.ds_area_m2.assign(network.arc_count(), 0.0);
-            found.areas.node_m2.assign(network.node_count(), 0.0);
-        }
-        auto const topology = measure::check_topology(measure::as_file(terrain.network, terrain.orders), {}, run);
+        auto const topology =
+            measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
         found.checks = topology.checks;
         found.findings = topology.findings;
     }
-    found.laws = laws_of_terrain(terrain, found.areas, found.statistics->cells, run);
+    found.laws = laws_of_terrain(terrain, found.statistics->cells, run);
     found.relief = relief_of_dem(*scene.dem, run);
     return found;
 }

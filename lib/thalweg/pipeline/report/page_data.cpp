@@ -184,30 +184,30 @@ ordered_json arcs_object(Made const& t, PageLines const& lines) {
     ordered_json length = ordered_json::array();
     ordered_json z_up = ordered_json::array();
     ordered_json z_down = ordered_json::array();
-    for (std::size_t a = 0; a < t.terrain.network.plan.arc_count(); ++a) {
+    for (std::size_t a = 0; a < t.terrain.rivers.network.plan.arc_count(); ++a) {
         id.push_back(a + 1);
-        downstream.push_back(t.terrain.network.plan.out(t.terrain.network.plan.to(a)) + 1);
-        double const until = t.terrain.network.plan.arc(a).persistence;
+        downstream.push_back(t.terrain.rivers.network.plan.out(t.terrain.rivers.network.plan.to(a)) + 1);
+        double const until = t.terrain.rivers.network.plan.arc(a).persistence;
         persistence.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
-        length.push_back(to_millimetres(t.terrain.network.plan.length_m(a)));
-        z_up.push_back(to_millimetres(t.terrain.network.arc_z[a].front()));
-        z_down.push_back(to_millimetres(t.terrain.network.arc_z[a].back()));
+        length.push_back(to_millimetres(t.terrain.rivers.network.plan.length_m(a)));
+        z_up.push_back(to_millimetres(t.terrain.rivers.network.arc_z[a].front()));
+        z_down.push_back(to_millimetres(t.terrain.rivers.network.arc_z[a].back()));
     }
     std::vector<std::int64_t> const n(lines.vertices.begin(),
                                       lines.vertices.begin() +
-                                          static_cast<std::ptrdiff_t>(t.terrain.network.plan.arc_count()));
+                                          static_cast<std::ptrdiff_t>(t.terrain.rivers.network.plan.arc_count()));
     return {{"id", id},
             {"ds", downstream},
-            {"basin", t.terrain.orders.arc_basin},
-            {"strahler", t.terrain.orders.strahler},
-            {"shreve", t.terrain.orders.shreve},
-            {"hack", t.terrain.orders.hack},
+            {"basin", t.terrain.rivers.orders.arc_basin},
+            {"strahler", t.terrain.rivers.orders.strahler},
+            {"shreve", t.terrain.rivers.orders.shreve},
+            {"hack", t.terrain.rivers.orders.hack},
             {"survives", persistence},
             {"length", length},
             {"z_up", z_up},
             {"z_down", z_down},
-            {"us_area", t.assessment.areas.us_area_m2},
-            {"ds_area", t.assessment.areas.ds_area_m2},
+            {"us_area", t.terrain.areas.us_area_m2},
+            {"ds_area", t.terrain.areas.ds_area_m2},
             {"n", n}};
 }
 
@@ -215,7 +215,7 @@ ordered_json ridges_object(Made const& t, PageLines const& lines) {
     if (t.terrain.ridges.lines.empty()) {
         return nullptr;
     }
-    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.terrain.network.plan.arc_count());
+    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.terrain.rivers.network.plan.arc_count());
     return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
 }
 
@@ -225,32 +225,20 @@ struct ProfilePoint {
     double z;
 };
 
-/// The main stem of the basin with the largest area, from its source downstream.
-std::vector<ProfilePoint> main_stem(Made const& t) {
+/// The main stem from its source down.
+std::vector<ProfilePoint> main_stem(Rivers const& rivers) {
     std::vector<ProfilePoint> upstream;
-    if (t.terrain.network.plan.outlets().empty()) {
-        return upstream;
-    }
-    NodeId const outlet = *std::max_element(
-        t.terrain.network.plan.outlets().begin(), t.terrain.network.plan.outlets().end(),
-        [&](NodeId a, NodeId b) { return t.assessment.areas.node_m2[a] < t.assessment.areas.node_m2[b]; });
-    auto const stem_above = [&](NodeId node) -> std::optional<ArcId> {
-        auto const& in = t.terrain.network.plan.in(node);
-        auto const at = std::find_if(in.begin(), in.end(), [&](ArcId a) { return t.terrain.orders.hack[a] == 1; });
-        return at == in.end() ? std::nullopt : std::optional<ArcId>(*at);
-    };
-    for (std::optional<ArcId> arc = stem_above(outlet); arc;) {
-        ArcId const a = *arc;
-        std::vector<Vec2> const& line = t.terrain.network.plan.arc(a).line;
-        double to_outlet = t.terrain.orders.node_dist_out_m[t.terrain.network.plan.to(a)];
+    StreamNetwork const& network = rivers.network.plan;
+    for (auto arc = rivers.orders.main_stem.rbegin(); arc != rivers.orders.main_stem.rend(); ++arc) {
+        std::vector<Vec2> const& line = network.arc(*arc).line;
+        double to_outlet = rivers.orders.node_dist_out_m[network.to(*arc)];
         for (std::size_t i = line.size(); i-- > 0;) {
             bool const shared = i + 1 == line.size() && !upstream.empty();
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
             if (!shared) {
-                upstream.push_back({to_outlet, t.terrain.network.arc_z[a][i]});
+                upstream.push_back({to_outlet, rivers.network.arc_z[*arc][i]});
             }
         }
-        arc = stem_above(t.terrain.network.plan.from(a));
     }
     std::reverse(upstream.begin(), upstream.end());
     return upstream;
@@ -341,18 +329,18 @@ void add_land(Made const& t, Figures& figures) {
 
 void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& figures) {
     std::optional<NetworkRecipe> const& wanted = t.recipe.network;
-    double const length =
-        std::accumulate(t.terrain.network.plan.length_m().begin(), t.terrain.network.plan.length_m().end(), 0.0);
+    double const length = std::accumulate(t.terrain.rivers.network.plan.length_m().begin(),
+                                          t.terrain.rivers.network.plan.length_m().end(), 0.0);
     auto const land =
         static_cast<double>(t.assessment.statistics ? t.assessment.statistics->cells : t.terrain.grid.cells());
     if (wanted && wanted->source == Source::dla) {
-        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.rivers.story.particles, "");
+        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.planform.story.particles, "");
     }
     if (wanted && wanted->source == Source::forest) {
-        figures.add("particles of the forest", t.rivers.story.particles, "");
+        figures.add("particles of the forest", t.planform.story.particles, "");
     }
-    figures.add("arcs", t.terrain.network.plan.arc_count(), "");
-    figures.add("outlets", t.terrain.network.plan.outlets().size(), "");
+    figures.add("arcs", t.terrain.rivers.network.plan.arc_count(), "");
+    figures.add("outlets", t.terrain.rivers.network.plan.outlets().size(), "");
     figures.add("highest Strahler order",
                 t.assessment.laws.network ? t.assessment.laws.network->horton.orders.size() : 0, "");
     figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
@@ -418,12 +406,12 @@ std::string without_tags(std::string const& json) {
 
 std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines) {
-    std::vector<ProfilePoint> const stem = main_stem(t);
+    std::vector<ProfilePoint> const stem = main_stem(t.terrain.rivers);
     Figures figures;
     if (t.assessment.statistics) {
         add_land(t, figures);
     }
-    if (t.recipe.network || !t.terrain.network.plan.arcs().empty()) {
+    if (t.recipe.network || !t.terrain.rivers.network.plan.arcs().empty()) {
         add_rivers(t, stem, figures);
     }
     ordered_json const data{{"version", version()},

@@ -118,17 +118,18 @@ ordered_json streams_object(network::StreamCounts const& counts) {
 
 /// Tokunaga's numbers of side branches: of the network as drawn, and of the tree it was grown from.
 ordered_json tokunaga_object(Made const& t) {
-    ordered_json out{{"drawn", streams_object(t.terrain.streams)}};
-    if (t.rivers.story.tokunaga && !t.recipe.network->tokunaga.strokes.empty()) { // each has its own tree and lambda
-        out["grown"] = {{"links", t.rivers.story.tokunaga->placed + t.rivers.story.tokunaga->dropped}};
-    } else if (t.rivers.story.tokunaga) {
+    ordered_json out{{"drawn", streams_object(t.terrain.rivers.streams)}};
+    if (t.planform.story.tokunaga &&
+        !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
+        out["grown"] = {{"links", t.planform.story.tokunaga->placed + t.planform.story.tokunaga->dropped}};
+    } else if (t.planform.story.tokunaga) {
         network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
-        out["grown"] = streams_object(t.rivers.story.tokunaga->tree);
+        out["grown"] = streams_object(t.planform.story.tokunaga->tree);
         out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
     }
-    if (t.rivers.story.tokunaga) {
-        out["placed"] = t.rivers.story.tokunaga->placed;
-        out["dropped"] = t.rivers.story.tokunaga->dropped;
+    if (t.planform.story.tokunaga) {
+        out["placed"] = t.planform.story.tokunaga->placed;
+        out["dropped"] = t.planform.story.tokunaga->dropped;
     }
     return out;
 }
@@ -157,36 +158,36 @@ ordered_json dem_laws_object(DemLaws const& found) {
 }
 
 ordered_json network_object(Made const& t) {
-    StreamNetwork const& plan = t.terrain.network.plan;
+    StreamNetwork const& plan = t.terrain.rivers.network.plan;
     double length = 0.0;
     for (double const l : plan.length_m()) {
         length += l;
     }
     int strahler = 0;
-    for (int const s : t.terrain.orders.strahler) {
+    for (int const s : t.terrain.rivers.orders.strahler) {
         strahler = std::max(strahler, s);
     }
     auto const arcs = static_cast<std::int64_t>(plan.arc_count());
-    network::HeightReport const& h = t.rivers.story.heights;
+    network::HeightReport const& h = t.terrain.heights.repair;
     return {{"arcs", arcs},
             {"nodes", plan.node_count()},
             {"outlets", plan.outlets().size()},
             {"strahler", strahler},
             {"length_m", length},
-            {"traced", t.rivers.story.arcs_traced},
-            {"pruned", t.rivers.story.arcs_traced - t.rivers.story.arcs_kept},
-            {"particles", t.rivers.story.particles},
-            {"walkers", t.rivers.story.walkers},
-            {"stopped_at", t.rivers.story.particles == 0 ? ""
-                           : t.rivers.story.full         ? "full"
-                           : t.rivers.story.cut          ? "margin"
-                           : t.rivers.story.wide         ? "radius"
-                                                         : "particles"},
+            {"traced", t.planform.story.arcs_traced},
+            {"pruned", t.planform.story.arcs_traced - t.planform.story.arcs_kept},
+            {"particles", t.planform.story.particles},
+            {"walkers", t.planform.story.walkers},
+            {"stopped_at", t.planform.story.particles == 0 ? ""
+                           : t.planform.story.full         ? "full"
+                           : t.planform.story.cut          ? "margin"
+                           : t.planform.story.wide         ? "radius"
+                                                           : "particles"},
             {"uphill_before_repair",
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
-            {"lowered_cells", {{"count", t.rivers.story.lowered_cells}, {"max_m", t.rivers.story.max_lowered_m}}},
-            {"area_from", t.assessment.areas.source},
+            {"lowered_cells", {{"count", t.terrain.heights.lowered_cells}, {"max_m", t.terrain.heights.max_lowered_m}}},
+            {"area_from", t.terrain.areas.source},
             {"horton", horton(t.assessment.laws.network ? t.assessment.laws.network->horton : measure::HortonLaws{})},
             {"tokunaga", tokunaga_object(t)},
             {"laws", t.assessment.laws.network ? laws_object(*t.assessment.laws.network) : ordered_json(nullptr)}};
@@ -359,8 +360,8 @@ void add_story(Made const& t, ordered_json& report) {
                                  {"walled_cells", e.walled_cells},
                                  {"lowered", {{"max_m", e.max_lowered_m}, {"p95_m", e.p95_lowered_m}}},
                                  {"rise", e.rise},
-                                 {"side_valleys", e.side_valleys},
-                                 {"side_valleys_left_out", e.side_valleys_left_out},
+                                 {"side_valleys", t.terrain.side_valleys.grown},
+                                 {"side_valleys_left_out", t.terrain.side_valleys.left_out},
                                  {"in_region", e.in_region},
                                  {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
     }

@@ -14,7 +14,6 @@
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/mesh/tin.hpp>
@@ -74,7 +73,7 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
     fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
     std::vector<std::string> const files = io::is_text_of_points(path.string())
                                                ? std::vector<std::string>{path.string()}
-                                               : io::dataset_files(path.string());
+                                               : io::dataset_files({path.string(), io::Access::recipe});
     std::string const own = name_in_utf8(path.filename().string());
     std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
     for (std::string const& file : files) {
@@ -88,7 +87,6 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
 /// Copies every file of the recipe into inputs/.
 /// \return the recipe with the names of the copies
 Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
-    io::RecipeFiles const confined;
     Recipe recipe = made.recipe;
     for (NamedFile const& file : files_of(recipe)) {
         Key const& key = *file.key;
@@ -106,12 +104,13 @@ Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
 void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run) {
     io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
-    network::Split split{t.terrain.network, {}};
+    network::Split split{t.terrain.rivers.network, {}};
     if (schema.most_upstream > 0) {
-        split = network::split_confluences(t.terrain.network, {schema.most_upstream, t.terrain.grid.cell_m}, run);
+        split =
+            network::split_confluences(t.terrain.rivers.network, {schema.most_upstream, t.terrain.grid.cell_m}, run);
     }
-    std::vector<double> us_area_m2 = t.assessment.areas.us_area_m2;
-    std::vector<double> ds_area_m2 = t.assessment.areas.ds_area_m2;
+    std::vector<double> us_area_m2 = t.terrain.areas.us_area_m2;
+    std::vector<double> ds_area_m2 = t.terrain.areas.ds_area_m2;
     add_pieces(split.pieces, us_area_m2, ds_area_m2);
     NetworkOrders const orders = network::order(split.network.plan);
     std::vector<double> const node_area_m2 = node_areas(split.network.plan, us_area_m2, ds_area_m2);
@@ -124,17 +123,17 @@ void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run)
 void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
     std::map<std::string, std::string> const about = {{"version", version()},
                                                       {"seed", fmt::format("{}", t.recipe.seed)},
-                                                      {"area_from", t.assessment.areas.source},
+                                                      {"area_from", t.terrain.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
-    auto const user = user_data(t, t.terrain.network.plan);
-    io::NetworkTables const tables{t.terrain.network,
-                                   t.terrain.orders,
-                                   t.assessment.areas.us_area_m2,
-                                   t.assessment.areas.ds_area_m2,
-                                   t.assessment.areas.node_m2,
+    auto const user = user_data(t, t.terrain.rivers.network.plan);
+    io::NetworkTables const tables{t.terrain.rivers.network,
+                                   t.terrain.rivers.orders,
+                                   t.terrain.areas.us_area_m2,
+                                   t.terrain.areas.ds_area_m2,
+                                   t.terrain.areas.node_m2,
                                    t.terrain.grid.crs,
                                    about,
-                                   t.terrain.types.braided.empty() ? nullptr : &t.terrain.types.braided,
+                                   t.terrain.rivers.types.braided.empty() ? nullptr : &t.terrain.rivers.types.braided,
                                    &t.terrain.ridges,
                                    t.assessment.given ? &t.assessment.given->secondary : nullptr,
                                    user ? &*user : nullptr,
@@ -154,8 +153,8 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
 
 void write_water(Made const& t, io::OutputFolder const& out, Run const& run) {
     if (t.assessment.catchments) {
-        auto const rows = catchment_rows(flow::reaches_of(t.terrain.network.plan), t.terrain.orders.arc_basin,
-                                         *t.assessment.catchments);
+        auto const rows = catchment_rows(flow::reaches_of(t.terrain.rivers.network.plan),
+                                         t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
         io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
     }
     if (t.assessment.water_areas) {
@@ -181,10 +180,9 @@ void write_surface(Made const& t, std::string const& title, io::OutputFolder con
     }
 
     bool const rivers = t.recipe.network.has_value();
-    ElevatedNetwork const* const network = rivers ? &t.terrain.network : nullptr;
-    NetworkOrders const* const orders = rivers ? &t.terrain.orders : nullptr;
-    draw::MapSheet sheet{
-        dem, io::hillshade(dem), network, orders, {}, &t.terrain.ridges, t.assessment.areas.ds_area_m2};
+    ElevatedNetwork const* const network = rivers ? &t.terrain.rivers.network : nullptr;
+    NetworkOrders const* const orders = rivers ? &t.terrain.rivers.orders : nullptr;
+    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}, &t.terrain.ridges, t.terrain.areas.ds_area_m2};
     for (auto const& [z, line] : contours) {
         sheet.contours.emplace_back(z, line);
     }
@@ -237,7 +235,7 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
         draw::ProfileParams profile;
         profile.title = title;
         io::write_text(out.path("profile.svg"),
-                       draw::profile(made.terrain.network, made.terrain.orders, profile).bytes);
+                       draw::profile(made.terrain.rivers.network, made.terrain.rivers.orders, profile).bytes);
     }
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);

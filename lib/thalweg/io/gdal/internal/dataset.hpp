@@ -9,6 +9,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 class GDALDataset;
 
@@ -24,16 +25,13 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 /// Value of cells without heights in files.
 inline constexpr float nodata_height = -9999.0F;
 
-/// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only and without changing the file or
-/// its folder (see Undisturbed). RecipeFiles restricts what may be opened.
-/// \return null if no driver reads it, with the reason in GDAL's errors
-/// \throws BadInput when it may not be opened
-/// \throws IoError as Undisturbed
-Dataset open_undisturbed(std::string const& path, unsigned kinds);
+/// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only, so that neither a file nor its
+/// folder is changed (see Undisturbed); null when no driver reads it, with the reason in GDAL's errors. What may be
+/// opened: see Access. Throws: BadInput when it may not be opened; IoError like Undisturbed.
+Dataset open_undisturbed(Source const& source, unsigned kinds);
 
-/// Opens an existing file in the same way.
-/// \throws BadInput when it does not exist or no driver reads it
-Dataset open_file(std::string const& path, unsigned kinds, std::string const& what);
+/// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
+Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
 
 /// A file that GDAL writes in memory: on a full disk GDAL may report no error (3.10). Needs a Driver that outlives it.
 class MemoryFile {

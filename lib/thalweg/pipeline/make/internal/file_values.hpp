@@ -19,39 +19,40 @@
 
 namespace thalweg::pipeline {
 
-// Heights as stored in files.
+// Heights as files have them.
 
-/// Converts a DEM from metres to another unit. The result is the nearest float of each height; if two different heights
-/// would become equal, the higher becomes the next float above the lower: different heights stay different and in
-/// order, so that flow does not change.
+/// A DEM in metres in another unit.
+/// Gives: the nearest float of each height, or, where two heights that differ would become one, the next float above
+/// the lower: heights that differ do so afterwards, in the same order, so that water runs where it ran.
 Raster<float> in_unit(Raster<float> const& dem, HeightUnit unit);
 
 Tin in_unit(Tin tin, HeightUnit unit);
 
-// The user's columns for a terrain's rivers.
+// The user's columns of a terrain's rivers.
 
-/// The file's attributes of the lines that became these arcs; nothing for grown rivers.
+/// What the file said of the lines that became these arcs; nothing for grown rivers.
 std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan);
 
-/// The columns renamed in the shapefiles.
+/// The columns that have other names in the shapefiles.
 std::vector<io::ShortenedName> shortened_names(Made const& t);
 
-/// Contributing areas of the arcs added by splitting confluences. A piece upstream of where a tributary was moved to
-/// loses the tributary's area, one downstream gains it: inflow and outflow of nodes stay equal. Areas: -1: unknown.
+/// Contributing areas of the arcs that splitting confluences added. Takes: those of the arcs that were there, -1 where
+/// they are not known. Gives: a piece that lies upstream of where a tributary was moved to has lost the tributary's
+/// area, one downstream has gained it: what flows into a node is what leaves it, as before.
 void add_pieces(std::vector<network::SplitPiece> const& pieces, std::vector<double>& us_area_m2,
                 std::vector<double>& ds_area_m2);
 
-/// Contributing areas of nodes: of the arc that leaves, or at an outlet the sum of those that enter; -1: one of these
-/// is unknown.
+/// Contributing areas of nodes: that of the arc that leaves one, or of all that come to an outlet; -1 where one of
+/// these is not known.
 std::vector<double> node_areas(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                                std::vector<double> const& ds_area_m2);
 
-/// Rows of catchments for a file. basins: by reach.
+/// What a file says of catchments. basins: by reach.
 std::vector<io::CatchmentRow> catchment_rows(std::vector<flow::Reach> const& reaches,
                                              std::vector<std::int64_t> const& basins,
                                              flow::Catchments const& catchments);
 
-/// Contributing areas in m2 for a file; NaN: no data.
+/// Contributing areas in m2 for a file, NaN without data.
 Raster<double> areas_m2(flow::FlowField const& drainage);
 Raster<double> areas_m2(Raster<double> const& area_cells);
 

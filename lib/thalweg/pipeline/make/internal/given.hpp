@@ -9,13 +9,13 @@
 
 namespace thalweg::pipeline {
 
-// Descriptions of the directions of lines.
+// What is said of the directions of lines.
 
-/// "12.3 km reversed: 10.1 km by angles at confluences, 2.2 km by the file's links"; "": nothing was reversed.
+/// "12.3 km reversed: 10.1 km by angles at confluences, 2.2 km by the file's links"; "" where nothing was.
 std::string turned_in_words(network::Directions const& directions);
 
-/// One sentence for each kind of doubt, with numbers and the option that decides. by_dem, by_rule: the options for a
-/// DEM and a rule: "--set network.lines.dem=FILE", "--dem FILE"; "": there is none.
+/// A sentence for each kind of doubt, with numbers and what decides.
+/// Takes: what decides by a DEM and by a rule: "--set network.lines.dem=FILE", "--dem FILE"; "" for no such option.
 std::vector<std::string> direction_doubts(network::Directions const& directions, std::string const& by_dem,
                                           std::string const& by_rule);
 

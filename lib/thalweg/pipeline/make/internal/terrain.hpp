@@ -3,7 +3,10 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -12,33 +15,77 @@
 
 namespace thalweg::pipeline {
 
-// Terrain from statistics and from points (Zhang, Liu and Li).
+/// Rivers with heights that do not follow from a surface.
+struct RaisedRivers {
+    ElevatedNetwork network;
+    Valley valley;
+    HeightsStory story;
+};
+
+/// Assigns heights to rivers by the recipe, or those of their file.
+RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run);
+
+/// What a stage reports beside its result.
+struct Remarks {
+    std::vector<Finding> notes; ///< as Terrain, like the rest
+    std::vector<Check> checks;
+    std::vector<Finding> findings;
+};
+
+void append(Remarks& to, Remarks from);
 
 /// The check points_missing: random points that found no room, with a warning.
 Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 
-/// Makes terrain without rivers: random or through points, with fractal detail, matched to the statistics.
-Terrain make_land(Plan const& plan, Diary& diary, Run const& run);
-
-// Fractal detail.
-
-/// Terrain with fractal detail, and its parameters.
-struct Detailed {
-    DetailStory story;
-    Raster<float> land;
+/// A surface without rivers (paper 001).
+struct SurfaceAlone {
+    Raster<float> dem = {};
+    std::optional<Tin> tin = {};
+    std::optional<SolverStory> diffusion = {};
+    std::optional<DetailStory> detail = {};
+    std::optional<fractal::MatchedDem> projection = {};
+    double fine_forms_cells = 0.0; ///< as Terrain
+    std::vector<Check> checks = {};
 };
 
-/// Makes terrain of fractal detail alone, on level ground.
+/// A random surface, or one through points, with fractal detail and the statistics that are asked for.
+SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run);
+
+/// A DEM with fractal detail, and how that was made.
+struct Detailed {
+    DetailStory story;
+    Raster<float> dem;
+};
+
+/// Fractal detail of a plan on a plain.
 Detailed detail_alone(Plan const& plan, Grid const& grid, Run const& run);
 
-// Terrain in equilibrium with its rivers.
+/// A surface in equilibrium with its rivers.
+struct EquilibriumResult {
+    Rivers rivers; ///< without perched tips, with the heights of the surface
+    Valley valley;
+    Raster<float> dem;
+    Channels channels;
+    std::int64_t lakes = 0;
+    HeightsStory heights;
+    EquilibriumStory story;
+    Remarks remarks;
+};
 
-/// Draws the terrain around the planned rivers, removes perched tips of rivers, and assigns the terrain's heights to
-/// them and their cells. Prescribed heights are used; those taken only because the lines have them are relaxed where
-/// they would need walls.
-Terrain draw_in_equilibrium(Plan const& plan, Terrain terrain, Diary& diary, Run const& run);
+/// Draws the surface around the planned rivers and cuts tips that would be perched. Heights that were taken because
+/// the lines have them give way where they would need walls.
+EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, Diary& diary, Run const& run);
 
-/// Makes arcs of the side valleys grown by the terrain, if the plan requests it.
-Terrain with_side_valleys(Plan const& plan, Terrain terrain, Diary& diary, Run const& run);
+/// Rivers with the side valleys of a surface in equilibrium as arcs.
+struct WithSideValleys {
+    Rivers rivers;
+    Valley valley;
+    SideValleysStory story;
+};
+
+/// \param dem,drainage the surface as it drains
+WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
+                                  Raster<float> const& dem, flow::FlowField const& drainage, Diary& diary,
+                                  Run const& run);
 
 } // namespace thalweg::pipeline

@@ -17,7 +17,7 @@ namespace thalweg::pipeline {
 // What a recipe names.
 
 /// A file the recipe names, found from the recipe's folder.
-std::string file_in(Recipe const& recipe, std::string const& name);
+io::Source file_in(Recipe const& recipe, std::string const& name);
 
 /// A file that a key names.
 struct NamedFile {

@@ -19,7 +19,7 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
-#include <thalweg/pipeline/make/internal/rivers.hpp>
+#include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
 namespace thalweg::pipeline {
@@ -69,8 +69,8 @@ network::Branch branch_of(network::Cluster const& cluster, Recipe const& recipe)
     return network::pick_branch(cluster, params);
 }
 
-// One arm of a cluster grown by diffusion-limited aggregation, thinned and traced.
-RiversInPlan rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
+// One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
+SourceRivers rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     NetworkRecipe const& wanted = *recipe.network;
     NetworkStory story;
@@ -172,7 +172,7 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run
     }
 }
 
-RiversInPlan fill_region(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers fill_region(Plan const& plan, Diary& diary, Run const& run) {
     TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     network::TokunagaTree const& tree = *plan.tree;
     Grid const& grid = *plan.grid;
@@ -193,7 +193,7 @@ RiversInPlan fill_region(Plan const& plan, Diary& diary, Run const& run) {
     return {.network = std::move(embedded.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
 }
 
-RiversInPlan follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
     TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     Grid const& grid = *plan.grid;
     network::StrokesParams params;
@@ -211,12 +211,12 @@ RiversInPlan follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
 }
 
 // Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
-RiversInPlan rivers_of_tree(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_tree(Plan const& plan, Diary& diary, Run const& run) {
     return plan.tree ? fill_region(plan, diary, run) : follow_strokes(plan, diary, run);
 }
 
-// Trees that grow inland from a coast or border until the land is full. All outlets lie there.
-RiversInPlan rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
+// Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
+SourceRivers rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
     Recipe const& recipe = plan.recipe;
     ForestRecipe const& wanted = recipe.network->forest;
     ForestLand const& on = *plan.forest;
@@ -352,16 +352,15 @@ std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Import
 }
 
 // The lines of a file.
-RiversInPlan rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
     LinesRecipe const& wanted = plan.recipe.network->lines;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
                                        .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr};
     network::Imported imported = diary.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
-    RiversInPlan rivers;
+    SourceRivers rivers;
     rivers.grid = *plan.grid;
-    rivers.story.heights_of_file = plan.heights_of_file;
     std::vector<Finding>& repairs = rivers.story.repairs;
     repairs = left_out(plan.lines);
     repairs.insert(repairs.end(), imported.repairs.begin(), imported.repairs.end());
@@ -380,7 +379,7 @@ RiversInPlan rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
 
 } // namespace
 
-RiversInPlan rivers_in_plan(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_source(Plan const& plan, Diary& diary, Run const& run) {
     switch (plan.recipe.network->source) {
     case Source::dla: return rivers_of_cluster(plan, diary, run);
     case Source::tokunaga: return rivers_of_tree(plan, diary, run);

@@ -1,0 +1,246 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <thalweg/pipeline/make/internal/planform.hpp>
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/network/import/land_and_sea.hpp>
+#include <thalweg/network/planform/carry_outlets.hpp>
+#include <thalweg/network/planform/meander.hpp>
+#include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+namespace thalweg::pipeline {
+
+Typed type_rivers(StreamNetwork network, NetworkRecipe const& wanted, Run const& run) {
+    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
+        return {std::move(network), {}};
+    }
+    network::AssignTypesParams params;
+    params.choice = wanted.rosgen ? network::TypeChoice::one : network::TypeChoice::by_order;
+    params.one = wanted.rosgen.value_or(params.one);
+    params.coast_m = wanted.coast_m;
+    network::RiverTypes types = network::assign_types(network, network::order(network), params, run);
+    NetworkDraft draft = network.draft();
+    for (std::size_t a = 0; a < draft.arcs.size(); ++a) {
+        draft.arcs[a].arc.type = network::name_of(types.type[a]);
+    }
+    return {std::move(draft), std::move(types)};
+}
+
+namespace {
+
+/// Rivers with bends, and their file as it follows them.
+struct Bent {
+    StreamNetwork network;
+    RiverFile file;
+};
+
+/// Bends rivers where the plan wants it; where there is a sea, none leaves the land.
+Bent bent(Plan const& plan, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land, Diary& diary,
+          Run const& run) {
+    if (!bends_rivers(plan)) {
+        return {std::move(network), std::move(file)};
+    }
+    flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
+    network::MeanderParams const params{.gain = *plan.recipe.network->meander, .seed = plan.recipe.seed};
+    network::Meandered meandered = diary.stage("meander", [&] {
+        return land.cells() > 0 ? network::meander(network, land, areas.ds_area_m2, params, run)
+                                : network::meander(network, grid, areas.ds_area_m2, params, run);
+    });
+    diary.say(fmt::format("{} vertices, at most {:.0f} m aside", meandered.vertices, meandered.max_shift_m));
+    RiverFile follows = std::move(file);
+    double const before_m = follows.sources.length_m(network);
+    follows.sources = follows.sources.bent(network, meandered.network);
+    follows.lengthened = before_m > 0.0 ? follows.sources.length_m(meandered.network) / before_m : 1.0;
+    follows.adopted = meandered.network;
+    return {std::move(meandered.network), std::move(follows)};
+}
+
+/// Warns when outlets were extended far beyond the data.
+void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& plan, Run const& run) {
+    constexpr std::int64_t many = 3;
+    constexpr double much = 0.1; // of the length of all rivers
+    double carried_m = 0.0;
+    std::int64_t outlets = 0;
+    for (Finding const& note : notes) {
+        if (note.kind == "carried_outlet" || note.kind == "joined_outlet") {
+            carried_m += note.amount;
+            ++outlets;
+        }
+    }
+    double length_m = 0.0;
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        length_m += plan.length_m(arc);
+    }
+    if (outlets >= many && carried_m > much * length_m) {
+        run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
+                            "shortest ways. If they end at the sea: --set network.inland=coast.",
+                            outlets, carried_m / 1000.0));
+    }
+}
+
+/// Rivers whose outlets lie where rivers may end.
+struct Carried {
+    StreamNetwork network;
+    Mask land;
+    std::vector<Finding> notes;
+};
+
+/// Carries outlets inside the grid to where rivers may end, if the recipe wants it. Those at the sea reach it in any
+/// case; what lies beside a river is land. keeps_heights: the rivers have heights, so that none may fall into another.
+Carried with_outlets_carried(Plan const& plan, StreamNetwork const& network, Grid const& grid, Mask const& land,
+                             bool keeps_heights, Run const& run) {
+    Carried result{network, land, {}};
+    if (plan.recipe.network->source == Source::forest) {
+        return result; // its outlets lie on its coast
+    }
+    constexpr std::int64_t at_sea_cells = 4;
+    InlandEnds const inland = plan.recipe.network->inland;
+    bool const all = inland != InlandEnds::sink;
+    network::CarryParams const params{.join = !keeps_heights};
+    auto const take = [&](network::Carried carried) {
+        warn_of_long_ways(carried.notes, result.network, run);
+        append(result.notes, std::move(carried.notes));
+        result.network = std::move(carried.network);
+    };
+    if (result.land.cells() == 0 && inland == InlandEnds::coast) {
+        result.land = network::land_behind_outlets(result.network, grid, run);
+    }
+    if (result.land.cells() == 0) {
+        if (all) {
+            take(network::carry_outlets(result.network, grid, params));
+        }
+        return result;
+    }
+    // A river that is carried may close the way of another.
+    for (std::ptrdiff_t moved = 1, rounds = 0; moved > 0 && rounds < 4; ++rounds) {
+        result.land = network::land_along_rivers(std::move(result.land), result.network);
+        network::Carried carried =
+            network::carry_outlets(result.network, result.land, all ? grid.cells() : at_sea_cells, params);
+        moved = std::ranges::count_if(
+            carried.notes, [](Finding const& f) { return f.kind == "carried_outlet" || f.kind == "joined_outlet"; });
+        take(std::move(carried));
+    }
+    result.land = network::land_along_rivers(std::move(result.land), result.network);
+    return result;
+}
+
+std::size_t vertices_of(StreamNetwork const& plan) {
+    std::size_t count = 0;
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        count += plan.arc(arc).line.size();
+    }
+    return count;
+}
+
+/// Rivers that run from cell to cell keep no corner where a branch was; what that shortens is measured again.
+network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, double length_cells, double cell_m,
+                      Run const& run) {
+    network::Pruned pruned = network::prune(plan, {length_cells * cell_m, cell_m}, run);
+    if (rivers.source != Source::dla && rivers.source != Source::forest) {
+        return pruned;
+    }
+    for (std::size_t before = 0, now = vertices_of(pruned.network); now != before;) {
+        StreamNetwork cut = network::cut_corners(pruned.network, cell_m, run);
+        before = now;
+        now = vertices_of(cut);
+        pruned.network = network::prune(cut, {length_cells * cell_m, cell_m}, run).network;
+    }
+    return pruned;
+}
+
+// A note for each outlet of one network that another, which was pruned, has no more.
+std::vector<Finding> pruned_outlets(StreamNetwork const& before, StreamNetwork const& after) {
+    auto const places = [](StreamNetwork const& network) {
+        std::vector<Vec2> at;
+        for (NodeId const n : network.outlets()) {
+            at.push_back(network.node(n).at);
+        }
+        std::ranges::sort(at, [](Vec2 a, Vec2 b) { return a.y != b.y ? a.y > b.y : a.x < b.x; });
+        return at;
+    };
+    std::vector<Vec2> const left = places(after);
+    std::vector<Finding> notes;
+    for (Vec2 const p : places(before)) {
+        if (std::ranges::find(left, p) == left.end()) {
+            notes.push_back({"pruned_outlet", 0, p, 0.0,
+                             fmt::format("the river that ended at ({:.1f}, {:.1f}) was pruned away, its branches are "
+                                         "all too short",
+                                         p.x, p.y)});
+        }
+    }
+    return notes;
+}
+
+/// Rivers without their short branches.
+struct Pruned {
+    StreamNetwork network;
+    RiverFile file;
+    std::int64_t arcs_before;
+    std::vector<Finding> notes;
+};
+
+Pruned pruned(Plan const& plan, SourceRivers const& source, Diary& diary, Run const& run) {
+    NetworkRecipe const& rivers = *plan.recipe.network;
+    network::Pruned kept = diary.stage(
+        "prune", [&] { return prune(source.network, rivers, *rivers.prune_cells, source.grid.cell_m, run); });
+    diary.say(
+        fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, kept.network.arc_count(), kept.arcs_before));
+    std::vector<Finding> notes;
+    if (rivers.source == Source::forest) { // its rivers end where the land does
+        notes = pruned_outlets(source.network, kept.network);
+    }
+    RiverFile file = source.file;
+    append(file.secondary, file.sources.missing(source.network, kept.network, LeftOut::pruned, "pruned"));
+    file.adopted = kept.network;
+    return {std::move(kept.network), std::move(file), kept.arcs_before, std::move(notes)};
+}
+
+NetworkStory story_of(NetworkStory const& source, std::vector<Finding> conversions, Pruned const& kept,
+                      std::vector<Finding> carried) {
+    NetworkStory story = source;
+    story.arcs_traced = kept.arcs_before;
+    story.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
+    append(story.repairs, std::move(conversions));
+    append(story.repairs, kept.notes);
+    append(story.repairs, std::move(carried));
+    return story;
+}
+
+} // namespace
+
+Planform make_planform(Plan const& plan, Run const& run) {
+    if (!plan.recipe.network) {
+        return {};
+    }
+    Diary diary(run);
+    SourceRivers source = rivers_of_source(plan, diary, run);
+    std::vector<Finding> conversions = report_conversions(plan.recipe, source.grid, run);
+    Pruned kept = pruned(plan, source, diary, run);
+    Carried carried =
+        with_outlets_carried(plan, kept.network, source.grid, source.land, source.file_heights.has_value(), run);
+    refuse_if<BadParameter>(bends_rivers(plan) && source.file_heights,
+                            "network.meander cannot bend rivers whose heights come from their "
+                            "file; set network.heights = \"graded\" or leave meander out");
+    NetworkStory story = story_of(source.story, std::move(conversions), kept, std::move(carried.notes));
+    Bent rivers = bent(plan, std::move(carried.network), std::move(kept.file), source.grid, carried.land, diary, run);
+    Typed typed = type_rivers(std::move(rivers.network), *plan.recipe.network, run);
+    return {.grid = source.grid,
+            .network = std::move(typed.network),
+            .types = std::move(typed.types),
+            .file_heights = std::move(source.file_heights),
+            .land = std::move(carried.land),
+            .file = std::move(rivers.file),
+            .story = std::move(story),
+            .timings_s = diary.take()};
+}
+
+} // namespace thalweg::pipeline

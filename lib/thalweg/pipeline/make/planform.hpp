@@ -1,0 +1,67 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <vector>
+
+#include <thalweg/core/finding.hpp>
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/river_files.hpp>
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
+#include <thalweg/network/order/order.hpp>
+#include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+
+namespace thalweg::pipeline {
+
+/// What became of a network grown by Tokunaga's law.
+struct TokunagaStory {
+    network::StreamCounts tree; ///< of the tree as it was grown; empty for strokes
+    std::int64_t placed = 0;    ///< links that found room
+    std::int64_t dropped = 0;
+};
+
+/// How a network came about, for the report.
+struct NetworkStory {
+    std::int64_t particles = 0; ///< of the cluster (dla) or the forest
+    std::int64_t walkers = 0;   ///< released for it
+    std::optional<TokunagaStory> tokunaga;
+    bool wide = false;                 ///< the cluster stopped at its greatest radius
+    bool full = false;                 ///< the forest stopped where no particle found room
+    bool cut = false;                  ///< the branch reached the grid's margin before the last particle
+    std::int64_t arcs_traced = 0;      ///< before pruning
+    std::int64_t arcs_kept = 0;        ///< by pruning; merged ones count once
+    std::vector<Finding> repairs = {}; ///< of imported lines, and outlets carried to the border
+};
+
+/// What a file of rivers holds beside the network.
+struct RiverFile {
+    std::vector<SecondaryLine> secondary; ///< lines that are not in the network
+    AttributeTable attributes;            ///< of all lines
+    LineSources sources;                  ///< the lines in the network
+    StreamNetwork adopted;                ///< the network that was made of them, before outlets are carried
+    double taken_m = 0.0;                 ///< [m] of the lines from which it was made, copies among them
+    double lengthened = 1.0;              ///< by bends: length of the adopted network / that as it was drawn
+};
+
+/// Rivers in plan view, on their grid. The terrain gives them heights (Rivers).
+struct Planform {
+    Grid grid;
+    StreamNetwork network;                       ///< arcs name their types where types has them
+    network::RiverTypes types;                   ///< by arc; empty where the recipe asks for none
+    std::optional<ElevatedNetwork> file_heights; ///< of the imported lines, where the recipe takes the file's heights
+    Mask land;                                   ///< 0: sea, which has no heights; without cells: no sea
+    RiverFile file;                              ///< from which the rivers were imported
+    NetworkStory story;
+    Timings timings_s;
+};
+
+/// Grows or imports the rivers of a plan: prunes short branches, carries outlets to where rivers may end, bends and
+/// types the rivers.
+/// \return the same rivers for the same plan, whatever the Run; none where the plan has no [network]
+Planform make_planform(Plan const& plan, Run const& run = {});
+
+} // namespace thalweg::pipeline
