@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/internal/river_fields.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 #include <memory>
 #include <string>

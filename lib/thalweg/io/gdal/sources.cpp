@@ -26,7 +26,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/points.hpp>
-#include <thalweg/io/network/internal/line_features.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/network/internal/table.hpp>
 
 namespace thalweg::io {
