@@ -30,6 +30,12 @@ std::vector<std::string> words_of(std::string_view text) {
     return words;
 }
 
+std::vector<std::string> names_of(SchemaField const& field) {
+    std::vector<std::string> names = words_of(field.also);
+    names.insert(names.begin(), std::string(field.name));
+    return names;
+}
+
 std::string lower_case(std::string text) {
     std::ranges::transform(text, text.begin(),
                            [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
@@ -91,13 +97,10 @@ bool FileColumn::is_null(OGRFeature const& feature) const {
 }
 
 std::optional<std::int64_t> FileColumn::whole(OGRFeature const& feature) const {
-    if (field_ == feature_id) {
-        return feature.GetFID();
-    }
-    if (type_ == OFTString || type_ == OFTReal) {
+    if (is_null(feature) || type_ == OFTString || type_ == OFTReal) {
         return whole_in(real(feature));
     }
-    return feature.GetFieldAsInteger64(field_);
+    return field_ == feature_id ? feature.GetFID() : feature.GetFieldAsInteger64(field_);
 }
 
 double FileColumn::real(OGRFeature const& feature) const {
@@ -138,18 +141,9 @@ std::optional<std::int64_t> whole_in(double value) {
 
 namespace {
 
-// Text for a type that AttributeTable does not have.
-AttributeTable::Type attribute_type(OGRFieldType type) {
-    switch (type) {
-    case OFTInteger: return AttributeTable::Type::integer;
-    case OFTInteger64: return AttributeTable::Type::integer64;
-    case OFTReal: return AttributeTable::Type::real;
-    case OFTDate: return AttributeTable::Type::date;
-    case OFTTime: return AttributeTable::Type::time;
-    case OFTDateTime: return AttributeTable::Type::datetime;
-    default: return AttributeTable::Type::text;
-    }
-}
+// In the order of AttributeTable::Type.
+constexpr std::array<OGRFieldType, 7> attribute_types{OFTInteger, OFTInteger64, OFTReal,    OFTString,
+                                                      OFTDate,    OFTTime,      OFTDateTime};
 
 bool is_of_schema(std::string const& name) {
     return name == "z_unit" || std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
@@ -173,10 +167,19 @@ AttributeTable::Value attribute_value(OGRFeature const& feature, int field, Attr
 
 } // namespace
 
+std::vector<Schema> recognised(OGRLayer& layer) {
+    std::vector<Schema> found;
+    for (SchemaTable const& table : all_schemas()) {
+        if (std::ranges::all_of(
+                table.told_by, [&](std::string_view names) { return FileColumn(layer, words_of(names)).is_there(); })) {
+            found.push_back(table.schema);
+        }
+    }
+    return found;
+}
+
 bool is_in_network_schema(OGRLayer& layer) {
-    return std::ranges::all_of(table_of(Schema::native).told_by, [&](std::string_view name) {
-        return FileColumn(layer, {std::string(name)}).is_there();
-    });
+    return std::ranges::count(recognised(layer), Schema::native) > 0;
 }
 
 AttributeReader::AttributeReader(OGRLayer& layer) {
@@ -187,12 +190,15 @@ AttributeReader::AttributeReader(OGRLayer& layer) {
         if (is_ours && is_of_schema(name)) {
             continue;
         }
+        auto const* const type = std::ranges::find(attribute_types, field.GetType());
+        bool const is_known = type != attribute_types.end();
+        auto const number = static_cast<AttributeTable::Type>(type - attribute_types.begin());
         fields_.push_back(i);
-        table_.columns.push_back({name, attribute_type(field.GetType())});
-        if (table_.columns.back().type == AttributeTable::Type::text && field.GetType() != OFTString) {
-            std::string const type = OGRFieldDefn::GetFieldTypeName(field.GetType());
+        table_.columns.push_back({name, is_known ? number : AttributeTable::Type::text});
+        if (!is_known) {
+            std::string const word = OGRFieldDefn::GetFieldTypeName(field.GetType());
             findings_.push_back(
-                {"as_text", 0, {}, 1.0, fmt::format("field {} holds {}: its values are kept as text", name, type)});
+                {"as_text", 0, {}, 1.0, fmt::format("field {} holds {}: its values are kept as text", name, word)});
         }
     }
 }
@@ -321,9 +327,8 @@ int RiverFields::runs_of(OGRFeature const& feature) const {
     std::string value = lower_case(text(feature, RiverQuantity::direction));
     std::erase_if(value, [](char c) { return c == ' ' || c == '_'; });
     value.erase(0, value.rfind('/') + 1);
-    bool const is_coded =
-        has(RiverQuantity::direction) &&
-        lower_case(found_[RiverQuantity::direction].front().column.name()) == "flowdirection"; // NHN: 1 and 2
+    bool const is_coded = value.size() == 1 && // NHN
+                          lower_case(found_[RiverQuantity::direction].front().column.name()) == "flowdirection";
     if (value == "indirection" || value == "sensdirect" || (is_coded && value == "1")) {
         return 1;
     }
@@ -368,43 +373,40 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
 }
 
 RiverFields::Unnatural RiverFields::unnatural(OGRFeature const& feature) const {
-    std::string const waterway = lower_case(text(feature, RiverQuantity::waterway));
+    auto const lower = [&](RiverQuantity quantity) { return lower_case(text(feature, quantity)); };
+    std::string const waterway = lower(RiverQuantity::waterway);
+    std::string const ftype = text(feature, RiverQuantity::ftype);
+    std::string const by_ftype = nhd_type(ftype);
+    int const fcode = static_cast<int>(number(feature, RiverQuantity::fcode));
+    std::string const by_fcode = nhd_type(fmt::format("{}", fcode / 100));
+    bool const natural_coast = lower(RiverQuantity::natural) == "coastline";
+    bool const is_coast = natural_coast || by_ftype == "Coastline" || by_fcode == "Coastline";
     if (!waterway.empty() && !is_among(natural_waterways, waterway)) {
-        return {"waterway " + waterway, is_among(artificial_waterways, waterway)};
+        return {"waterway " + waterway, is_among(artificial_waterways, waterway), is_coast};
     }
     if (waterway.empty() && has(RiverQuantity::waterway)) {
         for (Found const& way : found_[RiverQuantity::other_way]) {
             if (std::string const kind = lower_case(way.column.text(feature)); !kind.empty()) {
-                return {lower_case(way.column.name()) + " " + kind};
+                return {lower_case(way.column.name()) + " " + kind, false, is_coast};
             }
         }
     }
-    if (lower_case(text(feature, RiverQuantity::natural)) == "coastline") {
-        return {"natural coastline"};
+    if (natural_coast) {
+        return {"natural coastline", false, is_coast};
     }
-    if (lower_case(text(feature, RiverQuantity::tunnel)) == "flooded") {
-        return {"tunnel flooded", true};
+    if (lower(RiverQuantity::tunnel) == "flooded") {
+        return {"tunnel flooded", true, is_coast};
     }
-    if (lower_case(text(feature, RiverQuantity::man_made)) == "pipeline") {
-        return {"man_made pipeline", true};
+    if (lower(RiverQuantity::man_made) == "pipeline") {
+        return {"man_made pipeline", true, is_coast};
     }
-    std::string const type = text(feature, RiverQuantity::ftype);
-    if (std::string const known = nhd_type(type); !known.empty()) {
-        return {"FTYPE " + type, known != "Coastline"};
+    if (!by_ftype.empty()) {
+        return {"FTYPE " + ftype, by_ftype != "Coastline", is_coast};
     }
-    if (std::string const known = type_of_code(feature); !known.empty()) {
-        return {fmt::format("FCODE {} {}", text(feature, RiverQuantity::fcode), known), known != "Coastline"};
+    if (!by_fcode.empty()) {
+        return {fmt::format("FCODE {} {}", fcode, by_fcode), by_fcode != "Coastline", is_coast};
     }
     return {};
-}
-
-std::string RiverFields::type_of_code(OGRFeature const& feature) const {
-    return nhd_type(fmt::format("{}", static_cast<int>(number(feature, RiverQuantity::fcode)) / 100));
-}
-
-bool RiverFields::is_coast(OGRFeature const& feature) const {
-    return nhd_type(text(feature, RiverQuantity::ftype)) == "Coastline" || type_of_code(feature) == "Coastline" ||
-           lower_case(text(feature, RiverQuantity::natural)) == "coastline";
 }
 
 std::int64_t RiverFields::down_of(std::int64_t feature) const {
@@ -422,32 +424,27 @@ void RiverFields::link(std::vector<RiverLine>& lines) const {
 // Lines.
 
 void OtherShapes::add(OGRGeometry const& shape, std::int64_t feature) {
-    Type& type = types_[OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()))];
-    if (type.count++ == 0) {
+    Finding& first = types_[OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()))];
+    if (first.amount == 0.0) {
         OGREnvelope box;
         shape.getEnvelope(&box);
-        type.first = feature;
-        type.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{};
+        first.feature = feature;
+        first.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{};
     }
-}
-
-std::int64_t OtherShapes::count() const {
-    std::int64_t count = 0;
-    for (auto const& [name, type] : types_) {
-        count += type.count;
-    }
-    return count;
+    first.amount += 1.0;
+    ++count_;
 }
 
 std::vector<Finding> OtherShapes::findings() const {
     std::vector<Finding> findings;
-    for (auto const& [name, type] : types_) {
+    for (auto const& [type, first] : types_) {
         std::string const text =
-            type.count == 1
-                ? fmt::format("1 shape of type {} is not a line and is skipped; it is in feature {}", name, type.first)
+            first.amount == 1.0
+                ? fmt::format("1 shape of type {} is not a line and is skipped; it is in feature {}", type,
+                              first.feature)
                 : fmt::format("{} shapes of type {} are not lines and are skipped; the first is in feature {}",
-                              type.count, name, type.first);
-        findings.push_back({"not_a_line", 0, type.where, static_cast<double>(type.count), text});
+                              first.amount, type, first.feature);
+        findings.push_back({"not_a_line", 0, first.where, first.amount, text});
     }
     return findings;
 }
@@ -512,21 +509,15 @@ std::vector<std::vector<Vec3>> parts_of(OGRGeometry const& shape, std::int64_t f
 }
 
 DrawnLine drawn_line(OGRGeometry const* shape, std::int64_t feature, OtherShapes& others) {
-    DrawnLine line;
-    if (shape != nullptr) {
-        std::int64_t const before = others.count();
-        line.parts = parts_of(*shape, feature, others);
-        line.is_line = !line.parts.empty() || others.count() == before;
-        line.drawn_parts = static_cast<int>(line.parts.size());
-        line.has_z = shape->Is3D() != 0 && !line.parts.empty();
-        line.has_m = shape->IsMeasured() != 0;
-        line.curved = shape->hasCurveGeometry(TRUE) != 0;
+    std::int64_t const before = others.count();
+    DrawnLine line{shape == nullptr ? Parts() : parts_of(*shape, feature, others)};
+    line.is_line = !line.parts.empty() || others.count() == before;
+    line.drawn_parts = static_cast<int>(line.parts.size());
+    if (line.parts.empty()) {
+        line.parts.emplace_back();
     }
     if (line.parts.size() > 1) {
         join(line.parts);
-    }
-    if (line.parts.empty()) {
-        line.parts.emplace_back();
     }
     return line;
 }

@@ -204,13 +204,7 @@ void place_findings(NetworkFile& file) {
 }
 
 Wish wish_of(ReadNetworkParams const& params) {
-    Wish wish{.schema = params.schema,
-              .arcs_layer = params.arcs_layer,
-              .nodes_layer = params.nodes_layer,
-              .crs = params.crs,
-              .source_crs = params.source_crs,
-              .any_lines = params.any_lines,
-              .bridge = params.bridge};
+    Wish wish{params};
     std::vector<std::string> names{"node_id"};
     for (std::size_t q = 0; q < static_cast<std::size_t>(Quantity::constant); ++q) {
         names.emplace_back(name_of(static_cast<Quantity>(q)));
@@ -220,29 +214,14 @@ Wish wish_of(ReadNetworkParams const& params) {
         refuse_if<BadInput>(!known && quantity != "node_id",
                             "io.read_network: '{}' is not a quantity of the network schema.{} ({})", quantity,
                             did_you_mean(quantity, names), listed(names));
-        (known ? wish.fields[*known] : wish.node_id) = field;
+        (known ? wish.columns[*known] : wish.node_id) = field;
     }
     return wish;
-}
-
-FilePlaces places_of(NetworkFile const& file) {
-    FilePlaces places;
-    for (FileArc const& arc : file.arcs) {
-        for (Vec3 const& p : arc.line) {
-            if (is_finite(plan(p))) {
-                places.add(p.x, p.y);
-            }
-        }
-    }
-    return places;
 }
 
 /// Converts heights into metres, from the unit that the layer of arcs names.
 void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Notes& notes) {
     double const unit = height_unit_of(*arcs.layer, wish.source_crs);
-    if (unit == 1.0) {
-        return;
-    }
     for (FileArc& arc : file.arcs) {
         for (Vec3& p : arc.line) {
             p.z *= unit;
@@ -254,7 +233,7 @@ void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Not
         node.at.z *= unit;
         node.columns.z_m *= unit;
     }
-    if (!wish.whole) {
+    if (unit != 1.0 && !wish.whole) {
         notes.add(arcs.what, "heights_converted", 0, unit,
                   fmt::format("its heights, in {}, were converted into metres", words_for_unit(unit)));
     }
@@ -278,7 +257,14 @@ void bring_into_metres(NetworkFile& file, Layer const& arcs, std::optional<Layer
         }
         return;
     }
-    FilePlaces const places = places_of(file);
+    FilePlaces places;
+    for (FileArc const& arc : file.arcs) {
+        for (Vec3 const& p : arc.line) {
+            if (is_finite(plan(p))) {
+                places.add(p.x, p.y);
+            }
+        }
+    }
     if (!places.any()) {
         file.crs = name_of(own);
         return;
@@ -367,7 +353,9 @@ NetworkFile read_network(std::string const& path, ReadNetworkParams const& param
 }
 
 NetworkFile read_network(std::string const& path, Run const& run) {
-    return read(path, {.schema = Schema::native, .whole = true}, run);
+    Wish wish{{.schema = Schema::native}};
+    wish.whole = true;
+    return read(path, wish, run);
 }
 
 } // namespace thalweg::io

@@ -82,13 +82,10 @@ constexpr std::array<std::pair<char const*, double NodeColumns::*>, 7> node_colu
 } // namespace
 
 void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run) {
-    FileColumn const arc_id(*sources.layer, {"arc_id"}, false);
-    FileColumn const feature_id(*sources.layer, {"feature"}, false);
-    FileColumn const from(*sources.layer, {"from_m"}, false);
-    FileColumn const to(*sources.layer, {"to_m"}, false);
-    if (!arc_id.is_there() || !feature_id.is_there() || !from.is_there() || !to.is_there()) {
-        return;
-    }
+    FileColumn const arc_id(*sources.layer, {"arc_id"});
+    FileColumn const feature_id(*sources.layer, {"feature"});
+    FileColumn const from(*sources.layer, {"from_m"});
+    FileColumn const to(*sources.layer, {"to_m"});
     std::map<std::int64_t, std::size_t> arc_of;
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
         arc_of.try_emplace(file.arcs[a].id, a);
@@ -143,7 +140,7 @@ public:
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
           fields_(*arcs.layer), attributes_(*arcs.layer), by_feature_(!schema && takes_any_lines(wish)),
           whole_(wish.whole) {
-        find_columns(wish.fields);
+        find_columns(wish.columns);
         if (!by_feature_) {
             require_fields();
         }
@@ -186,9 +183,7 @@ private:
     void find_columns(std::map<Quantity, std::string> const& mapped) {
         for (SchemaField const& field : table_.fields) {
             if (field.quantity != Q::constant && schema_ && !has(field.quantity)) {
-                std::vector<std::string> names = words_of(field.also);
-                names.insert(names.begin(), std::string(field.name));
-                columns_[field.quantity] = {FileColumn(*arcs_.layer, names), &field};
+                columns_[field.quantity] = {FileColumn(*arcs_.layer, names_of(field)), &field};
             }
         }
         for (auto const& [quantity, name] : mapped) {
@@ -250,7 +245,7 @@ private:
             return;
         }
         FileArc arc = numbers_of(feature);
-        note_shape(drawn, arc.id - file.id_shift);
+        note_shape(feature.GetGeometryRef(), drawn, arc.id - file.id_shift);
         for (auto& part : drawn.parts) {
             arc.line = std::move(part);
             file.arcs.push_back(arc);
@@ -338,7 +333,7 @@ private:
 
     // Shapes.
 
-    void note_shape(DrawnLine const& drawn, std::int64_t id) {
+    void note_shape(OGRGeometry const* shape, DrawnLine const& drawn, std::int64_t id) {
         auto const& first = drawn.parts.front();
         bool const joined = drawn.parts.size() == 1;
         if (drawn.drawn_parts > 1 && !(joined && table_.segment_parts)) {
@@ -347,14 +342,15 @@ private:
                                    joined ? ", which join end to end: read as one line"
                                           : ": an arc is one line; each was read as an arc of the same id"));
         }
-        if (drawn.curved) {
+        if (shape != nullptr && shape->hasCurveGeometry(TRUE) != 0) {
             notes_.add(arcs_.what, "curve", id, static_cast<double>(first.size()),
                        fmt::format("feature {} is a curve: read as a line of {} vertices", number_, first.size()));
         }
-        measured_ += drawn.has_m ? 1 : 0;
+        measured_ += shape != nullptr && shape->IsMeasured() != 0 ? 1 : 0;
         if (!first.empty()) {
-            (drawn.has_z ? raised_ : flat_) += 1;
-            first_flat_ = first_flat_ == 0 && !drawn.has_z ? number_ : first_flat_;
+            bool const is_flat = shape->Is3D() == 0;
+            (is_flat ? flat_ : raised_) += 1;
+            first_flat_ = first_flat_ == 0 && is_flat ? number_ : first_flat_;
         }
     }
 

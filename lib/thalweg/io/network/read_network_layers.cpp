@@ -28,11 +28,8 @@ bool names_database(std::string const& path) {
 }
 
 std::vector<OGRLayer*> layers_of(GDALDataset& data) {
-    std::vector<OGRLayer*> found;
-    for (OGRLayer* const layer : data.GetLayers()) {
-        found.push_back(layer);
-    }
-    return found;
+    auto const layers = data.GetLayers();
+    return std::vector<OGRLayer*>(layers.begin(), layers.end());
 }
 
 std::vector<std::string> layer_names(std::vector<OGRLayer*> const& layers) {
@@ -66,10 +63,9 @@ Holds content_of(OGRLayer& layer, std::string const& what) {
     }
     Driver const driver;
     Holds holds = Holds::nothing;
-    layer.ResetReading();
-    for (int i = 0; i < most_features && holds != Holds::lines; ++i) {
-        OGRFeatureUniquePtr const feature(layer.GetNextFeature());
-        if (!feature) {
+    int looked_at = 0;
+    for (auto const& feature : layer) {
+        if (holds == Holds::lines || ++looked_at > most_features) {
             break;
         }
         OGRGeometry const* const shape = feature->GetGeometryRef();
@@ -108,10 +104,8 @@ std::vector<OGRLayer*> line_layers(GDALDataset& data, std::string const& what) {
             (holds == Holds::lines ? lines : empty).push_back(layer);
         }
     }
-    if (lines.empty() && empty.empty()) {
-        throw BadInput(fmt::format("{} has no layer with lines{}", what,
-                                   all.empty() ? "" : " (" + listed(layer_names(all)) + ")"));
-    }
+    refuse_if<BadInput>(lines.empty() && empty.empty(), "{} has no layer with lines ({})", what,
+                        listed(layer_names(all)));
     return lines.empty() ? empty : lines;
 }
 
@@ -148,26 +142,30 @@ OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string
 
 namespace {
 
-/// The file with the rivers of a folder that thalweg wrote; "" where it is no such folder.
-std::string network_in(fs::path const& folder) {
+// "NAME_arcs" and "arcs" end in "arcs" and have their counterpart in "NAME_nodes" and "nodes".
+bool ends_as(fs::path const& path, std::string_view layer) {
+    std::string const stem = path.stem().string();
+    return stem == layer || stem.ends_with(fmt::format("_{}", layer));
+}
+
+/// The files of networks in a folder: the network.gpkg that `make` wrote, else the arcs of `convert`, else GeoPackages.
+std::vector<std::string> networks_in(fs::path const& folder) {
     if (fs::path const file = folder / "network.gpkg"; fs::exists(file)) {
-        return file.string();
+        return {file.string()};
     }
-    std::vector<fs::path> arcs;
-    std::vector<fs::path> packages;
+    std::vector<std::string> arcs;
+    std::vector<std::string> packages;
     for (auto const& entry : fs::directory_iterator(folder)) {
-        std::string const ending = entry.path().extension().string();
+        std::string const ending = lower_case(entry.path().extension().string());
         bool const of_layers = ending == ".shp" || ending == ".fgb" || ending == ".geojson";
-        if (of_layers && entry.path().stem().string().ends_with("_arcs")) {
-            arcs.push_back(entry.path());
+        if (of_layers && ends_as(entry.path(), "arcs")) {
+            arcs.push_back(entry.path().string());
         } else if (ending == ".gpkg") {
-            packages.push_back(entry.path());
+            packages.push_back(entry.path().string());
         }
     }
-    if (arcs.empty() && !fs::exists(folder / "recipe.toml")) { // whose only package would hold contours
-        arcs = std::move(packages);
-    }
-    return arcs.size() == 1 ? arcs.front().string() : "";
+    bool const is_terrain = fs::exists(folder / "recipe.toml"); // whose only package would hold contours
+    return arcs.empty() && !is_terrain ? packages : arcs;
 }
 
 /// Why a folder that GDAL does not open holds no rivers.
@@ -192,9 +190,12 @@ RiverSource find_rivers(std::string const& path) {
     refuse_if<BadInput>(is_file && !fs::exists(path, ignored), "io.find_rivers: {} does not exist", path);
     refuse_if<BadInput>(is_file && fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0,
                         "io.find_rivers: {} is empty", path);
-    std::string const network = is_file && fs::is_directory(path, ignored) ? network_in(source.path) : "";
-    bool const is_plain_folder = is_file && fs::is_directory(path, ignored) && network.empty();
-    source.path = network.empty() ? source.path : network;
+    bool is_plain_folder = false;
+    if (is_file && fs::is_directory(path, ignored)) {
+        std::vector<std::string> const networks = networks_in(source.path);
+        is_plain_folder = networks.size() != 1;
+        source.path = is_plain_folder ? source.path : networks.front();
+    }
     Driver const driver;
     Dataset const data = open_undisturbed(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER);
     if (!data) {
@@ -214,30 +215,19 @@ RiverSource find_rivers(std::string const& path) {
 
 namespace {
 
-bool is_shapefile(fs::path const& path) {
-    return path.extension() == ".shp" || path.extension() == ".SHP";
-}
-
-// "NAME_arcs" and "arcs" end in "arcs" and have their counterpart in "NAME_nodes" and "nodes".
-bool ends_as(fs::path const& path, std::string_view layer) {
-    std::string const stem = path.stem().string();
-    return stem == layer || stem.ends_with(fmt::format("_{}", layer));
-}
-
-fs::path counterpart(fs::path const& path, std::string_view layer, std::string_view other) {
-    std::string const stem = path.stem().string();
-    return path.parent_path() /
-           fmt::format("{}{}{}", stem.substr(0, stem.size() - layer.size()), other, path.extension().string());
-}
-
 NetworkPlace pair_of(fs::path const& path, bool whole) {
     std::error_code ignored;
+    auto const sibling = [&](std::string_view layer, std::string_view other) {
+        std::string const stem = path.stem().string();
+        std::string const name = stem.substr(0, stem.size() - layer.size()) + std::string(other);
+        return (path.parent_path() / (name + path.extension().string())).string();
+    };
     if (ends_as(path, "arcs")) {
-        fs::path const nodes = counterpart(path, "arcs", "nodes");
-        return {path.string(), whole || fs::exists(nodes, ignored) ? nodes.string() : ""};
+        std::string const nodes = sibling("arcs", "nodes");
+        return {path.string(), whole || fs::exists(nodes, ignored) ? nodes : ""};
     }
     if (ends_as(path, "nodes")) {
-        return {counterpart(path, "nodes", "arcs").string(), path.string()};
+        return {sibling("nodes", "arcs"), path.string()};
     }
     refuse_if<BadInput>(whole, "io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string());
     return {path.string(), ""};
@@ -246,29 +236,18 @@ NetworkPlace pair_of(fs::path const& path, bool whole) {
 } // namespace
 
 NetworkPlace find_network(std::string const& path, bool whole) {
-    std::error_code error;
-    fs::path const file = path;
-    if (names_database(path)) {
-        return {path, path};
+    std::error_code ignored;
+    fs::path file = path;
+    if (!names_database(path) && fs::is_directory(file, ignored) && file.extension() != ".gdb") {
+        std::vector<std::string> const networks = networks_in(file);
+        refuse_if<BadInput>(networks.size() != 1,
+                            "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
+                            networks.size());
+        file = networks.front();
     }
-    if (!fs::is_directory(file, error) || file.extension() == ".gdb") {
-        bool const in_pairs = is_shapefile(file) || (!whole && (ends_as(file, "arcs") || ends_as(file, "nodes")));
-        return in_pairs ? pair_of(file, whole) : NetworkPlace{path, path};
-    }
-    if (fs::path const gpkg = file / "network.gpkg"; fs::exists(gpkg, error)) {
-        return {gpkg.string(), gpkg.string()};
-    }
-    std::vector<fs::path> found;
-    for (auto const& entry : fs::directory_iterator(file, error)) {
-        if (is_shapefile(entry.path()) && ends_as(entry.path(), "arcs")) {
-            found.push_back(entry.path());
-        }
-    }
-    refuse_if<IoError>(static_cast<bool>(error), "io.read_network: {}: {}", path, error.message());
-    refuse_if<BadInput>(found.size() != 1,
-                        "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
-                        found.size());
-    return pair_of(found.front(), true);
+    bool const is_shapefile = lower_case(file.extension().string()) == ".shp";
+    bool const is_pair = is_shapefile || (!whole && (ends_as(file, "arcs") || ends_as(file, "nodes")));
+    return names_database(path) || !is_pair ? NetworkPlace{file.string(), file.string()} : pair_of(file, whole);
 }
 
 NetworkSource open_network(std::string const& path, Driver const& driver) {
@@ -279,11 +258,9 @@ NetworkSource open_network(std::string const& path, Driver const& driver) {
     if (dataset == nullptr) {
         std::string const words = driver.take();
         auto const say = [&](std::string_view part) { return words.find(part) != std::string::npos; };
-        refuse_if<IoError>(say("database is locked"), "{} is locked by another program; close it there and try again",
-                           what);
-        refuse_if<IoError>(say("readonly database"),
-                           "{} was left in the middle of a change (there is a -journal beside it); open it once with "
-                           "the program that wrote it",
+        refuse_if<IoError>(say("database is locked") || say("readonly database"),
+                           "{} is locked by another program, or was left in the middle of a change: close it there, or "
+                           "open it once with the program that wrote it",
                            what);
         throw BadInput(fmt::format("{} cannot be read: {}", what, words));
     }
@@ -303,18 +280,6 @@ Layer layer_of(NetworkSource const& source, OGRLayer& layer, std::string const& 
                                listed(layer_names(layers_of(*source.dataset)))));
 }
 
-// The schemas of which a layer has all the fields that identify it.
-std::vector<Schema> recognised(OGRLayer& layer) {
-    std::vector<Schema> found;
-    for (SchemaTable const& table : all_schemas()) {
-        if (std::ranges::all_of(
-                table.told_by, [&](std::string_view names) { return FileColumn(layer, words_of(names)).is_there(); })) {
-            found.push_back(table.schema);
-        }
-    }
-    return found;
-}
-
 // "native: arc_id, ...; taudem: ...", for a message: what recognised() looks for.
 std::string what_tells() {
     std::vector<std::string> schemas;
@@ -326,13 +291,6 @@ std::string what_tells() {
         schemas.push_back(fmt::format("{}: {}", table.name, listed(fields)));
     }
     return fmt::format("{}", fmt::join(schemas, "; "));
-}
-
-// Whether fields that a user names make a schema needless.
-bool is_enough(std::map<Quantity, std::string> const& mapped) {
-    return mapped.contains(Quantity::arc_id) &&
-           (mapped.contains(Quantity::ds_arc) ||
-            (mapped.contains(Quantity::from_node) && mapped.contains(Quantity::to_node)));
 }
 
 } // namespace
@@ -379,14 +337,17 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
         return wish.schema;
     }
     auto const found = recognised(*arcs.layer);
-    // Files that thalweg wrote hold the user's columns beside those of the native schema.
-    if (std::ranges::find(found, Schema::native) != found.end()) {
+    if (is_in_network_schema(*arcs.layer)) { // and the user's columns may be another's
         return Schema::native;
     }
     if (found.size() == 1) {
         return found.front();
     }
-    if (is_enough(wish.fields) || (found.empty() && takes_any_lines(wish))) {
+    auto const names_field = [&](Quantity quantity) { return wish.columns.contains(quantity); };
+    bool const is_enough =
+        names_field(Quantity::arc_id) &&
+        (names_field(Quantity::ds_arc) || (names_field(Quantity::from_node) && names_field(Quantity::to_node)));
+    if (is_enough || (found.empty() && takes_any_lines(wish))) {
         return std::nullopt;
     }
     refuse_if<BadInput>(
@@ -405,24 +366,22 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
 
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,
                                   std::optional<Schema> schema, Wish const& wish) {
-    if (!wish.nodes_layer.empty()) {
-        for (NetworkSource const* const place : {source, &arcs_source}) {
-            if (OGRLayer* const layer =
-                    place == nullptr ? nullptr : place->dataset->GetLayerByName(wish.nodes_layer.c_str())) {
-                return layer_of(*place, *layer, wish.nodes_layer);
-            }
-        }
-        refuse_layer(arcs_source, wish.nodes_layer);
-    }
-    if (source == nullptr || (schema ? schema != Schema::native : takes_any_lines(wish))) {
+    std::string const name = wish.nodes_layer.empty() ? "nodes" : wish.nodes_layer;
+    if (wish.nodes_layer.empty() &&
+        (source == nullptr || (schema ? schema != Schema::native : takes_any_lines(wish)))) {
         return std::nullopt;
     }
-    if (OGRLayer* const layer = source->dataset->GetLayerByName("nodes")) {
-        return layer_of(*source, *layer, "nodes");
+    for (NetworkSource const* const place : {source == nullptr ? &arcs_source : source, &arcs_source}) {
+        if (OGRLayer* const layer = place->dataset->GetLayerByName(name.c_str())) {
+            return layer_of(*place, *layer, name);
+        }
+    }
+    if (!wish.nodes_layer.empty()) {
+        refuse_layer(arcs_source, name);
     }
     auto const layers = layers_of(*source->dataset);
     bool const own_file = layers.size() == 1 && layers.front() != arcs.layer;
-    return own_file ? std::optional(layer_of(*source, *layers.front(), "nodes")) : std::nullopt;
+    return own_file ? std::optional(layer_of(*source, *layers.front(), name)) : std::nullopt;
 }
 
 } // namespace thalweg::io

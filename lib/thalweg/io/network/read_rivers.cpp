@@ -38,9 +38,7 @@ public:
 
     struct NotNatural {
         RiverLine line;
-        std::string reason;
-        bool is_channel;
-        bool is_coast;
+        RiverFields::Unnatural why;
     };
 
     void read(Run const& run) {
@@ -96,7 +94,7 @@ private:
             if (why.reason.empty()) {
                 lines.push_back(std::move(part));
             } else {
-                others.push_back({std::move(part), why.reason, why.is_channel, fields_.is_coast(feature)});
+                others.push_back({std::move(part), why});
             }
         }
     }
@@ -173,7 +171,7 @@ void require_any(LineReader const& read, std::string const& what) {
     if (!read.others.empty()) {
         throw BadInput(fmt::format("{} holds no natural watercourse: {} lines are left out, the first of them for its "
                                    "{}; set network.lines.filter = \"none\" to take them all",
-                                   what, read.others.size(), read.others.front().reason));
+                                   what, read.others.size(), read.others.front().why.reason));
     }
     auto const why = std::ranges::find_if(
         read.findings, [](Finding const& f) { return f.kind == "not_a_line" || f.kind == "left_out"; });
@@ -210,15 +208,14 @@ struct Bring {
 bool have_heights(std::vector<RiverLine> const& lines) {
     double const first = lines.front().vertices.front().z;
     bool differ = false;
-    for (auto const& line : lines) {
-        for (auto const& v : line.vertices) {
-            if (std::isnan(v.z)) {
-                return false;
-            }
+    bool complete = true;
+    for (RiverLine const& line : lines) {
+        for (Vec3 const& v : line.vertices) {
+            complete = complete && !std::isnan(v.z);
             differ = differ || v.z != first;
         }
     }
-    return differ;
+    return complete && differ;
 }
 
 } // namespace
@@ -263,16 +260,16 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         run.check();
         bring(line);
     }
-    for (auto& [line, reason, is_channel, is_coast] : read.others) {
+    for (auto& [line, why] : read.others) {
         run.check();
         bring(line);
-        if (is_channel && !is_coast) {
+        if (why.is_channel && !why.is_coast) {
             line.down = read.down_of(line.feature);
-            line.artificial = std::move(reason);
+            line.artificial = std::move(why.reason);
             rivers.channels.push_back(std::move(line));
         } else {
-            rivers.secondary.push_back({line.feature, std::move(line.vertices), std::move(reason), line.feature,
-                                        is_coast ? LeftOut::coast : LeftOut::filter});
+            rivers.secondary.push_back({line.feature, std::move(line.vertices), std::move(why.reason), line.feature,
+                                        why.is_coast ? LeftOut::coast : LeftOut::filter});
         }
     }
     for (Finding& finding : read.findings) {

@@ -18,7 +18,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/network/schema.hpp>
+#include <thalweg/io/network/read_network.hpp>
 
 class OGRFeature;
 class OGRGeometry;
@@ -32,6 +32,9 @@ class Notes;
 
 /// The words of a text that are separated by single blanks, as the tables of names list them.
 std::vector<std::string> words_of(std::string_view text);
+
+/// All names of a field, its own first.
+std::vector<std::string> names_of(SchemaField const& field);
 
 /// With a to z for A to Z.
 std::string lower_case(std::string text);
@@ -100,7 +103,10 @@ private:
     std::int64_t escaped_ = 0;
 };
 
-/// Whether a layer has the fields of the native schema.
+/// The schemas of which a layer has all the fields that identify it.
+std::vector<Schema> recognised(OGRLayer& layer);
+
+/// Whether a layer is in the native schema.
 bool is_in_network_schema(OGRLayer& layer);
 
 /// What a column of a river file says of a line. docs/river_files.md lists the names.
@@ -134,10 +140,9 @@ public:
     struct Unnatural {
         std::string reason = {}; ///< "FTYPE Coastline"; "" where it is one, or no field says so
         bool is_channel = false; ///< it carries water: a canal, ditch, drain or pipe
+        bool is_coast = false;   ///< by any field
     };
     Unnatural unnatural(OGRFeature const& feature) const;
-    /// Whether it is a coastline.
-    bool is_coast(OGRFeature const& feature) const;
     /// Whether there are fields of links.
     bool has_links() const { return down_.is_there(); }
     /// The feature downstream by the file's links, once every feature has been read; 0 where it names none.
@@ -154,7 +159,6 @@ private:
     std::string text(OGRFeature const& feature, RiverQuantity quantity) const;
     double number(OGRFeature const& feature, RiverQuantity quantity) const;
     int runs_of(OGRFeature const& feature) const;
-    std::string type_of_code(OGRFeature const& feature) const;
 
     FileColumn id_;
     FileColumn down_;
@@ -169,17 +173,13 @@ private:
 class OtherShapes {
 public:
     void add(OGRGeometry const& shape, std::int64_t feature);
-    std::int64_t count() const;
+    std::int64_t count() const { return count_; }
     /// One for each type of shape: not_a_line [shapes], at the first of them.
     std::vector<Finding> findings() const;
 
 private:
-    struct Type {
-        std::int64_t count = 0;
-        std::int64_t first = 0; ///< feature
-        Vec2 where;
-    };
-    std::map<std::string, Type> types_;
+    std::map<std::string, Finding> types_; ///< the first of each, and how many
+    std::int64_t count_ = 0;
 };
 
 /// The parts of a geometry that are lines, curves as OGR linearises them; z is NaN without heights. Other shapes go to
@@ -187,12 +187,9 @@ private:
 std::vector<std::vector<Vec3>> parts_of(OGRGeometry const& shape, std::int64_t feature, OtherShapes& others);
 
 struct DrawnLine {
-    bool is_line = true;                       ///< else there are only other shapes
-    std::vector<std::vector<Vec3>> parts = {}; ///< one when they join end to end
-    int drawn_parts = 0;                       ///< as they stand in the file
-    bool has_z = false;
-    bool has_m = false;
-    bool curved = false;
+    std::vector<std::vector<Vec3>> parts; ///< one when they join end to end
+    bool is_line = true;                  ///< else there are only other shapes
+    int drawn_parts = 0;                  ///< as they stand in the file
 };
 
 /// A geometry as an arc. None (nullptr) is a line without vertices.
@@ -237,23 +234,16 @@ NetworkPlace find_network(std::string const& path, bool whole);
 /// Throws: BadInput, IoError like read_network.
 NetworkSource open_network(std::string const& path, Driver const& driver);
 
-/// What a user asks for, understood: see ReadNetworkParams.
-struct Wish {
-    std::optional<Schema> schema = {};
-    std::map<Quantity, std::string> fields = {};
+/// What a user asks for, understood.
+struct Wish : ReadNetworkParams {
+    std::map<Quantity, std::string> columns = {}; ///< fields by quantity
     std::string node_id = "node_id";
-    std::string arcs_layer = {};
-    std::string nodes_layer = {};
-    std::string crs = {};
-    std::string source_crs = {};
-    bool any_lines = false;
-    bool bridge = false;
     bool whole = false; ///< every layer, field and value of the native schema, or an error
 };
 
 /// Whether lines without a known schema are arcs as they are.
 inline bool takes_any_lines(Wish const& wish) {
-    return wish.any_lines && wish.fields.empty();
+    return wish.any_lines && wish.columns.empty();
 }
 
 /// Throws: BadInput like read_network.
