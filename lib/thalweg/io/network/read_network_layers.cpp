@@ -148,24 +148,27 @@ bool ends_as(fs::path const& path, std::string_view layer) {
     return stem == layer || stem.ends_with(fmt::format("_{}", layer));
 }
 
-/// The files of networks in a folder: the network.gpkg that `make` wrote, else the arcs of `convert`, else GeoPackages.
-std::vector<std::string> networks_in(fs::path const& folder) {
-    if (fs::path const file = folder / "network.gpkg"; fs::exists(file)) {
+/// The files of networks in a folder: the network.gpkg that `make` wrote, else the arcs that `convert` wrote, else, if
+/// not only shapefiles are meant, GeoPackages.
+std::vector<std::string> networks_in(fs::path const& folder, bool shapefiles_alone) {
+    std::error_code error;
+    if (fs::path const file = folder / "network.gpkg"; fs::exists(file, error)) {
         return {file.string()};
     }
     std::vector<std::string> arcs;
     std::vector<std::string> packages;
-    for (auto const& entry : fs::directory_iterator(folder)) {
+    for (auto const& entry : fs::directory_iterator(folder, error)) {
         std::string const ending = lower_case(entry.path().extension().string());
-        bool const of_layers = ending == ".shp" || ending == ".fgb" || ending == ".geojson";
+        bool const of_layers = ending == ".shp" || (!shapefiles_alone && (ending == ".fgb" || ending == ".geojson"));
         if (of_layers && ends_as(entry.path(), "arcs")) {
             arcs.push_back(entry.path().string());
         } else if (ending == ".gpkg") {
             packages.push_back(entry.path().string());
         }
     }
+    refuse_if<IoError>(static_cast<bool>(error), "io.read_network: {}: {}", folder.string(), error.message());
     bool const is_terrain = fs::exists(folder / "recipe.toml"); // whose only package would hold contours
-    return arcs.empty() && !is_terrain ? packages : arcs;
+    return arcs.empty() && !is_terrain && !shapefiles_alone ? packages : arcs;
 }
 
 /// Why a folder that GDAL does not open holds no rivers.
@@ -192,7 +195,7 @@ RiverSource find_rivers(std::string const& path) {
                         "io.find_rivers: {} is empty", path);
     bool is_plain_folder = false;
     if (is_file && fs::is_directory(path, ignored)) {
-        std::vector<std::string> const networks = networks_in(source.path);
+        std::vector<std::string> const networks = networks_in(source.path, false);
         is_plain_folder = networks.size() != 1;
         source.path = is_plain_folder ? source.path : networks.front();
     }
@@ -238,8 +241,9 @@ NetworkPlace pair_of(fs::path const& path, bool whole) {
 NetworkPlace find_network(std::string const& path, bool whole) {
     std::error_code ignored;
     fs::path file = path;
-    if (!names_database(path) && fs::is_directory(file, ignored) && file.extension() != ".gdb") {
-        std::vector<std::string> const networks = networks_in(file);
+    bool const is_folder = !names_database(path) && fs::is_directory(file, ignored) && file.extension() != ".gdb";
+    if (is_folder) {
+        std::vector<std::string> const networks = networks_in(file, true);
         refuse_if<BadInput>(networks.size() != 1,
                             "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
                             networks.size());
@@ -247,7 +251,8 @@ NetworkPlace find_network(std::string const& path, bool whole) {
     }
     bool const is_shapefile = lower_case(file.extension().string()) == ".shp";
     bool const is_pair = is_shapefile || (!whole && (ends_as(file, "arcs") || ends_as(file, "nodes")));
-    return names_database(path) || !is_pair ? NetworkPlace{file.string(), file.string()} : pair_of(file, whole);
+    return names_database(path) || !is_pair ? NetworkPlace{file.string(), file.string()}
+                                            : pair_of(file, whole || is_folder);
 }
 
 NetworkSource open_network(std::string const& path, Driver const& driver) {
