@@ -11,7 +11,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/gdal/sources.hpp>
-#include <thalweg/io/network/internal/line_features.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 
 #include "scratch_folder.hpp"

@@ -10,8 +10,6 @@
 #include <ogr_geometry.h>
 #include <rapidcheck.h>
 
-#include <thalweg/io/network/internal/line_features.hpp>
-
 namespace read_network_links_test {
 
 using namespace thalweg;

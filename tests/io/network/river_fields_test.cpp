@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/internal/river_fields.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 #include <memory>
 #include <string>
@@ -45,9 +45,9 @@ Lines read(Fields const& fields, Rows const& rows) {
         line.feature = static_cast<std::int64_t>(read.lines.size()) + 1;
         known.read(*feature, line);
         read.lines.push_back(std::move(line));
-        auto const [reason, is_channel] = known.unnatural(*feature);
-        read.unnatural.push_back(reason);
-        read.channels.push_back(is_channel ? 1 : 0);
+        auto const why = known.unnatural(*feature);
+        read.unnatural.push_back(why.reason);
+        read.channels.push_back(why.is_channel ? 1 : 0);
     }
     known.link(read.lines);
     return read;

@@ -10,7 +10,7 @@
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/io/network/internal/line_features.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/network/import/from_file.hpp>

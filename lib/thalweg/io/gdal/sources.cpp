@@ -9,6 +9,7 @@
 #include <optional>
 #include <system_error>
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -26,8 +27,8 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/points.hpp>
-#include <thalweg/io/network/internal/line_features.hpp>
-#include <thalweg/io/network/internal/table.hpp>
+#include <thalweg/io/network/internal/network_tables.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -260,7 +261,7 @@ std::string stem_of(std::string const& source, std::string const& layer) {
 
 std::string plain_copy(std::string const& source, std::string const& layer, std::string const& folder, Run const& run) {
     Driver const driver;
-    FixedDate const date;
+    CPLConfigOptionSetter const date(date_option, fixed_date, false);
     Dataset const data = open_undisturbed(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     if (!data) {
         throw BadInput(fmt::format("io.plain_copy: {} cannot be read: {}", source, driver.take()));

@@ -1,375 +1,210 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/io/network/internal/line_features.hpp>
-
 #include <algorithm>
 #include <array>
+#include <cctype>
+#include <charconv>
 #include <cmath>
-#include <cstddef>
-#include <limits>
 #include <memory>
-#include <string_view>
+#include <system_error>
 
 #include <cpl_port.h>
 #include <fmt/format.h>
 #include <fmt/ranges.h>
-#include <gdal_priv.h>
 #include <ogr_geometry.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/io/files/internal/files.hpp>
-#include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/io/network/schema.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {
-namespace {
 
-enum class Holds : std::uint8_t { lines, other, nothing };
-
-bool is_line(OGRwkbGeometryType type) {
-    auto const flat = wkbFlatten(type);
-    return OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
+std::vector<std::string> words_of(std::string_view text) {
+    std::vector<std::string> words;
+    while (!text.empty()) {
+        auto const end = std::min(text.find(' '), text.size());
+        words.emplace_back(text.substr(0, end));
+        text.remove_prefix(std::min(end + 1, text.size()));
+    }
+    return words;
 }
 
-// A layer of any shapes holds lines when one of its first features is one: exports of OpenStreetMap begin with nodes.
-Holds content_of(OGRLayer& layer, std::string const& what) {
-    constexpr int most_features = 1000000;
-    auto const type = wkbFlatten(layer.GetGeomType());
-    if (type != wkbUnknown && !is_line(type)) {
-        return type == wkbGeometryCollection ? Holds::lines : Holds::other;
-    }
-    Driver const driver;
-    Holds holds = Holds::nothing;
-    layer.ResetReading();
-    for (int i = 0; i < most_features && holds != Holds::lines; ++i) {
-        OGRFeatureUniquePtr const feature(layer.GetNextFeature());
-        if (!feature) {
-            break;
-        }
-        OGRGeometry const* const shape = feature->GetGeometryRef();
-        auto const drawn = shape == nullptr ? type : wkbFlatten(shape->getGeometryType());
-        holds = is_line(drawn) || drawn == wkbGeometryCollection ? Holds::lines : Holds::other;
-    }
-    layer.ResetReading();
-    driver.check(fmt::format("{}, layer {}", what, layer.GetName()));
-    return holds;
+std::vector<std::string> names_of(SchemaField const& field) {
+    std::vector<std::string> names = words_of(field.also);
+    names.insert(names.begin(), std::string(field.name));
+    return names;
 }
 
-/// How clearly a name says that a layer holds the rivers: 0 most; anything else is more than any.
-std::size_t rank_of(std::string_view name) {
-    // thalweg; NHD and NHDPlus HR; EU-Hydro; OpenStreetMap; OS Open Rivers; and what people call them.
-    static constexpr std::array exact{"arcs",      "nhdflowline", "networknhdflowline", "nhdflowlinenetwork",
-                                      "rivernetl", "waterways",   "watercourselink"};
-    static constexpr std::array parts{"hydrorivers", "flowline", "waterway", "watercourse", "river", "stream"};
-    std::string const own = simple_name(name);
-    for (std::size_t i = 0; i < exact.size(); ++i) {
-        if (own == exact[i]) {
-            return i;
-        }
-    }
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        if (own.find(parts[i]) != std::string::npos && own.find("catchment") == std::string::npos &&
-            own.find("nonnetwork") == std::string::npos) {
-            return exact.size() + i;
-        }
-    }
-    return exact.size() + parts.size();
+std::string lower_case(std::string text) {
+    std::ranges::transform(text, text.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return text;
 }
 
-std::vector<std::string> layer_names_of(std::vector<OGRLayer*> const& layers) {
+std::string listed(std::vector<std::string> const& names) {
+    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
+}
+
+std::vector<std::string> field_names(OGRLayer& layer) {
     std::vector<std::string> names;
-    for (OGRLayer* const layer : layers) {
-        names.emplace_back(layer->GetName());
+    for (int i = 0; i < layer.GetLayerDefn()->GetFieldCount(); ++i) {
+        names.emplace_back(layer.GetLayerDefn()->GetFieldDefn(i)->GetNameRef());
     }
     return names;
 }
 
-OGRLayer& named(std::vector<OGRLayer*> const& layers, std::string const& wanted, std::string const& what) {
-    auto const at = std::ranges::find_if(layers, [&](OGRLayer* layer) { return layer->GetName() == wanted; });
-    if (at == layers.end()) {
-        auto const names = layer_names_of(layers);
-        throw BadInput(fmt::format(
-            "{} has no layer '{}'.{}", what, wanted,
-            names.empty() ? "" : fmt::format("{} ({})", did_you_mean(wanted, names), fmt::join(names, ", "))));
+namespace {
+
+// All of a text, blanks around it aside.
+double number_in(std::string_view text) {
+    auto const first = text.find_first_not_of(" \t");
+    if (first == std::string_view::npos) {
+        return nan;
     }
-    auto const type = wkbFlatten((*at)->GetGeomType());
-    if (type != wkbUnknown && type != wkbGeometryCollection && !is_line(type)) {
-        throw BadInput(fmt::format("{}, layer {}: it holds {}, not lines", what, wanted, OGRGeometryTypeToName(type)));
-    }
-    return **at;
+    text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
+    double value = nan;
+    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+    return error == std::errc{} && end == text.data() + text.size() ? value : nan;
 }
 
-struct LineLayers {
-    std::vector<OGRLayer*> lines;
-    std::vector<OGRLayer*> empty; ///< that may get some
-};
+} // namespace
 
-LineLayers line_layers(GDALDataset& data, std::string const& what) {
-    LineLayers found;
-    std::vector<OGRLayer*> all;
-    for (OGRLayer* const layer : data.GetLayers()) {
-        all.push_back(layer);
-        Holds const holds = content_of(*layer, what);
-        if (holds != Holds::other) {
-            (holds == Holds::lines ? found.lines : found.empty).push_back(layer);
+FileColumn::FileColumn(OGRLayer& layer, std::vector<std::string> const& names, bool or_feature_id) {
+    for (std::string const& name : names) {
+        if (int const field = layer.GetLayerDefn()->GetFieldIndex(name.c_str()); field >= 0) {
+            OGRFieldDefn const& definition = *layer.GetLayerDefn()->GetFieldDefn(field);
+            field_ = field;
+            type_ = definition.GetType();
+            name_ = definition.GetNameRef();
+            return;
+        }
+        if (or_feature_id && EQUAL(name.c_str(), layer.GetFIDColumn())) {
+            field_ = feature_id;
+            type_ = OFTInteger64;
+            name_ = name;
+            return;
         }
     }
-    if (found.lines.empty() && found.empty.empty()) {
-        throw BadInput(fmt::format("{} has no layer with lines{}", what,
-                                   all.empty() ? "" : fmt::format(" ({})", fmt::join(layer_names_of(all), ", "))));
+}
+
+bool FileColumn::is_number() const {
+    return type_ == OFTInteger || type_ == OFTInteger64 || type_ == OFTReal;
+}
+
+bool FileColumn::is_null(OGRFeature const& feature) const {
+    return field_ == absent || (field_ >= 0 && feature.IsFieldSetAndNotNull(field_) == 0);
+}
+
+std::optional<std::int64_t> FileColumn::whole(OGRFeature const& feature) const {
+    if (is_null(feature) || type_ == OFTString || type_ == OFTReal) {
+        return whole_in(real(feature));
+    }
+    return field_ == feature_id ? feature.GetFID() : feature.GetFieldAsInteger64(field_);
+}
+
+double FileColumn::real(OGRFeature const& feature) const {
+    if (is_null(feature)) {
+        return nan;
+    }
+    if (field_ == feature_id) {
+        return static_cast<double>(feature.GetFID());
+    }
+    return type_ == OFTString ? number_in(feature.GetFieldAsString(field_)) : feature.GetFieldAsDouble(field_);
+}
+
+std::string FileColumn::text(OGRFeature const& feature) const {
+    if (field_ == feature_id) {
+        return fmt::format("{}", feature.GetFID());
+    }
+    return is_null(feature) ? "" : as_utf8(feature.GetFieldAsString(field_));
+}
+
+void FileColumn::require_numbers(std::string const& what, Notes& notes) const {
+    if (type_ == OFTString) {
+        notes.add(what, "text_number", 0, 0.0, fmt::format("field {} holds text, which is read as numbers", name_));
+    } else if (!is_number()) {
+        throw BadInput(fmt::format("{}: field {} does not hold numbers, but {}; name another field", what, name_,
+                                   OGRFieldDefn::GetFieldTypeName(static_cast<OGRFieldType>(type_))));
+    }
+}
+
+std::optional<std::int64_t> whole_in(double value) {
+    constexpr double exact = 9007199254740992.0; // whole doubles are exact below 2^53
+    if (!(std::fabs(value) < exact) || value != std::floor(value)) {
+        return std::nullopt;
+    }
+    return static_cast<std::int64_t>(value);
+}
+
+// The columns of a user's layer.
+
+namespace {
+
+// In the order of AttributeTable::Type.
+constexpr std::array<OGRFieldType, 7> attribute_types{OFTInteger, OFTInteger64, OFTReal,    OFTString,
+                                                      OFTDate,    OFTTime,      OFTDateTime};
+
+bool is_of_schema(std::string const& name) {
+    return name == "z_unit" || std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
+               return field.name == lower_case(name);
+           });
+}
+
+AttributeTable::Value attribute_value(OGRFeature const& feature, int field, AttributeTable::Type type) {
+    if (feature.IsFieldSetAndNotNull(field) == 0) {
+        return {};
+    }
+    if (type == AttributeTable::Type::integer || type == AttributeTable::Type::integer64) {
+        return static_cast<std::int64_t>(feature.GetFieldAsInteger64(field));
+    }
+    if (type == AttributeTable::Type::real) {
+        double const value = feature.GetFieldAsDouble(field);
+        return std::isfinite(value) ? AttributeTable::Value(value) : AttributeTable::Value();
+    }
+    return as_utf8(feature.GetFieldAsString(field));
+}
+
+} // namespace
+
+std::vector<Schema> recognised(OGRLayer& layer) {
+    std::vector<Schema> found;
+    for (SchemaTable const& table : all_schemas()) {
+        if (std::ranges::all_of(
+                table.told_by, [&](std::string_view names) { return FileColumn(layer, words_of(names)).is_there(); })) {
+            found.push_back(table.schema);
+        }
     }
     return found;
 }
 
-} // namespace
-
-void require_lines(GDALDataset& data, std::string const& name, std::string const& who) {
-    line_layers(data, who + ": " + name);
-}
-
-OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string const& name, std::string const& who) {
-    std::string const what = who + ": " + name;
-    if (!wanted.empty()) {
-        std::vector<OGRLayer*> layers;
-        for (OGRLayer* const layer : data.GetLayers()) {
-            layers.push_back(layer);
-        }
-        return named(layers, wanted, what);
-    }
-    LineLayers const found = line_layers(data, what);
-    std::vector<OGRLayer*> const& lines = found.lines.empty() ? found.empty : found.lines;
-    auto const less = [](OGRLayer* a, OGRLayer* b) { return rank_of(a->GetName()) < rank_of(b->GetName()); };
-    OGRLayer* const best = *std::ranges::min_element(lines, less);
-    if (std::ranges::count_if(lines, [&](OGRLayer* l) { return !less(best, l); }) > 1) {
-        throw BadInput(fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
-                                   "--set network.lines.layer=NAME",
-                                   what, lines.size(), fmt::join(layer_names_of(lines), ", ")));
-    }
-    return *best;
-}
-
-namespace {
-
-std::vector<Vec3> vertices_of(OGRLineString const& line) {
-    bool const has_z = line.Is3D() != 0;
-    std::vector<Vec3> vertices;
-    vertices.reserve(static_cast<std::size_t>(line.getNumPoints()));
-    for (int i = 0; i < line.getNumPoints(); ++i) {
-        vertices.push_back(
-            {line.getX(i), line.getY(i), has_z ? line.getZ(i) : std::numeric_limits<double>::quiet_NaN()});
-    }
-    return vertices;
-}
-
-// Adds the parts that are lines.
-void add_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<std::vector<Vec3>>& parts,
-               OtherShapes& others) {
-    auto const flat = wkbFlatten(shape.getGeometryType());
-    if (flat == wkbLineString) {
-        if (shape.IsEmpty() == 0) {
-            parts.push_back(vertices_of(*shape.toLineString()));
-        }
-        return;
-    }
-    if (flat != wkbMultiLineString && flat != wkbGeometryCollection) {
-        others.add(shape, feature);
-        return;
-    }
-    for (auto const* const part : *shape.toGeometryCollection()) {
-        add_parts(*part, feature, parts, others);
-    }
-}
-
-using Place = std::pair<double, double>;
-
-Place begin_of(std::vector<Vec3> const& part) {
-    return {part.front().x, part.front().y};
-}
-
-Place end_of(std::vector<Vec3> const& part) {
-    return {part.back().x, part.back().y};
-}
-
-// The parts one after the other, each beginning where the last ends; empty when there is no such order, or several.
-std::vector<std::size_t> order_of(std::vector<std::vector<Vec3>> const& parts) {
-    std::map<Place, std::size_t> begins;
-    std::map<Place, std::size_t> ends;
-    for (std::size_t i = 0; i < parts.size(); ++i) {
-        bool const placed = std::isfinite(begin_of(parts[i]).first) && std::isfinite(begin_of(parts[i]).second) &&
-                            std::isfinite(end_of(parts[i]).first) && std::isfinite(end_of(parts[i]).second);
-        if (!placed || !begins.emplace(begin_of(parts[i]), i).second || !ends.emplace(end_of(parts[i]), i).second) {
-            return {};
-        }
-    }
-    std::vector<std::size_t> order;
-    for (std::size_t i = 0; i < parts.size() && order.empty(); ++i) {
-        if (!ends.contains(begin_of(parts[i]))) {
-            order.push_back(i);
-        }
-    }
-    while (!order.empty() && order.size() < parts.size()) {
-        auto const next = begins.find(end_of(parts[order.back()]));
-        if (next == begins.end()) {
-            return {};
-        }
-        order.push_back(next->second);
-    }
-    return order;
-}
-
-void join(std::vector<std::vector<Vec3>>& parts) {
-    auto const order = order_of(parts);
-    if (order.empty()) {
-        return;
-    }
-    std::vector<Vec3> line = std::move(parts[order.front()]);
-    for (std::size_t k = 1; k < order.size(); ++k) {
-        auto const& part = parts[order[k]];
-        line.insert(line.end(), part.begin() + 1, part.end());
-    }
-    parts.clear();
-    parts.push_back(std::move(line));
-}
-
-} // namespace
-
-void OtherShapes::add(OGRGeometry const& shape, std::int64_t feature) {
-    Type& type = types_[OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()))];
-    if (type.count++ == 0) {
-        OGREnvelope box;
-        shape.getEnvelope(&box);
-        type.first = feature;
-        type.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{};
-    }
-}
-
-std::int64_t OtherShapes::count() const {
-    std::int64_t count = 0;
-    for (auto const& [name, type] : types_) {
-        count += type.count;
-    }
-    return count;
-}
-
-std::vector<Finding> OtherShapes::findings() const {
-    std::vector<Finding> findings;
-    for (auto const& [name, type] : types_) {
-        findings.push_back(
-            {"not_a_line", 0, type.where, static_cast<double>(type.count),
-             type.count == 1
-                 ? fmt::format("1 shape of type {} is not a line and is skipped; it is in feature {}", name, type.first)
-                 : fmt::format("{} shapes of type {} are not lines and are skipped; the first is in feature {}",
-                               type.count, name, type.first)});
-    }
-    return findings;
-}
-
-DrawnLine drawn_line(OGRGeometry const* shape, std::int64_t feature, OtherShapes& others) {
-    DrawnLine line;
-    if (shape == nullptr) {
-        line.parts.emplace_back();
-        return line;
-    }
-    std::unique_ptr<OGRGeometry> straight;
-    line.curved = shape->hasCurveGeometry(TRUE) != 0;
-    if (shape->hasCurveGeometry(FALSE) != 0) { // also of types for curves that hold straight parts alone
-        straight.reset(shape->getLinearGeometry());
-        shape = straight.get();
-    }
-    std::int64_t const before = others.count();
-    add_parts(*shape, feature, line.parts, others);
-    line.is_line = !line.parts.empty() || others.count() == before;
-    if (!line.is_line) {
-        return line;
-    }
-    line.has_z = shape->Is3D() != 0 && !line.parts.empty();
-    line.has_m = shape->IsMeasured() != 0;
-    line.drawn_parts = static_cast<int>(line.parts.size());
-    if (line.parts.size() > 1) {
-        join(line.parts);
-    }
-    if (line.parts.empty()) {
-        line.parts.emplace_back();
-    }
-    return line;
-}
-
-namespace {
-
-using AttributeType = AttributeTable::Type;
-
-// Nothing for a type that no table here has.
-bool attribute_type(OGRFieldType type, AttributeType& result) {
-    switch (type) {
-    case OFTInteger: result = AttributeType::integer; return true;
-    case OFTInteger64: result = AttributeType::integer64; return true;
-    case OFTReal: result = AttributeType::real; return true;
-    case OFTString: result = AttributeType::text; return true;
-    case OFTDate: result = AttributeType::date; return true;
-    case OFTTime: result = AttributeType::time; return true;
-    case OFTDateTime: result = AttributeType::datetime; return true;
-    default: result = AttributeType::text; return false;
-    }
-}
-
-bool is_of_schema(std::string const& name) {
-    return name == "z_unit" || std::ranges::any_of(table_of(Schema::native).fields, [&](SchemaField const& field) {
-               return EQUAL(std::string(field.name).c_str(), name.c_str());
-           });
-}
-
-AttributeTable::Value attribute_value(OGRFeature const& feature, int field, AttributeType type) {
-    if (feature.IsFieldSetAndNotNull(field) == 0) {
-        return {};
-    }
-    switch (type) {
-    case AttributeType::integer:
-    case AttributeType::integer64: return static_cast<std::int64_t>(feature.GetFieldAsInteger64(field));
-    case AttributeType::real: {
-        double const value = feature.GetFieldAsDouble(field);
-        return std::isfinite(value) ? AttributeTable::Value(value) : AttributeTable::Value();
-    }
-    default: return as_utf8(feature.GetFieldAsString(field));
-    }
-}
-
-} // namespace
-
 bool is_in_network_schema(OGRLayer& layer) {
-    OGRFeatureDefn& schema = *layer.GetLayerDefn();
-    return std::ranges::all_of(table_of(Schema::native).told_by, [&](std::string_view name) {
-        return schema.GetFieldIndex(std::string(name).c_str()) >= 0;
-    });
+    return std::ranges::count(recognised(layer), Schema::native) > 0;
 }
 
 AttributeReader::AttributeReader(OGRLayer& layer) {
     bool const is_ours = is_in_network_schema(layer);
-    OGRFeatureDefn& schema = *layer.GetLayerDefn();
-    for (int i = 0; i < schema.GetFieldCount(); ++i) {
-        OGRFieldDefn const& field = *schema.GetFieldDefn(i);
+    for (int i = 0; i < layer.GetLayerDefn()->GetFieldCount(); ++i) {
+        OGRFieldDefn const& field = *layer.GetLayerDefn()->GetFieldDefn(i);
         std::string const name = printable(field.GetNameRef());
         if (is_ours && is_of_schema(name)) {
             continue;
         }
-        AttributeTable::Column column{name, AttributeType::text};
-        if (!attribute_type(field.GetType(), column.type)) {
-            findings_.push_back({"as_text",
-                                 0,
-                                 {},
-                                 1.0,
-                                 fmt::format("field {} holds {}: its values are kept as text", name,
-                                             OGRFieldDefn::GetFieldTypeName(field.GetType()))});
-        }
+        auto const* const type = std::ranges::find(attribute_types, field.GetType());
+        bool const is_known = type != attribute_types.end();
+        auto const number = static_cast<AttributeTable::Type>(type - attribute_types.begin());
         fields_.push_back(i);
-        table_.columns.push_back(std::move(column));
+        table_.columns.push_back({name, is_known ? number : AttributeTable::Type::text});
+        if (!is_known) {
+            std::string const word = OGRFieldDefn::GetFieldTypeName(field.GetType());
+            findings_.push_back(
+                {"as_text", 0, {}, 1.0, fmt::format("field {} holds {}: its values are kept as text", name, word)});
+        }
     }
 }
 
 void AttributeReader::read(OGRFeature const& feature) {
     auto& row = table_.rows.emplace_back();
-    row.reserve(fields_.size());
     for (std::size_t c = 0; c < fields_.size(); ++c) {
         row.push_back(attribute_value(feature, fields_[c], table_.columns[c].type));
         bool const is_text = std::holds_alternative<std::string>(row.back());
@@ -380,15 +215,311 @@ void AttributeReader::read(OGRFeature const& feature) {
 std::vector<Finding> AttributeReader::findings() const {
     std::vector<Finding> all = findings_;
     if (escaped_ > 0) {
-        all.push_back({"not_utf8",
-                       0,
-                       {},
-                       static_cast<double>(escaped_),
-                       fmt::format("{} values are not UTF-8: their bytes are kept as \\xNN; name their encoding (of a "
-                                   "shapefile, in a file .cpg beside it)",
-                                   escaped_)});
+        std::string const text = fmt::format("{} values are not UTF-8: their bytes are kept as \\xNN; name their "
+                                             "encoding (of a shapefile, in a file .cpg beside it)",
+                                             escaped_);
+        all.push_back({"not_utf8", 0, {}, static_cast<double>(escaped_), text});
     }
     return all;
+}
+
+// What the columns of others' river files say.
+
+namespace {
+
+using Kind = Column::Kind;
+
+struct RiverColumns {
+    RiverQuantity quantity;
+    Kind kind;              ///< real: only columns of numbers are meant
+    std::string_view names; ///< the first that a layer has counts; of sizes and classes all, compared in this order
+    double unit = 1.0;      ///< of an area [m2]
+};
+
+constexpr std::array<RiverColumns, 18> river_columns{{
+    // What a minor channel carries, areas, discharge, orders: NHDPlus, HydroRIVERS, MERIT-Basins, TauDEM, EU-Hydro,
+    // GRASS.
+    {RiverQuantity::size, Kind::real, "divdasqkm upland_skm uparea dis_av_cms ds_area dscontarea totdasqkm"},
+    {RiverQuantity::size, Kind::real, "streamcalc streamorde streamorder ord_stra strahler strmorder"},
+    {RiverQuantity::size, Kind::real, "stream_ord strord horton"},
+    {RiverQuantity::river_class, Kind::real, "streamleve streamlevel ord_clas ord_flow hack"},
+    {RiverQuantity::area, Kind::real, "totdasqkm upland_skm uparea", 1e6}, // NHDPlus, HydroRIVERS, MERIT-Basins
+    {RiverQuantity::area, Kind::real, "dscontarea ds_area"},               // TauDEM, thalweg
+    {RiverQuantity::divergence, Kind::real, "divergence"},                 // NHDPlus
+    {RiverQuantity::calculated_order, Kind::real, "streamcalc"},
+    {RiverQuantity::order, Kind::real, "streamorde streamorder"},
+    {RiverQuantity::name, Kind::text, "name gnis_name nametxtint river_name rivername riv_name"},
+    // INSPIRE and NHN, OS Open Rivers (GeoPackage and shapefile), BD TOPAGE.
+    {RiverQuantity::direction, Kind::text, "flowdirection flow_direction flow sensecoul"},
+    {RiverQuantity::waterway, Kind::text, "waterway"}, // OpenStreetMap, whose extracts hold all lines in one layer
+    {RiverQuantity::tunnel, Kind::text, "tunnel"},
+    {RiverQuantity::man_made, Kind::text, "man_made"},
+    {RiverQuantity::natural, Kind::text, "natural"},
+    {RiverQuantity::other_way, Kind::text, "highway railway aerialway barrier power route"},
+    {RiverQuantity::ftype, Kind::text, "ftype"}, // NHD
+    {RiverQuantity::fcode, Kind::real, "fcode"},
+}};
+
+// The columns of a line's own id and of the id downstream; the first pair that a layer has counts.
+constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known_links{{
+    {"arc_id", "ds_arc"},        // thalweg, before the columns of a user
+    {"hydroseq", "dnhydroseq"},  // NHDPlus
+    {"comid", "tocomid"},        // nhdplusTools
+    {"comid", "nextdownid"},     // MERIT-Basins
+    {"hyriv_id", "next_down"},   // HydroRIVERS
+    {"object_id", "nextdownid"}, // EU-Hydro
+    {"linkno", "dslinkno"},      // TauDEM
+    {"stream", "next_stream"},   // GRASS
+    {"cat", "next_stream"},
+}};
+
+// Values of OpenStreetMap's key waterway.
+constexpr std::string_view natural_waterways = "river stream tidal_channel brook creek wadi rapids waterfall";
+constexpr std::string_view artificial_waterways = "canal ditch drain pressurised pipeline";
+
+bool is_among(std::string_view words, std::string const& word) {
+    return std::ranges::count(words_of(words), word) > 0;
+}
+
+// What NHD calls lines that are not rivers, by FTYPE in words or as a number, or by the first digits of FCODE; "" for
+// any other.
+std::string nhd_type(std::string const& type) {
+    std::string const word = lower_case(type);
+    return word == "566" || word == "coastline"    ? "Coastline"
+           : word == "428" || word == "pipeline"   ? "Pipeline"
+           : word == "336" || word == "canalditch" ? "CanalDitch"
+                                                   : "";
+}
+
+} // namespace
+
+RiverFields::RiverFields(OGRLayer& layer, FileColumn id, FileColumn down) : id_(std::move(id)), down_(std::move(down)) {
+    for (auto const& [own, below] : known_links) {
+        if (!id_.is_there() || !down_.is_there()) {
+            id_ = FileColumn(layer, {std::string(own)}, false);
+            down_ = FileColumn(layer, {std::string(below)}, false);
+        }
+    }
+    if (!id_.is_there() || !down_.is_there()) {
+        id_ = down_ = {};
+    }
+    for (RiverColumns const& known : river_columns) {
+        for (std::string const& name : words_of(known.names)) {
+            FileColumn column(layer, {name}, false);
+            if (column.is_there() && (known.kind == Kind::text || column.is_number())) {
+                found_[known.quantity].push_back({std::move(column), known.unit});
+            }
+        }
+    }
+}
+
+std::string RiverFields::text(OGRFeature const& feature, RiverQuantity quantity) const {
+    return has(quantity) ? found_[quantity].front().column.text(feature) : "";
+}
+
+double RiverFields::number(OGRFeature const& feature, RiverQuantity quantity) const {
+    double const value = has(quantity) ? found_[quantity].front().column.real(feature) : 0.0;
+    return std::isfinite(value) ? value : 0.0;
+}
+
+// Compares without case and spaces, of an INSPIRE code list the last part.
+int RiverFields::runs_of(OGRFeature const& feature) const {
+    std::string value = lower_case(text(feature, RiverQuantity::direction));
+    std::erase_if(value, [](char c) { return c == ' ' || c == '_'; });
+    value.erase(0, value.rfind('/') + 1);
+    bool const is_coded = value.size() == 1 && // NHN
+                          lower_case(found_[RiverQuantity::direction].front().column.name()) == "flowdirection";
+    if (value == "indirection" || value == "sensdirect" || (is_coded && value == "1")) {
+        return 1;
+    }
+    return value == "inoppositedirection" || value == "sensinverse" || (is_coded && value == "2") ? -1 : 0;
+}
+
+void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
+    auto const positive = [&](Found const& found) {
+        double const value = found.column.real(feature);
+        return value > 0.0 && std::isfinite(value) ? value : 0.0;
+    };
+    line.size.clear();
+    for (Found const& found : found_[RiverQuantity::size]) {
+        line.size.push_back(positive(found));
+    }
+    for (Found const& found : found_[RiverQuantity::river_class]) {
+        double const value = positive(found);
+        line.size.push_back(value >= 1.0 ? 1.0 / value : 0.0);
+    }
+    if (has(RiverQuantity::area)) {
+        Found const& found = found_[RiverQuantity::area].front();
+        line.area_m2 = positive(found) * found.unit;
+    }
+    line.name = text(feature, RiverQuantity::name);
+    line.runs = runs_of(feature);
+    double const divergence = number(feature, RiverQuantity::divergence);
+    bool const minor_path = has(RiverQuantity::calculated_order) &&
+                            !found_[RiverQuantity::calculated_order].front().column.is_null(feature) &&
+                            number(feature, RiverQuantity::calculated_order) == 0.0 &&
+                            number(feature, RiverQuantity::order) > 0.0;
+    if (divergence == 1.0) {
+        line.channel = Channel::main;
+    } else if (divergence == 2.0 || minor_path) {
+        line.channel = Channel::minor;
+    }
+    if (std::string const own = id_.text(feature); !own.empty()) {
+        feature_of_.try_emplace(own, line.feature);
+        if (std::string const down = down_.text(feature); !down.empty() && down != own) {
+            down_id_.emplace(line.feature, down);
+        }
+    }
+}
+
+RiverFields::Unnatural RiverFields::unnatural(OGRFeature const& feature) const {
+    auto const lower = [&](RiverQuantity quantity) { return lower_case(text(feature, quantity)); };
+    std::string const waterway = lower(RiverQuantity::waterway);
+    std::string const ftype = text(feature, RiverQuantity::ftype);
+    std::string const by_ftype = nhd_type(ftype);
+    int const fcode = static_cast<int>(number(feature, RiverQuantity::fcode));
+    std::string const by_fcode = nhd_type(fmt::format("{}", fcode / 100));
+    bool const natural_coast = lower(RiverQuantity::natural) == "coastline";
+    bool const is_coast = natural_coast || by_ftype == "Coastline" || by_fcode == "Coastline";
+    if (!waterway.empty() && !is_among(natural_waterways, waterway)) {
+        return {"waterway " + waterway, is_among(artificial_waterways, waterway), is_coast};
+    }
+    if (waterway.empty() && has(RiverQuantity::waterway)) {
+        for (Found const& way : found_[RiverQuantity::other_way]) {
+            if (std::string const kind = lower_case(way.column.text(feature)); !kind.empty()) {
+                return {lower_case(way.column.name()) + " " + kind, false, is_coast};
+            }
+        }
+    }
+    if (natural_coast) {
+        return {"natural coastline", false, is_coast};
+    }
+    if (lower(RiverQuantity::tunnel) == "flooded") {
+        return {"tunnel flooded", true, is_coast};
+    }
+    if (lower(RiverQuantity::man_made) == "pipeline") {
+        return {"man_made pipeline", true, is_coast};
+    }
+    if (!by_ftype.empty()) {
+        return {"FTYPE " + ftype, by_ftype != "Coastline", is_coast};
+    }
+    if (!by_fcode.empty()) {
+        return {fmt::format("FCODE {} {}", fcode, by_fcode), by_fcode != "Coastline", is_coast};
+    }
+    return {};
+}
+
+std::int64_t RiverFields::down_of(std::int64_t feature) const {
+    auto const down = down_id_.find(feature);
+    auto const below = down == down_id_.end() ? feature_of_.end() : feature_of_.find(down->second);
+    return below == feature_of_.end() || below->second == feature ? 0 : below->second;
+}
+
+void RiverFields::link(std::vector<RiverLine>& lines) const {
+    for (RiverLine& line : lines) {
+        line.down = down_of(line.feature);
+    }
+}
+
+// Lines.
+
+void OtherShapes::add(OGRGeometry const& shape, std::int64_t feature) {
+    Finding& first = types_[OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()))];
+    if (first.amount == 0.0) {
+        OGREnvelope box;
+        shape.getEnvelope(&box);
+        first.feature = feature;
+        first.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{};
+    }
+    first.amount += 1.0;
+    ++count_;
+}
+
+std::vector<Finding> OtherShapes::findings() const {
+    std::vector<Finding> findings;
+    for (auto const& [type, first] : types_) {
+        std::string const text =
+            first.amount == 1.0
+                ? fmt::format("1 shape of type {} is not a line and is skipped; it is in feature {}", type,
+                              first.feature)
+                : fmt::format("{} shapes of type {} are not lines and are skipped; the first is in feature {}",
+                              first.amount, type, first.feature);
+        findings.push_back({"not_a_line", 0, first.where, first.amount, text});
+    }
+    return findings;
+}
+
+namespace {
+
+using Parts = std::vector<std::vector<Vec3>>;
+
+void add_parts(OGRGeometry const& shape, std::int64_t feature, Parts& parts, OtherShapes& others) {
+    auto const flat = wkbFlatten(shape.getGeometryType());
+    if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
+        for (auto const* const part : *shape.toGeometryCollection()) {
+            add_parts(*part, feature, parts, others);
+        }
+    } else if (flat != wkbLineString) {
+        others.add(shape, feature);
+    } else if (shape.IsEmpty() == 0) {
+        OGRLineString const& drawn = *shape.toLineString();
+        std::vector<Vec3>& line = parts.emplace_back();
+        for (int i = 0; i < drawn.getNumPoints(); ++i) {
+            line.push_back({drawn.getX(i), drawn.getY(i), drawn.Is3D() != 0 ? drawn.getZ(i) : nan});
+        }
+    }
+}
+
+// Joins parts that are one line when each begins where the last ends. They stay where there is no such order, or
+// several.
+void join(Parts& parts) {
+    using Place = std::pair<double, double>;
+    auto const begin_of = [](std::vector<Vec3> const& part) { return Place{part.front().x, part.front().y}; };
+    auto const end_of = [](std::vector<Vec3> const& part) { return Place{part.back().x, part.back().y}; };
+    std::map<Place, std::size_t> begins;
+    std::map<Place, std::size_t> ends;
+    for (std::size_t i = 0; i < parts.size(); ++i) {
+        bool const placed = is_finite(plan(parts[i].front())) && is_finite(plan(parts[i].back()));
+        if (!placed || !begins.emplace(begin_of(parts[i]), i).second || !ends.emplace(end_of(parts[i]), i).second) {
+            return;
+        }
+    }
+    auto const first = std::ranges::find_if(parts, [&](auto const& part) { return !ends.contains(begin_of(part)); });
+    if (first == parts.end()) {
+        return;
+    }
+    std::vector<Vec3> line = *first;
+    std::size_t joined = 1;
+    for (auto next = begins.find(end_of(line)); next != begins.end(); next = begins.find(end_of(line))) {
+        line.insert(line.end(), parts[next->second].begin() + 1, parts[next->second].end());
+        ++joined;
+    }
+    if (joined == parts.size()) {
+        parts = {std::move(line)};
+    }
+}
+
+} // namespace
+
+std::vector<std::vector<Vec3>> parts_of(OGRGeometry const& shape, std::int64_t feature, OtherShapes& others) {
+    Parts parts;
+    std::unique_ptr<OGRGeometry> const straight(shape.getLinearGeometry());
+    add_parts(*straight, feature, parts, others);
+    return parts;
+}
+
+DrawnLine drawn_line(OGRGeometry const* shape, std::int64_t feature, OtherShapes& others) {
+    std::int64_t const before = others.count();
+    DrawnLine line{shape == nullptr ? Parts() : parts_of(*shape, feature, others)};
+    line.is_line = !line.parts.empty() || others.count() == before;
+    line.drawn_parts = static_cast<int>(line.parts.size());
+    if (line.parts.empty()) {
+        line.parts.emplace_back();
+    }
+    if (line.parts.size() > 1) {
+        join(line.parts);
+    }
+    return line;
 }
 
 } // namespace thalweg::io

@@ -3,61 +3,39 @@
 #include <thalweg/io/network/internal/network_tables.hpp>
 
 #include <algorithm>
-#include <array>
+#include <bit>
 #include <cmath>
-#include <iterator>
 #include <memory>
 #include <set>
-#include <sstream>
 
 #include <fmt/format.h>
 
-#include <thalweg/io/network/internal/table.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {
+
 namespace {
+
+using Kind = Column::Kind;
+using Value = Column::Value;
 
 constexpr std::size_t dbf_name = 10;
 constexpr std::size_t dbf_text = 254;
 
-std::string without_case(std::string text) {
-    std::ranges::transform(text, text.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return text;
-}
-
 /// As many bytes as fit, whole letters of UTF-8.
 std::string cut_to(std::string const& text, std::size_t most) {
-    if (text.size() <= most) {
-        return text;
-    }
-    std::size_t end = most;
-    while (end > 0 && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
+    std::size_t end = std::min(most, text.size());
+    while (end > 0 && end < text.size() && (static_cast<unsigned char>(text[end]) & 0xC0U) == 0x80U) {
         --end;
     }
     return text.substr(0, end);
 }
 
-std::set<std::string> in_lower(std::vector<std::string> const& names) {
+std::set<std::string> in_lower_case(std::vector<std::string> const& names) {
     std::set<std::string> result;
-    for (std::string const& name : names) {
-        result.insert(without_case(name));
-    }
+    std::ranges::transform(names, std::inserter(result, result.end()), lower_case);
     return result;
-}
-
-Column::Kind user_kind(AttributeTable::Type type, bool in_shapefile) {
-    using Type = AttributeTable::Type;
-    switch (type) {
-    case Type::integer: return Column::Kind::integer;
-    case Type::integer64: return Column::Kind::wide_integer;
-    case Type::real: return Column::Kind::real;
-    case Type::date: return Column::Kind::date;
-    case Type::time: return in_shapefile ? Column::Kind::text : Column::Kind::time; // dBase has dates alone
-    case Type::datetime: return in_shapefile ? Column::Kind::text : Column::Kind::datetime;
-    case Type::text: break;
-    }
-    return Column::Kind::text;
 }
 
 /// Decimals that leave room for the digits of the greatest value of a column of 24 characters.
@@ -68,43 +46,28 @@ int user_decimals(AttributeTable const& attributes, std::size_t column) {
             greatest = std::max(greatest, std::fabs(*real));
         }
     }
-    int digits = 1;
-    for (double power = 10.0; digits < 20 && power <= greatest; power *= 10.0) {
-        ++digits;
+    int decimals = 15;
+    for (double power = 1e5; decimals > 0 && power <= greatest; power *= 10.0) {
+        --decimals;
     }
-    constexpr int room = 20;
-    constexpr int most = 15;
-    return std::clamp(room - digits, 0, most);
+    return decimals;
 }
 
-/// Whether one of the names, a blank between them, is there.
-bool has_one_of(std::set<std::string> const& there, std::string_view names) {
-    std::istringstream words{std::string(names)};
-    return std::any_of(std::istream_iterator<std::string>(words), {},
-                       [&](std::string const& word) { return there.contains(word); });
-}
-
-/// The names, in small letters, by which a layer with these columns would be recognised as another schema's. The
-/// network schema has none: whoever reads it looks for no other.
-std::set<std::string> misleading_names(AttributeTable const& attributes, std::vector<std::string> const& taken,
-                                       Schema schema) {
+/// The names, in small letters, by which a layer with these columns would be recognised as another schema's. Beside the
+/// native schema there are none: whoever reads it looks for no other.
+std::set<std::string> misleading_names(AttributeTable const& attributes, std::set<std::string> there, Schema schema) {
     std::set<std::string> result;
-    if (schema == Schema::native) {
-        return result;
-    }
-    std::set<std::string> there = in_lower(taken);
     for (auto const& column : attributes.columns) {
-        there.insert(without_case(column.name));
+        there.insert(lower_case(column.name));
     }
     for (SchemaTable const& other : all_schemas()) {
-        bool const is_recognised =
-            std::ranges::all_of(other.told_by, [&](std::string_view names) { return has_one_of(there, names); });
-        if (other.schema == schema || !is_recognised) {
-            continue;
-        }
-        for (std::string_view const names : other.told_by) {
-            std::istringstream words{std::string(names)};
-            result.insert(std::istream_iterator<std::string>(words), {});
+        bool const is_recognised = std::ranges::all_of(other.told_by, [&](std::string_view names) {
+            return std::ranges::any_of(words_of(names), [&](auto const& word) { return there.contains(word); });
+        });
+        if (schema != Schema::native && other.schema != schema && is_recognised) {
+            for (std::string_view const names : other.told_by) {
+                std::ranges::copy(words_of(names), std::inserter(result, result.end()));
+            }
         }
     }
     return result;
@@ -114,17 +77,15 @@ std::set<std::string> misleading_names(AttributeTable const& attributes, std::ve
 
 std::vector<std::string> user_names(AttributeTable const& attributes, std::vector<std::string> const& taken,
                                     Schema schema) {
-    std::set<std::string> used = in_lower(taken);
-    std::set<std::string> const misleading = misleading_names(attributes, taken, schema);
-    for (char const* const reserved : {"fid", "geom", "geometry", "ogc_fid"}) {
-        used.insert(reserved);
-    }
+    std::set<std::string> used = in_lower_case(taken);
+    std::set<std::string> const misleading = misleading_names(attributes, used, schema);
+    used.insert({"fid", "geom", "geometry", "ogc_fid"});
     std::vector<std::string> names;
     for (auto const& column : attributes.columns) {
         std::string const own = column.name.empty() ? "column" : column.name;
-        bool const is_free = !used.contains(without_case(own)) && !misleading.contains(without_case(own));
+        bool const is_free = !used.contains(lower_case(own)) && !misleading.contains(lower_case(own));
         std::string name = is_free ? own : "u_" + own;
-        for (int k = 2; !used.insert(without_case(name)).second; ++k) {
+        for (int k = 2; !used.insert(lower_case(name)).second; ++k) {
             name = fmt::format("{}_{}", own, k);
         }
         names.push_back(name);
@@ -134,16 +95,16 @@ std::vector<std::string> user_names(AttributeTable const& attributes, std::vecto
 
 std::vector<std::string> short_user_names(std::vector<std::string> const& names,
                                           std::vector<std::string> const& taken) {
-    std::set<std::string> used = in_lower(taken);
+    std::set<std::string> used = in_lower_case(taken);
     for (std::string const& name : names) { // those that fit keep their names
         if (name.size() <= dbf_name) {
-            used.insert(without_case(name));
+            used.insert(lower_case(name));
         }
     }
     std::vector<std::string> result;
     for (std::string const& name : names) {
         std::string shorter = cut_to(name, dbf_name);
-        for (int k = 2; name.size() > dbf_name && !used.insert(without_case(shorter)).second; ++k) {
+        for (int k = 2; name.size() > dbf_name && !used.insert(lower_case(shorter)).second; ++k) {
             std::string const number = fmt::format("_{}", k);
             shorter = cut_to(name, dbf_name - number.size()) + number;
         }
@@ -165,15 +126,18 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
     for (std::size_t c = 0; c < names.size(); ++c) {
         Column column;
         column.name = names[c];
-        column.kind = user_kind(attributes.columns[c].type, short_names);
         column.is_users = true;
-        column.decimals = short_names && column.kind == Column::Kind::real ? user_decimals(attributes, c) : 0;
-        column.at = [&attributes, record, c, short_names](std::size_t row) -> Column::Value {
+        column.kind = static_cast<Kind>(attributes.columns[c].type); // both enumerations have one order
+        if (short_names && (column.kind == Kind::time || column.kind == Kind::datetime)) {
+            column.kind = Kind::text; // dBase has dates alone
+        }
+        column.decimals = short_names && column.kind == Kind::real ? user_decimals(attributes, c) : 0;
+        column.at = [&attributes, record, c, short_names](std::size_t row) -> Value {
             std::int64_t const r = record(row);
             if (r <= 0 || r > static_cast<std::int64_t>(attributes.rows.size())) {
                 return {};
             }
-            AttributeTable::Value value = attributes.rows[static_cast<std::size_t>(r - 1)][c];
+            Value value = attributes.rows[static_cast<std::size_t>(r - 1)][c];
             if (auto* const text = std::get_if<std::string>(&value); text != nullptr && short_names) {
                 *text = cut_to(*text, dbf_text);
             }
@@ -183,9 +147,182 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
     }
 }
 
+// Arcs in any schema.
+
 namespace {
 
-using Kind = Column::Kind;
+/// The quantities of a network's arcs in a schema.
+class Arcs {
+public:
+    Arcs(NetworkTables const& tables, SchemaTable const& schema)
+        : tables_(tables), plan_(tables.network.plan), schema_(schema),
+          z_unit_m_(schema.schema == Schema::native ? metres_in(tables.unit) : 1.0), key_(plan_.arc_count()),
+          mouth_(plan_.arc_count()), outlet_(plan_.arc_count()), length_up_m_(plan_.arc_count()),
+          longest_up_m_(plan_.arc_count()) {
+        auto const& upstream = plan_.upstream_order();
+        std::int64_t key = 0;
+        for (NodeId const n : upstream) { // outlets first
+            if (ArcId const a = plan_.out(n); a != no_arc) {
+                ArcId const below = down(a);
+                key_[a] = ++key;
+                outlet_[a] = below == no_arc ? a : outlet_[below];
+                mouth_[a] = below != no_arc && hack_of(below) == hack_of(a) ? mouth_[below] : a;
+            }
+        }
+        for (auto n = upstream.rbegin(); n != upstream.rend(); ++n) { // sources first
+            if (ArcId const a = plan_.out(*n); a != no_arc) {
+                for (ArcId const above : plan_.in(*n)) {
+                    length_up_m_[a] += length_up_m_[above];
+                    longest_up_m_[a] = std::max(longest_up_m_[a], longest_up_m_[above]);
+                }
+                length_up_m_[a] += plan_.length_m(a);
+                longest_up_m_[a] += plan_.length_m(a);
+            }
+        }
+    }
+
+    std::vector<Vec3> line(ArcId a) const {
+        std::vector<Vec3> line;
+        for (std::size_t i = 0; Vec2 const p : plan_.arc(a).line) {
+            line.push_back({p.x, p.y, z(a)[i++] / z_unit_m_});
+        }
+        if (schema_.drawn_upstream) {
+            std::ranges::reverse(line);
+        }
+        return line;
+    }
+
+    /// In m, m2 and m/m; NULL where it is not known, or there is no such arc.
+    Value value(Quantity quantity, ArcId a) const {
+        using enum Quantity;
+        Arc const& arc = plan_.arc(a);
+        NetworkOrders const& orders = tables_.orders;
+        bool const heights = tables_.heights || schema_.schema == Schema::native;
+        double const length_m = plan_.length_m(a);
+        double const dist_out_m = orders.node_dist_out_m[plan_.to(a)];
+        double const us_m2 = tables_.us_area_m2[a];
+        double const ds_m2 = tables_.ds_area_m2[a];
+        switch (quantity) {
+        case arc_id: return id(a);
+        case ds_arc: return id(down(a));
+        case us_arc_1: return id(up(a, 0));
+        case us_arc_2: return id(up(a, 1));
+        case us_arc_3: return id(up(a, 2));
+        case us_arc_4: return id(up(a, 3));
+        case us_arc_5: return id(up(a, 4));
+        case outlet_arc: return id(outlet_[a]);
+        case key: return key_of(a);
+        case ds_key: return key_of(down(a));
+        case us_key: return key_of(main_up(a));
+        case path: return key_of(mouth_[a]);
+        case ds_path: return key_of(mouth(down(a)));
+        case us_path: return key_of(mouth(main_up(a)));
+        case outlet_path: return key_of(mouth_[outlet_[a]]);
+        case from_node: return static_cast<std::int64_t>(plan_.from(a)) + 1;
+        case to_node: return static_cast<std::int64_t>(plan_.to(a)) + 1;
+        case n_up: return static_cast<std::int64_t>(above(a).size());
+        case basin_id: return orders.arc_basin[a];
+        case topo_ord: return orders.topological[a];
+        case strahler: return orders.strahler[a];
+        case shreve: return orders.shreve[a];
+        case hack: return hack_of(a);
+        case feature: return arc.feature;
+        case type: return arc.type.empty() ? "none" : arc.type; // a shapefile reads an empty text back as NULL
+        case braided: return tables_.braided != nullptr && (*tables_.braided)[a] != 0 ? 1 : 0;
+        case given: return arc.is_input ? 1 : 0;
+        case ds_hack: return down(a) == no_arc ? 0 : hack_of(down(a));
+        case n_down: return down(a) == no_arc ? 0 : 1;
+        case is_source: return above(a).empty() ? 1 : 0;
+        case is_outlet: return down(a) == no_arc ? 1 : 0;
+        case horton: return orders.strahler[mouth_[a]]; // orders never fall downstream
+        case scheidegger: return 2 * orders.shreve[a];
+        case drwal: return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[a])));
+        case length: return length_m;
+        case length_3d: return length_in_space(a);
+        case straight: return straight_m(a);
+        case z_up: return known(heights, z(a).front() / z_unit_m_);
+        case z_down: return known(heights, z(a).back() / z_unit_m_);
+        case drop: return known(heights, z(a).front() - z(a).back());
+        case slope: return known(heights, (z(a).front() - z(a).back()) / length_m);
+        case dist_out: return dist_out_m;
+        case dist_mid: return dist_out_m + length_m / 2.0;
+        case dist_up: return dist_out_m + length_m;
+        case dist_source: return longest_up_m_[a];
+        case length_us: return length_up_m_[a];
+        case sinuosity: return known(straight_m(a) > 0.0, length_m / straight_m(a));
+        case us_area: return known(!(us_m2 < 0.0), us_m2);
+        case ds_area: return known(!(ds_m2 < 0.0), ds_m2);
+        case own_area: return known(!(us_m2 < 0.0) && !(ds_m2 < 0.0), ds_m2 - us_m2);
+        case persistence: return known(!std::isinf(arc.persistence), arc.persistence);
+        case constant: break;
+        }
+        return {};
+    }
+
+private:
+    static Value known(bool is_known, double value) { return is_known ? Value(value) : Value(); }
+    Value id(ArcId a) const { return a == no_arc ? Value() : static_cast<std::int64_t>(a) + schema_.first_id; }
+    Value key_of(ArcId a) const { return a == no_arc ? Value() : key_[a]; }
+    std::vector<double> const& z(ArcId a) const { return tables_.network.arc_z[a]; }
+    int hack_of(ArcId a) const { return tables_.orders.hack[a]; }
+    ArcId mouth(ArcId a) const { return a == no_arc ? no_arc : mouth_[a]; }
+    ArcId down(ArcId a) const { return plan_.out(plan_.to(a)); }
+    std::span<ArcId const> above(ArcId a) const { return plan_.in(plan_.from(a)); }
+    ArcId up(ArcId a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : no_arc; }
+    /// The arc upstream on the same main stem.
+    ArcId main_up(ArcId a) const {
+        std::span<ArcId const> const upstream = above(a);
+        auto const found = std::ranges::find_if(upstream, [&](ArcId b) { return hack_of(b) == hack_of(a); });
+        return found == upstream.end() ? no_arc : *found;
+    }
+    double straight_m(ArcId a) const { return distance(plan_.arc(a).line.front(), plan_.arc(a).line.back()); }
+    double length_in_space(ArcId a) const {
+        auto const& line = plan_.arc(a).line;
+        double sum = 0.0;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            double const in_plan = distance(line[i - 1], line[i]);
+            double const rise = z(a)[i] - z(a)[i - 1];
+            sum += std::sqrt(in_plan * in_plan + rise * rise);
+        }
+        return sum;
+    }
+
+    NetworkTables const& tables_;
+    StreamNetwork const& plan_;
+    SchemaTable const& schema_;
+    double z_unit_m_;
+    std::vector<std::int64_t> key_;    ///< 1, 2, ... from the outlets upstream
+    std::vector<ArcId> mouth_;         ///< last arc downstream of the same main stem
+    std::vector<ArcId> outlet_;        ///< the arc at the outlet
+    std::vector<double> length_up_m_;  ///< of all arcs upstream and its own
+    std::vector<double> longest_up_m_; ///< of the longest path from a source, its own length included
+};
+
+/// The name of a field, or its first other one that fits into a shapefile.
+std::string short_name(SchemaField const& field) {
+    std::vector<std::string> const names = names_of(field);
+    auto const fits = std::ranges::find_if(names, [](auto const& name) { return name.size() <= dbf_name; });
+    return fits == names.end() ? names.front().substr(0, dbf_name) : *fits;
+}
+
+/// What is not known is the field's own word for it, and -1 where it has none.
+Value field_value(SchemaField const& field, Arcs const& arcs, ArcId a) {
+    if (field.quantity == Quantity::constant && field.kind == Kind::text) {
+        return std::string(field.text);
+    }
+    bool const is_real = field.kind == Kind::real;
+    Value value = arcs.value(field.quantity, a);
+    if (std::holds_alternative<std::monostate>(value)) {
+        double const none = field.quantity == Quantity::constant ? field.value
+                            : std::isnan(field.unknown)          ? -1.0
+                                                                 : field.unknown;
+        return is_real ? Value(none) : Value(static_cast<std::int64_t>(none));
+    }
+    if (auto* const real = std::get_if<double>(&value)) {
+        *real /= field.unit;
+    }
+    return value;
+}
 
 template <class Get> Column integer(char const* name, Get get) {
     return {name, Kind::integer, 0, [get](std::size_t row) { return static_cast<std::int64_t>(get(row)); }};
@@ -199,92 +336,103 @@ template <class Get> Column text(char const* name, Get get) {
     return {name, Kind::text, 0, [get](std::size_t row) { return std::string(get(row)); }};
 }
 
-/// Files in metres have no such column: it would change none of them but their bytes.
+/// Files in metres have no such column: only their bytes would change.
 void add_unit(Table& table, HeightUnit unit) {
     if (unit != HeightUnit::metre) {
         table.columns.push_back(text("z_unit", [unit](auto) { return name_of(unit); }));
     }
 }
 
-} // namespace
-
-double length_in_space(std::vector<Vec2> const& line, std::vector<double> const& z) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        double const plan = distance(line[i - 1], line[i]);
-        double const rise = z[i] - z[i - 1];
-        sum += std::sqrt(plan * plan + rise * rise);
-    }
-    return sum;
-}
-
-Table arcs_table(NetworkTables const& tables, bool short_names) {
-    StreamNetwork const& plan = tables.network.plan;
-    auto const& arc_z = tables.network.arc_z;
-    NetworkOrders const& orders = tables.orders;
-    auto const arc = [&](std::size_t row) -> Arc const& { return plan.arc(row); };
-    auto const up = [&](std::size_t row) { return plan.from(row); };
-    auto const down = [&](std::size_t row) { return plan.to(row); };
-
-    double const unit = metres_in(tables.unit);
-    Table table{"arcs", Table::Shape::line, plan.arc_count(), {}, {}};
-    table.shape_at = [arc, unit, &arc_z](std::size_t row) {
-        std::vector<Vec3> line;
-        for (std::size_t i = 0; Vec2 const p : arc(row).line) {
-            line.push_back({p.x, p.y, arc_z[row][i++] / unit});
+Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool short_names) {
+    auto const arcs = std::make_shared<Arcs const>(tables, schema);
+    Table table{std::string(schema.layer), Table::Shape::line, tables.network.plan.arc_count(), {}, {}};
+    table.shape_at = [arcs](std::size_t row) { return arcs->line(row); };
+    for (SchemaField const& field : schema.fields) {
+        if (field.written) {
+            table.columns.push_back({short_names ? short_name(field) : std::string(field.name), field.kind,
+                                     field.decimals,
+                                     [arcs, &field](std::size_t row) { return field_value(field, *arcs, row); }});
         }
-        return line;
-    };
-    table.columns = {
-        integer("arc_id", [](auto row) { return row + 1; }),
-        integer("from_node", [up](auto row) { return up(row) + 1; }),
-        integer("to_node", [down](auto row) { return down(row) + 1; }),
-        integer("ds_arc", [down, &plan](auto row) { return plan.out(down(row)) + 1; }),
-        integer("n_up", [up, &plan](auto row) { return plan.in(up(row)).size(); }),
-        integer("basin_id", [&orders](auto row) { return orders.arc_basin[row]; }),
-        integer("topo_ord", [&orders](auto row) { return orders.topological[row]; }),
-        integer("strahler", [&orders](auto row) { return orders.strahler[row]; }),
-        integer("shreve", [&orders](auto row) { return orders.shreve[row]; }),
-        integer("hack", [&orders](auto row) { return orders.hack[row]; }),
-        real("length", length_decimals, [&plan](auto row) { return plan.length_m(row); }),
-        real("length_3d", length_decimals,
-             [arc, &arc_z](auto row) { return length_in_space(arc(row).line, arc_z[row]); }),
-        real("straight", length_decimals,
-             [arc](auto row) { return distance(arc(row).line.front(), arc(row).line.back()); }),
-        real("z_up", length_decimals, [unit, &arc_z](auto row) { return arc_z[row].front() / unit; }),
-        real("z_down", length_decimals, [unit, &arc_z](auto row) { return arc_z[row].back() / unit; }),
-        real("dist_out", length_decimals, [down, &orders](auto row) { return orders.node_dist_out_m[down(row)]; }),
-        real("slope", slope_decimals,
-             [&arc_z, &plan](auto row) { return (arc_z[row].front() - arc_z[row].back()) / plan.length_m(row); }),
-        real("us_area", area_decimals, [&area = tables.us_area_m2](auto row) { return area[row]; }),
-        real("ds_area", area_decimals, [&area = tables.ds_area_m2](auto row) { return area[row]; }),
-        real("survives", length_decimals,
-             [arc](auto row) { return std::isinf(arc(row).persistence) ? -1.0 : arc(row).persistence; }),
-        {"feature", Kind::wide_integer, 0, [arc](std::size_t row) { return arc(row).feature; }},
-        // A shapefile reads an empty text back as NULL.
-        text("type", [arc](auto row) { return arc(row).type.empty() ? "none" : arc(row).type; }),
-        integer("braided", [of = tables.braided](auto row) { return of != nullptr && (*of)[row] != 0 ? 1 : 0; }),
-        integer("given", [arc](auto row) { return arc(row).is_input ? 1 : 0; }),
-    };
+    }
     if (tables.user != nullptr) {
         add_user_columns(
             table, tables.user->attributes, [&user = *tables.user](std::size_t row) { return user.record[row]; },
-            short_names);
+            short_names, schema.schema);
     }
-    add_unit(table, tables.unit);
+    if (schema.schema == Schema::native) {
+        add_unit(table, tables.unit);
+    }
     return table;
 }
 
+/// Throws BadInput when the tables are not those of the network: else another arc's numbers would be written.
+void require_whole(NetworkTables const& tables, std::string const& what) {
+    StreamNetwork const& plan = tables.network.plan;
+    auto const& node_z = tables.network.node_z;
+    auto const& arc_z = tables.network.arc_z;
+    NetworkOrders const& orders = tables.orders;
+    std::size_t const arcs = plan.arc_count();
+    std::size_t const nodes = plan.node_count();
+    auto const each = [](std::size_t count, auto const&... values) { return ((values.size() == count) && ...); };
+    refuse_if<BadInput>(arcs == 0, "{}: the network has no arcs", what);
+    refuse_if<BadInput>(
+        !each(arcs, arc_z, orders.strahler, orders.shreve, orders.hack, orders.topological, orders.arc_basin,
+              tables.us_area_m2, tables.ds_area_m2) ||
+            !each(nodes, node_z, orders.node_basin, orders.node_strahler, orders.node_dist_out_m,
+                  tables.node_area_m2) ||
+            (tables.braided != nullptr && tables.braided->size() != arcs) ||
+            (tables.user != nullptr && tables.user->record.size() != arcs),
+        "{}: heights, orders, areas, braids and records do not have one value for each of {} arcs and {} nodes", what,
+        arcs, nodes);
+    for (ArcId a = 0; a < arcs; ++a) {
+        auto const& line = plan.arc(a).line;
+        NodeId const from = plan.from(a);
+        NodeId const to = plan.to(a);
+        bool const meets = line.size() >= 2 && arc_z[a].size() == line.size() && line.front() == plan.node(from).at &&
+                           line.back() == plan.node(to).at && arc_z[a].front() == node_z[from] &&
+                           arc_z[a].back() == node_z[to];
+        refuse_if<BadInput>(!meets, "{}: arc {} does not begin at node {} and end at node {}", what, a + 1, from + 1,
+                            to + 1);
+    }
+    for (NodeId n = 0; n < nodes; ++n) {
+        refuse_if<BadInput>(plan.basin(n) == 0, "{}: node {} at ({}, {}) reaches no outlet", what, n + 1,
+                            plan.node(n).at.x, plan.node(n).at.y);
+    }
+}
+
+} // namespace
+
+std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
+                                  std::string const& what) {
+    require_whole(tables, what);
+    StreamNetwork const& plan = tables.network.plan;
+    SchemaTable const& words = table_of(schema);
+    auto const most = static_cast<std::size_t>(words.most_upstream);
+    for (NodeId n = 0; n < plan.node_count(); ++n) {
+        refuse_if<BadInput>(most > 0 && plan.out(n) != no_arc && plan.in(n).size() > most,
+                            "{}: {} rivers meet at ({}, {}), but {} names no more than {} upstream of one: split "
+                            "confluences (--max-upstream {})",
+                            what, plan.in(n).size(), plan.node(n).at.x, plan.node(n).at.y, words.name, most, most);
+    }
+    std::vector<Table> layers{arcs_table(tables, words, short_names)};
+    if (schema == Schema::native) {
+        layers.push_back(nodes_table(tables));
+    }
+    return layers;
+}
+
+// The other tables of the native schema.
+
 Table nodes_table(NetworkTables const& tables) {
     auto const& plan = tables.network.plan;
-    auto const& node_z = tables.network.node_z;
     NetworkOrders const& orders = tables.orders;
-
-    double const unit = metres_in(tables.unit);
+    auto const z = [&z_m = tables.network.node_z, unit_m = metres_in(tables.unit)](NodeId n) {
+        return z_m[n] / unit_m;
+    };
     Table table{"nodes", Table::Shape::point, plan.node_count(), {}, {}};
-    table.shape_at = [unit, &plan, &node_z](std::size_t row) {
+    table.shape_at = [z, &plan](std::size_t row) {
         Vec2 const p = plan.node(row).at;
-        return std::vector<Vec3>{{p.x, p.y, node_z[row] / unit}};
+        return std::vector<Vec3>{{p.x, p.y, z(row)}};
     };
     table.columns = {
         integer("node_id", [](auto row) { return row + 1; }),
@@ -297,7 +445,7 @@ Table nodes_table(NetworkTables const& tables) {
         integer("deg_out", [&plan](auto row) { return plan.out(row) == no_arc ? 0 : 1; }),
         integer("basin_id", [&orders](auto row) { return orders.node_basin[row]; }),
         integer("strahler", [&orders](auto row) { return orders.node_strahler[row]; }),
-        real("z", length_decimals, [unit, &node_z](auto row) { return node_z[row] / unit; }),
+        real("z", length_decimals, z),
         real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[row]; }),
         real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[row]; }),
     };
@@ -305,43 +453,40 @@ Table nodes_table(NetworkTables const& tables) {
     return table;
 }
 
-Table ridges_table(RidgeLines const& ridges, HeightUnit unit) {
-    auto const ridge = [&ridges](std::size_t row) -> RidgeLine const& { return ridges.lines[row]; };
-    auto const lower = [](Vec3 const& a, Vec3 const& b) { return a.z < b.z; };
+namespace {
 
-    Table table{"ridges", Table::Shape::line, ridges.lines.size(), {}, {}};
-    double const metres = metres_in(unit);
-    table.shape_at = [ridge, metres](std::size_t row) {
-        std::vector<Vec3> line = ridge(row).line;
-        for (Vec3& p : line) {
-            p.z /= metres;
+Table ridges_table(RidgeLines const& ridges, HeightUnit unit, std::string const& what) {
+    for (std::size_t i = 0; i < ridges.lines.size(); ++i) {
+        RidgeLine const& ridge = ridges.lines[i];
+        refuse_if<BadInput>(ridge.line.size() < 2, "{}: ridge {} between streams {} and {} has fewer than two vertices",
+                            what, i + 1, ridge.left, ridge.right);
+    }
+    auto const ridge = [&ridges](std::size_t row) -> RidgeLine const& { return ridges.lines[row]; };
+    auto const line = [ridge, unit_m = metres_in(unit)](std::size_t row) {
+        std::vector<Vec3> drawn = ridge(row).line;
+        for (Vec3& p : drawn) {
+            p.z /= unit_m;
         }
-        return line;
+        return drawn;
     };
+    Table table{"ridges", Table::Shape::line, ridges.lines.size(), {}, line};
     table.columns = {
         integer("ridge_id", [](auto row) { return row + 1; }),
         integer("left", [ridge](auto row) { return ridge(row).left; }),
         integer("right", [ridge](auto row) { return ridge(row).right; }),
         real("length", length_decimals, [ridge](auto row) { return length_in_plan(ridge(row).line); }),
-        real("z_min", length_decimals,
-             [=](auto row) { return std::ranges::min_element(ridge(row).line, lower)->z / metres; }),
-        real("z_max", length_decimals,
-             [=](auto row) { return std::ranges::max_element(ridge(row).line, lower)->z / metres; }),
+        real("z_min", length_decimals, [line](auto row) { return std::ranges::min(line(row), {}, &Vec3::z).z; }),
+        real("z_max", length_decimals, [line](auto row) { return std::ranges::max(line(row), {}, &Vec3::z).z; }),
     };
     add_unit(table, unit);
     return table;
 }
 
+/// Lines that are not in the network, in plan.
 Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user) {
     auto const one = [&secondary](std::size_t row) -> SecondaryLine const& { return secondary[row]; };
     Table table{"secondary", Table::Shape::plan_line, secondary.size(), {}, {}};
-    table.shape_at = [one](std::size_t row) {
-        std::vector<Vec3> line = one(row).vertices;
-        for (Vec3& v : line) {
-            v.z = 0.0;
-        }
-        return line;
-    };
+    table.shape_at = [one](std::size_t row) { return one(row).vertices; };
     table.columns = {
         {"feature", Kind::wide_integer, 0, [one](std::size_t row) { return one(row).feature; }},
         text("reason", [one](auto row) { return one(row).reason; }),
@@ -354,25 +499,51 @@ Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData cons
     return table;
 }
 
+/// The features that arcs are made of.
 Table sources_table(UserData const& user) {
-    struct Row {
-        std::int64_t arc;
-        Stretch stretch;
-    };
-    auto const rows = std::make_shared<std::vector<Row>>();
+    auto const rows = std::make_shared<std::vector<std::pair<std::size_t, Stretch>>>();
     for (std::size_t a = 0; a < user.sources.size(); ++a) {
-        for (Stretch const& s : user.sources[a]) {
-            rows->push_back({static_cast<std::int64_t>(a) + 1, s});
+        for (Stretch const& stretch : user.sources[a]) {
+            rows->emplace_back(a + 1, stretch);
         }
     }
     Table table{"sources", Table::Shape::none, rows->size(), {}, {}};
     table.columns = {
-        integer("arc_id", [rows](auto row) { return (*rows)[row].arc; }),
-        {"feature", Kind::wide_integer, 0, [rows](std::size_t row) { return (*rows)[row].stretch.feature; }},
-        real("from_m", length_decimals, [rows](auto row) { return (*rows)[row].stretch.from_m; }),
-        real("to_m", length_decimals, [rows](auto row) { return (*rows)[row].stretch.to_m; }),
+        integer("arc_id", [rows](auto row) { return (*rows)[row].first; }),
+        {"feature", Kind::wide_integer, 0, [rows](std::size_t row) { return (*rows)[row].second.feature; }},
+        real("from_m", length_decimals, [rows](auto row) { return (*rows)[row].second.from_m; }),
+        real("to_m", length_decimals, [rows](auto row) { return (*rows)[row].second.to_m; }),
     };
     return table;
+}
+
+Table run_table(std::map<std::string, std::string> const& rows) {
+    auto const row_at = [&rows](std::size_t row) { return *std::next(rows.begin(), static_cast<std::ptrdiff_t>(row)); };
+    return {"run",
+            Table::Shape::none,
+            rows.size(),
+            {text("name", [row_at](auto row) { return row_at(row).first; }),
+             text("value", [row_at](auto row) { return row_at(row).second; })},
+            {}};
+}
+
+} // namespace
+
+std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string const& what) {
+    std::vector<Table> layers = network_layers(tables, Schema::native, false, what);
+    if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
+        layers.push_back(ridges_table(*tables.ridges, tables.unit, what));
+    }
+    if (tables.secondary != nullptr && !tables.secondary->empty()) {
+        layers.push_back(secondary_table(*tables.secondary, tables.user));
+    }
+    bool const has_sources =
+        tables.user != nullptr && std::ranges::any_of(tables.user->sources, [](auto const& of) { return !of.empty(); });
+    if (has_sources) {
+        layers.push_back(sources_table(*tables.user));
+    }
+    layers.push_back(run_table(tables.run));
+    return layers;
 }
 
 } // namespace thalweg::io

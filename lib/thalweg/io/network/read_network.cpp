@@ -3,49 +3,21 @@
 #include <thalweg/io/network/read_network.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
-#include <cmath>
-#include <memory>
-#include <tuple>
-#include <utility>
+#include <map>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {
-namespace {
-
-constexpr std::size_t kept = 1000;
-
-} // namespace
-
-void Notes::add(std::string const& source, Finding finding) {
-    if (strict_) {
-        throw BadInput(source + ": " + finding.text);
-    }
-    if (++count_[finding.kind] <= kept) {
-        findings_.push_back(std::move(finding));
-    }
-}
-
-std::vector<Finding> Notes::take() {
-    for (auto const& [kind, count] : count_) {
-        if (count > kept) {
-            std::size_t const more = count - kept;
-            findings_.push_back({kind, 0, {}, static_cast<double>(more), fmt::format("{}: {} more", kind, more)});
-        }
-    }
-    count_.clear();
-    return std::exchange(findings_, {});
-}
 
 namespace {
 
@@ -63,9 +35,10 @@ template <class Number> std::vector<Named> by_number(std::size_t count, Number c
     return named;
 }
 
-std::vector<Named>::const_iterator find(std::vector<Named> const& named, std::int64_t number) {
+// Null when none has the number.
+FileArc const* find(NetworkFile const& file, std::vector<Named> const& named, std::int64_t number) {
     auto const found = std::ranges::lower_bound(named, number, {}, &Named::first);
-    return found != named.end() && found->first == number ? found : named.end();
+    return found != named.end() && found->first == number ? &file.arcs[found->second] : nullptr;
 }
 
 std::vector<Named> by_id(NetworkFile const& file) {
@@ -77,39 +50,26 @@ std::uint64_t bits(double v) {
     return std::bit_cast<std::uint64_t>(v + 0.0);
 }
 
-struct End {
-    std::array<std::uint64_t, 2> place = {};
-    std::int64_t* node = nullptr;
-};
-
 } // namespace
 
 void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys) {
     auto const by_key = by_number(keys.size(), [&](std::size_t i) { return keys[i]; });
     for (std::size_t i = 0; i < file.arcs.size(); ++i) {
-        if (ds_keys[i] == 0) {
-            file.arcs[i].ds_arc = 0;
-            continue;
-        }
-        auto const found = find(by_key, ds_keys[i]);
-        file.arcs[i].ds_arc = found == by_key.end() ? -ds_keys[i] : file.arcs[found->second].id;
+        FileArc const* const below = ds_keys[i] == 0 ? nullptr : find(file, by_key, ds_keys[i]);
+        file.arcs[i].ds_arc = below == nullptr ? -ds_keys[i] : below->id;
     }
 }
 
 void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
     auto const ids = by_id(file);
     for (FileArc& arc : file.arcs) {
-        if (arc.ds_arc == 0 || find(ids, arc.ds_arc) != ids.end()) {
+        if (arc.ds_arc == 0 || find(file, ids, arc.ds_arc) != nullptr) {
             continue;
         }
         std::int64_t const below = arc.ds_arc < 0 ? -arc.ds_arc : arc.ds_arc - file.id_shift;
         std::int64_t const id = arc.id - file.id_shift;
-        notes.add(what,
-                  {"cut_below",
-                   id,
-                   {},
-                   static_cast<double>(below),
-                   fmt::format("arc {} flows into {}, which is not in the file: treated as an outlet", id, below)});
+        notes.add(what, "cut_below", id, static_cast<double>(below),
+                  fmt::format("arc {} flows into {}, which is not in the file: treated as an outlet", id, below));
         file.says.basin = false; // those of outlets beyond
         arc.ds_arc = 0;
     }
@@ -120,13 +80,11 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
     std::size_t down = 0;
     std::size_t up = 0;
     for (FileArc const& arc : file.arcs) {
-        auto const found = find(ids, arc.ds_arc);
-        if (found == ids.end() || arc.line.empty() || file.arcs[found->second].line.empty()) {
-            continue;
+        FileArc const* const below = find(file, ids, arc.ds_arc);
+        if (below != nullptr && !arc.line.empty() && !below->line.empty()) {
+            down += plan(arc.line.back()) == plan(below->line.front()) ? 1U : 0U;
+            up += plan(arc.line.front()) == plan(below->line.back()) ? 1U : 0U;
         }
-        auto const& below = file.arcs[found->second].line;
-        down += plan(arc.line.back()) == plan(below.front()) ? 1U : 0U;
-        up += plan(arc.line.front()) == plan(below.back()) ? 1U : 0U;
     }
     bool const upstream = up == down ? drawn_upstream : up > down;
     if (upstream) {
@@ -136,92 +94,63 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
         }
     }
     if (upstream != drawn_upstream) {
-        std::string const text = fmt::format("most lines are drawn {}, against this schema: all {} were {}",
-                                             upstream ? "upstream" : "downstream", file.arcs.size(),
-                                             upstream ? "reversed" : "left as they are drawn");
-        notes.add(what, {"turned", 0, {}, static_cast<double>(file.arcs.size()), text});
+        notes.add(what, "turned", 0, static_cast<double>(file.arcs.size()),
+                  fmt::format("most lines are drawn {}, against this schema: all {} were {}",
+                              upstream ? "upstream" : "downstream", file.arcs.size(),
+                              upstream ? "reversed" : "left as they are drawn"));
     }
 }
 
 void name_ends(NetworkFile& file) {
-    std::vector<End> ends;
-    ends.reserve(2 * file.arcs.size());
+    std::map<std::array<std::uint64_t, 2>, std::int64_t> nodes; // by place
+    auto const node_at = [&](Vec3 const& p) {
+        std::int64_t const next = static_cast<std::int64_t>(nodes.size()) + 1;
+        return nodes.try_emplace({bits(p.x), bits(p.y)}, next).first->second;
+    };
     for (FileArc& arc : file.arcs) {
-        arc.from_node = 0;
-        arc.to_node = 0;
-        if (!arc.line.empty()) {
-            ends.push_back({{bits(arc.line.front().x), bits(arc.line.front().y)}, &arc.from_node});
-            ends.push_back({{bits(arc.line.back().x), bits(arc.line.back().y)}, &arc.to_node});
-        }
-    }
-    std::vector<std::size_t> order(ends.size());
-    for (std::size_t i = 0; i < order.size(); ++i) {
-        order[i] = i;
-    }
-    std::ranges::sort(order, {}, [&](std::size_t i) { return std::tuple(ends[i].place, i); });
-    // The first end at a place, in the order of the arcs, stands for the place.
-    std::vector<std::size_t> first(ends.size());
-    for (std::size_t k = 0; k < order.size(); ++k) {
-        bool const same = k > 0 && ends[order[k]].place == ends[order[k - 1]].place;
-        first[order[k]] = same ? first[order[k - 1]] : order[k];
-    }
-    std::int64_t nodes = 0;
-    for (std::size_t i = 0; i < ends.size(); ++i) {
-        *ends[i].node = first[i] == i ? ++nodes : *ends[first[i]].node;
+        arc.from_node = arc.line.empty() ? 0 : node_at(arc.line.front());
+        arc.to_node = arc.line.empty() ? 0 : node_at(arc.line.back());
     }
 }
 
 void place_nodes(NetworkFile& file) {
-    using Place = std::array<std::uint64_t, 3>;
     struct Claim {
-        std::int64_t node = 0;
-        Place place = {};
-        std::size_t end = 0; // in the order of the arcs
+        std::size_t ends = 0;
+        std::size_t first = 0; // of them, in the order of the arcs
         Vec3 at;
     };
-    std::vector<Claim> claims;
-    claims.reserve(2 * file.arcs.size());
-    for (std::size_t i = 0; i < file.arcs.size(); ++i) {
-        FileArc const& arc = file.arcs[i];
-        if (arc.line.empty()) {
-            continue;
+    std::map<std::pair<std::int64_t, std::array<std::uint64_t, 3>>, Claim> claims; // by node and place
+    std::size_t ends = 0;
+    auto const claim = [&](std::int64_t node, Vec3 const& p) {
+        if (node != 0) {
+            ++claims.try_emplace({node, {bits(p.x), bits(p.y), bits(p.z)}}, Claim{0, ends++, p}).first->second.ends;
         }
-        for (auto const& [node, at, end] : {std::tuple(arc.from_node, arc.line.front(), 2 * i),
-                                            std::tuple(arc.to_node, arc.line.back(), 2 * i + 1)}) {
-            if (node != 0) {
-                claims.push_back({node, {bits(at.x), bits(at.y), bits(at.z)}, end, at});
-            }
+    };
+    for (FileArc const& arc : file.arcs) {
+        if (!arc.line.empty()) {
+            claim(arc.from_node, arc.line.front());
+            claim(arc.to_node, arc.line.back());
         }
     }
-    std::ranges::sort(claims, {}, [](Claim const& c) { return std::tuple(c.node, c.place, c.end); });
     file.nodes.clear();
-    // How many ends the node has at the place chosen for it, and which of them is the first.
-    std::size_t most = 0;
-    std::size_t earliest = 0;
-    for (std::size_t k = 0; k < claims.size();) {
-        Claim const& claim = claims[k];
-        std::size_t next = k;
-        while (next < claims.size() && claims[next].node == claim.node && claims[next].place == claim.place) {
-            ++next;
-        }
-        bool const is_new = file.nodes.empty() || file.nodes.back().id != claim.node;
+    Claim best; // of the last node
+    for (auto const& [key, place] : claims) {
+        bool const is_new = file.nodes.empty() || file.nodes.back().id != key.first;
         if (is_new) {
-            file.nodes.push_back({claim.node, claim.at});
+            file.nodes.push_back({key.first, place.at});
         }
-        if (is_new || next - k > most || (next - k == most && claim.end < earliest)) {
-            file.nodes.back().at = claim.at;
-            most = next - k;
-            earliest = claim.end;
+        if (is_new || place.ends > best.ends || (place.ends == best.ends && place.first < best.first)) {
+            file.nodes.back().at = place.at;
+            best = place;
         }
-        k = next;
     }
 }
 
 void link_by_nodes(NetworkFile& file) {
     auto const beginning = by_number(file.arcs.size(), [&](std::size_t i) { return file.arcs[i].from_node; });
     for (FileArc& arc : file.arcs) {
-        auto const found = find(beginning, arc.to_node);
-        arc.ds_arc = arc.to_node == 0 || found == beginning.end() ? 0 : file.arcs[found->second].id;
+        FileArc const* const below = arc.to_node == 0 ? nullptr : find(file, beginning, arc.to_node);
+        arc.ds_arc = below == nullptr ? 0 : below->id;
     }
 }
 
@@ -253,16 +182,12 @@ void bridge_points(NetworkFile& file, std::string const& what, Notes& notes) {
     for (FileArc& arc : file.arcs) {
         arc.ds_arc = next_of(arc.ds_arc);
     }
-    for (auto const& [id, down] : below) {
-        std::int64_t const next = next_of(down);
-        notes.add(what,
-                  {"bridged",
-                   id - file.id_shift,
-                   {},
-                   next == 0 ? 0.0 : static_cast<double>(next - file.id_shift),
-                   next == 0 ? fmt::format("arc {} has no length: what flows into it ends there", id - file.id_shift)
-                             : fmt::format("arc {} has no length: what flows into it flows into arc {}",
-                                           id - file.id_shift, next - file.id_shift)});
+    for (auto const& [bridged, down] : below) {
+        std::int64_t const id = bridged - file.id_shift;
+        std::int64_t const next = next_of(down) == 0 ? 0 : next_of(down) - file.id_shift;
+        notes.add(what, "bridged", id, static_cast<double>(next),
+                  fmt::format("arc {} has no length: what flows into it {}", id,
+                              next_of(down) == 0 ? "ends there" : fmt::format("flows into arc {}", next)));
     }
     file.says.strahler = false;
 }
@@ -271,58 +196,32 @@ void bridge_points(NetworkFile& file, std::string const& what, Notes& notes) {
 void place_findings(NetworkFile& file) {
     auto const ids = by_id(file);
     for (Finding& finding : file.findings) {
-        auto const found = find(ids, finding.feature + file.id_shift);
-        if (finding.feature != 0 && found != ids.end() && !file.arcs[found->second].line.empty()) {
-            finding.where = plan(file.arcs[found->second].line.front());
+        FileArc const* const arc = find(file, ids, finding.feature + file.id_shift);
+        if (finding.feature != 0 && arc != nullptr && !arc->line.empty()) {
+            finding.where = plan(arc->line.front());
         }
     }
 }
 
 Wish wish_of(ReadNetworkParams const& params) {
-    Wish wish{.schema = params.schema,
-              .arcs_layer = params.arcs_layer,
-              .nodes_layer = params.nodes_layer,
-              .crs = params.crs,
-              .source_crs = params.source_crs,
-              .any_lines = params.any_lines,
-              .bridge = params.bridge};
+    Wish wish{params};
+    std::vector<std::string> names{"node_id"};
+    for (std::size_t q = 0; q < static_cast<std::size_t>(Quantity::constant); ++q) {
+        names.emplace_back(name_of(static_cast<Quantity>(q)));
+    }
     for (auto const& [quantity, field] : params.fields) {
-        if (quantity == "node_id") {
-            wish.node_id = field;
-            continue;
-        }
         auto const known = quantity_of(quantity);
-        if (!known) {
-            std::vector<std::string> names{"node_id"};
-            for (std::size_t q = 0; q < static_cast<std::size_t>(Quantity::constant); ++q) {
-                names.emplace_back(name_of(static_cast<Quantity>(q)));
-            }
-            throw BadInput(fmt::format("io.read_network: '{}' is not a quantity of the network schema.{} ({})",
-                                       quantity, did_you_mean(quantity, names), fmt::join(names, ", ")));
-        }
-        wish.fields[*known] = field;
+        refuse_if<BadInput>(!known && quantity != "node_id",
+                            "io.read_network: '{}' is not a quantity of the network schema.{} ({})", quantity,
+                            did_you_mean(quantity, names), listed(names));
+        (known ? wish.columns[*known] : wish.node_id) = field;
     }
     return wish;
 }
 
-FilePlaces places_of(NetworkFile const& file) {
-    FilePlaces places;
-    for (FileArc const& arc : file.arcs) {
-        for (Vec3 const& p : arc.line) {
-            if (is_finite(plan(p))) {
-                places.add(p.x, p.y);
-            }
-        }
-    }
-    return places;
-}
-
-/// Brings heights into metres, from the unit that the layer of arcs says.
+/// Converts heights into metres, from the unit that the layer of arcs names.
 void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Notes& notes) {
     double const unit = height_unit_of(*arcs.layer, wish.source_crs);
-    if (unit == 1.0) {
-        return;
-    }
     for (FileArc& arc : file.arcs) {
         for (Vec3& p : arc.line) {
             p.z *= unit;
@@ -334,106 +233,95 @@ void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Not
         node.at.z *= unit;
         node.columns.z_m *= unit;
     }
-    if (!wish.whole) {
-        notes.add(arcs.what, {"heights_converted",
-                              0,
-                              {},
-                              unit,
-                              fmt::format("its heights, in {}, were converted into metres", words_for_unit(unit))});
+    if (unit != 1.0 && !wish.whole) {
+        notes.add(arcs.what, "heights_converted", 0, unit,
+                  fmt::format("its heights, in {}, were converted into metres", words_for_unit(unit)));
     }
 }
 
-void bring_into_metres(NetworkFile& file, Layer const& arcs, Layer const* nodes, Wish const& wish, Notes& notes,
-                       Run const& run) {
+void bring_into_metres(NetworkFile& file, Layer const& arcs, std::optional<Layer> const& nodes, Wish const& wish,
+                       Notes& notes, Run const& run) {
     OGRSpatialReference const own = crs_of_layer(arcs.layer->GetSpatialRef(), wish.source_crs);
     bool const has_none = own.IsEmpty() != 0;
-    if (nodes != nullptr) {
+    if (nodes) {
         OGRSpatialReference const other = crs_of_layer(nodes->layer->GetSpatialRef(), wish.source_crs);
-        if (!has_none && other.IsEmpty() == 0 && own.IsSame(&other) == FALSE && name_of(own) != name_of(other)) {
-            throw BadInput(fmt::format("{} is in {} and {} in {}: reproject both to one CRS", arcs.what, own.GetName(),
-                                       nodes->what, other.GetName()));
-        }
+        refuse_if<BadInput>(!has_none && other.IsEmpty() == 0 && own.IsSame(&other) == FALSE &&
+                                name_of(own) != name_of(other),
+                            "{} is in {} and {} in {}: reproject both to one CRS", arcs.what, own.GetName(),
+                            nodes->what, other.GetName());
     }
+    bool const native = file.schema == "native";
     if (has_none) {
-        if (file.schema != "native") {
-            notes.add(arcs.what, {"no_crs", 0, {}, 0.0, "no CRS: its coordinates are treated as metres"});
+        if (!native) {
+            notes.add(arcs.what, "no_crs", 0, 0.0, "no CRS: its coordinates are treated as metres");
         }
         return;
     }
-    FilePlaces const places = places_of(file);
+    FilePlaces places;
+    for (FileArc const& arc : file.arcs) {
+        for (Vec3 const& p : arc.line) {
+            if (is_finite(plan(p))) {
+                places.add(p.x, p.y);
+            }
+        }
+    }
     if (!places.any()) {
         file.crs = name_of(own);
         return;
     }
     // A network in the native schema has the CRS that its maker chose.
-    OwnMetres const own_metres = file.schema == "native" ? OwnMetres::kept : OwnMetres::judged;
-    IntoMetres const metres(own, wish.crs, places.box(), arcs.what, own_metres);
+    IntoMetres const metres(own, wish.crs, places.box(), arcs.what, native ? OwnMetres::kept : OwnMetres::judged);
     file.crs = metres.crs();
+    if (!metres.moves()) {
+        return;
+    }
     auto const move = [&](std::span<Vec3> points) {
         auto const done = metres.apply(points);
         for (std::size_t i = 0; i < points.size(); ++i) {
             if (done[i] == 0) {
-                points[i].x = nan; // for the check to find
-                points[i].y = nan;
+                points[i] = {nan, nan, points[i].z}; // for the check to find
             }
         }
     };
-    if (!metres.moves()) {
-        return;
-    }
     for (FileArc& arc : file.arcs) {
         run.check();
         move(arc.line);
-        for (double* const length : {&arc.columns.length_m, &arc.columns.length_3d_m, &arc.columns.straight_m,
-                                     &arc.columns.dist_out_m, &arc.columns.slope}) {
-            *length = nan; // of another projection
-        }
+        NetworkFile::ArcColumns& columns = arc.columns; // of another projection
+        columns.length_m = columns.length_3d_m = columns.straight_m = columns.dist_out_m = columns.slope = nan;
     }
     for (NetworkFile::FileNode& node : file.nodes) {
         move({&node.at, 1});
         node.columns.dist_out_m = nan;
     }
-    notes.add(arcs.what,
-              {"reprojected",
-               0,
-               {},
-               0.0,
-               fmt::format("its coordinates were reprojected from {} to {}", own.GetName(), in_message(file.crs))});
-}
-
-void take_nodes(NetworkFile& file, std::optional<Layer> const& nodes, Layer const& arcs, std::string const& source_name,
-                Wish const& wish, Driver const& driver, Notes& notes, Run const& run) {
-    if (nodes) {
-        read_nodes(file, *nodes, wish.node_id, driver, notes, run);
-    } else if (file.schema == "native") {
-        notes.add(source_name, {"missing_nodes", 0, {}, 0.0, "has no layer nodes"});
-    }
-    convert_heights(file, arcs, wish, notes);
-    bring_into_metres(file, arcs, nodes ? &*nodes : nullptr, wish, notes, run);
+    notes.add(arcs.what, "reprojected", 0, 0.0,
+              fmt::format("its coordinates were reprojected from {} to {}", own.GetName(), in_message(file.crs)));
 }
 
 NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
     Driver const driver;
     NetworkPlace const place = find_network(path, wish.whole);
     Notes notes(wish.whole);
-    NetworkSource const arcs_source(place.arcs, driver);
-    std::unique_ptr<NetworkSource> const own_nodes = place.nodes.empty() || place.nodes == place.arcs
-                                                         ? nullptr
-                                                         : std::make_unique<NetworkSource>(place.nodes, driver);
-    NetworkSource const* const nodes_source = place.nodes.empty() ? nullptr
-                                              : own_nodes         ? own_nodes.get()
-                                                                  : &arcs_source;
+    NetworkSource const source = open_network(place.arcs, driver);
+    bool const together = place.nodes.empty() || place.nodes == place.arcs;
+    NetworkSource const own_nodes = together ? NetworkSource() : open_network(place.nodes, driver);
+    NetworkSource const* const nodes_source = place.nodes.empty() ? nullptr : together ? &source : &own_nodes;
 
-    Layer const arcs = choose_arcs(arcs_source, wish);
+    Layer const arcs = choose_arcs(source, wish);
     auto const schema = choose_schema(arcs, wish);
-    auto const nodes = choose_nodes(nodes_source, arcs_source, arcs, schema, wish);
+    auto const nodes = choose_nodes(nodes_source, source, arcs, schema, wish);
     NetworkFile file;
     read_arcs(file, arcs, schema, wish, driver, notes, run);
-    if (OGRLayer* const sources = arcs_source.layer("sources"); sources != nullptr && schema == Schema::native) {
-        read_sources(file, {sources, arcs_source.what() + ", layer sources"}, driver, run);
+    OGRLayer* const sources = schema == Schema::native ? source.dataset->GetLayerByName("sources") : nullptr;
+    if (sources != nullptr) {
+        read_sources(file, {sources, source.what + ", layer sources"}, driver, run);
     }
-    take_nodes(file, nodes, arcs, arcs_source.what(), wish, driver, notes, run);
-    SchemaTable const& table = table_of(schema.value_or(Schema::native));
+    if (nodes) {
+        read_nodes(file, *nodes, wish.node_id, driver, notes, run);
+    } else if (schema == Schema::native) {
+        notes.add(source.what, "missing_nodes", 0, 0.0, "has no layer nodes");
+    }
+    convert_heights(file, arcs, wish, notes);
+    bring_into_metres(file, arcs, nodes, wish, notes, run);
     if (schema != Schema::native) {
         if (file.says.downstream) {
             drop_links_out(file, arcs.what, notes);
@@ -441,7 +329,7 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
                 bridge_points(file, arcs.what, notes);
             }
         }
-        turn_downstream(file, table.drawn_upstream, arcs.what, notes);
+        turn_downstream(file, table_of(schema.value_or(Schema::native)).drawn_upstream, arcs.what, notes);
     }
     if (!file.says.ends) {
         name_ends(file);
@@ -465,7 +353,9 @@ NetworkFile read_network(std::string const& path, ReadNetworkParams const& param
 }
 
 NetworkFile read_network(std::string const& path, Run const& run) {
-    return read(path, {.schema = Schema::native, .whole = true}, run);
+    Wish wish{{.schema = Schema::native}};
+    wish.whole = true;
+    return read(path, wish, run);
 }
 
 } // namespace thalweg::io

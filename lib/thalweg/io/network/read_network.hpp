@@ -25,7 +25,7 @@ struct ReadNetworkParams {
     std::string source_crs = {}; ///< CRS of a file that has none; "": its coordinates are treated as metres
 };
 
-/// Reads anyone's network as it stands: ids may repeat, links lead nowhere, lines be empty or wrong.
+/// Reads any network as it is: ids may repeat, links may lead nowhere, lines may be empty or wrong.
 /// \param path anything OGR reads: a GeoPackage, FlatGeobuf, GeoJSON, a shapefile, a file geodatabase, a database
 /// ("PG:dbname=..."), the folder of network.gpkg or of NAME_arcs.shp; with a NAME_arcs file its NAME_nodes (given
 /// either). Fields are those of the schema in any case of letters, but for those that params.fields names; when these

@@ -1,107 +1,98 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// The features of a network's layers.
 #include <algorithm>
+#include <array>
 #include <cmath>
 
 #include <fmt/format.h>
-#include <fmt/ranges.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/io/network/internal/line_features.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
-#include <thalweg/io/network/internal/river_fields.hpp>
 
 namespace thalweg::io {
+
 namespace {
 
-// The numbers of a feature; what cannot be read as one stands as 0.
-class FeatureNumbers {
-public:
-    FeatureNumbers(OGRFeature const& feature, std::int64_t number, std::string const& what, Notes& notes)
-        : feature_(feature), number_(number), what_(what), notes_(notes) {}
+constexpr std::size_t kept_of_a_kind = 1000;
 
-    // of: the id of the arc or node in the file. nothing: null is no fault, and stands as 0.
-    std::int64_t whole(FileColumn const& column, std::int64_t of, bool nothing) const {
-        if (!column.is_there()) {
-            return 0;
+} // namespace
+
+void Notes::add(std::string const& source, Finding finding) {
+    refuse_if<BadInput>(strict_, "{}: {}", source, finding.text);
+    if (++count_[finding.kind] <= kept_of_a_kind) {
+        findings_.push_back(std::move(finding));
+    }
+}
+
+std::vector<Finding> Notes::take() {
+    for (auto const& [kind, count] : count_) {
+        if (count > kept_of_a_kind) {
+            std::size_t const more = count - kept_of_a_kind;
+            findings_.push_back({kind, 0, {}, static_cast<double>(more), fmt::format("{}: {} more", kind, more)});
         }
-        if (column.is_null(feature_)) {
-            if (!nothing) {
-                note("null_number", of, fmt::format("feature {} has no {}", number_, column.name()));
+    }
+    count_.clear();
+    return std::exchange(findings_, {});
+}
+
+namespace {
+
+using Q = Quantity;
+using FileArc = NetworkFile::FileArc;
+using NodeColumns = NetworkFile::NodeColumns;
+
+// The whole numbers of a feature; those that cannot be read are noted and stand as 0.
+struct FeatureNumbers {
+    OGRFeature const& feature;
+    std::int64_t number; // in the order of the layer, from 1
+    std::string const& what;
+    Notes& notes;
+
+    // of: the id of the arc or node in the file.
+    std::int64_t whole(FileColumn const& column, std::int64_t of, bool may_be_null) const {
+        if (column.is_null(feature)) {
+            if (column.is_there() && !may_be_null) {
+                notes.add(what, "null_number", of, 0.0, fmt::format("feature {} has no {}", number, column.name()));
             }
             return 0;
         }
-        if (auto const value = column.whole(feature_)) {
-            return *value;
+        auto const value = column.whole(feature);
+        if (!value) {
+            notes.add(
+                what, "not_a_number", of, 0.0,
+                fmt::format("feature {} has {} {}, not a whole number", number, column.name(), column.text(feature)));
         }
-        note("not_a_number", of,
-             fmt::format("feature {} has {} {}, not a whole number", number_, column.name(), column.text(feature_)));
-        return 0;
+        return value.value_or(0);
     }
-
-private:
-    void note(char const* kind, std::int64_t of, std::string text) const {
-        notes_.add(what_, {kind, of, {}, 0.0, std::move(text)});
-    }
-
-    OGRFeature const& feature_;
-    std::int64_t number_; // in the order of the layer, from 1
-    std::string const& what_;
-    Notes& notes_;
 };
 
-/// The columns of a node that follow from the rest.
-class NodeReader {
-public:
-    explicit NodeReader(OGRLayer& layer)
-        : kind_(layer, "kind"), deg_in_(layer, "deg_in"), deg_out_(layer, "deg_out"), basin_(layer, "basin_id"),
-          strahler_(layer, "strahler"), z_(layer, "z"), dist_out_(layer, "dist_out"), area_(layer, "area") {}
-
-    NetworkFile::NodeColumns read(OGRFeature const& feature) const {
-        return {.kind = kind_.is_there() ? kind_.text(feature) : "",
-                .deg_in = told(deg_in_, feature),
-                .deg_out = told(deg_out_, feature),
-                .basin_id = told(basin_, feature),
-                .strahler = told(strahler_, feature),
-                .z_m = told(z_, feature),
-                .dist_out_m = told(dist_out_, feature),
-                .area_m2 = told(area_, feature)};
-    }
-
-private:
-    static double told(FileColumn const& column, OGRFeature const& feature) {
-        return column.is_there() ? column.real(feature) : nan;
-    }
-    FileColumn kind_;
-    FileColumn deg_in_;
-    FileColumn deg_out_;
-    FileColumn basin_;
-    FileColumn strahler_;
-    FileColumn z_;
-    FileColumn dist_out_;
-    FileColumn area_;
-};
+// The columns of a node that follow from the rest.
+constexpr std::array<std::pair<char const*, double NodeColumns::*>, 7> node_columns{
+    {{"deg_in", &NodeColumns::deg_in},
+     {"deg_out", &NodeColumns::deg_out},
+     {"basin_id", &NodeColumns::basin_id},
+     {"strahler", &NodeColumns::strahler},
+     {"z", &NodeColumns::z_m},
+     {"dist_out", &NodeColumns::dist_out_m},
+     {"area", &NodeColumns::area_m2}}};
 
 } // namespace
 
 void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run) {
-    OGRFeatureDefn& schema = *sources.layer->GetLayerDefn();
-    int const arc_id = schema.GetFieldIndex("arc_id");
-    int const feature_id = schema.GetFieldIndex("feature");
-    int const from = schema.GetFieldIndex("from_m");
-    int const to = schema.GetFieldIndex("to_m");
-    if (arc_id < 0 || feature_id < 0 || from < 0 || to < 0) {
-        return;
-    }
+    FileColumn const arc_id(*sources.layer, {"arc_id"});
+    FileColumn const feature_id(*sources.layer, {"feature"});
+    FileColumn const from(*sources.layer, {"from_m"});
+    FileColumn const to(*sources.layer, {"to_m"});
     std::map<std::int64_t, std::size_t> arc_of;
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
         arc_of.try_emplace(file.arcs[a].id, a);
     }
     sources.each(driver, run, [&](OGRFeature const& row) {
-        auto const arc = arc_of.find(row.GetFieldAsInteger64(arc_id));
-        Stretch const stretch{row.GetFieldAsInteger64(feature_id), row.GetFieldAsDouble(from),
-                              row.GetFieldAsDouble(to)};
+        auto const arc = arc_of.find(arc_id.whole(row).value_or(0));
+        Stretch const stretch{feature_id.whole(row).value_or(0), from.real(row), to.real(row)};
         if (arc != arc_of.end() && stretch.from_m >= 0.0 && stretch.to_m > stretch.from_m) {
             file.arcs[arc->second].sources.push_back(stretch);
         }
@@ -110,12 +101,15 @@ void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver,
 
 void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
                 Run const& run) {
-    FileColumn const id(*nodes.layer, node_id);
-    if (!id.is_there()) {
-        throw BadInput(fmt::format("{}: no field {} (there are {})", nodes.what, node_id, fields_of(*nodes.layer)));
+    FileColumn const id(*nodes.layer, {node_id});
+    refuse_if<BadInput>(!id.is_there(), "{}: no field {} (there are {})", nodes.what, node_id,
+                        listed(field_names(*nodes.layer)));
+    id.require_numbers(nodes.what, notes);
+    FileColumn const kind(*nodes.layer, {"kind"});
+    std::vector<std::pair<FileColumn, double NodeColumns::*>> columns;
+    for (auto const& [name, member] : node_columns) {
+        columns.emplace_back(FileColumn(*nodes.layer, {name}), member);
     }
-    id.require_numbers(*nodes.layer, nodes.what, notes);
-    NodeReader const columns(*nodes.layer);
     std::int64_t number = 0;
     nodes.each(driver, run, [&](OGRFeature const& feature) {
         ++number;
@@ -123,59 +117,32 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
         refuse_if<BadInput>(shape == nullptr || wkbFlatten(shape->getGeometryType()) != wkbPoint || shape->IsEmpty(),
                             "{}: feature {} is not a point", nodes.what, number);
         OGRPoint const& p = *shape->toPoint();
-        if (p.Is3D() == FALSE && file.says.heights) {
-            notes.add(nodes.what, {"no_heights", 0, {}, 1.0, fmt::format("feature {} has no heights (Z)", number)});
+        bool const is_flat = p.Is3D() == FALSE;
+        if (is_flat && file.says.heights) {
+            notes.add(nodes.what, "no_heights", 0, 1.0, fmt::format("feature {} has no heights (Z)", number));
         }
-        file.nodes.push_back({FeatureNumbers(feature, number, nodes.what, notes).whole(id, 0, false),
-                              {p.getX(), p.getY(), p.Is3D() == FALSE ? nan : p.getZ()},
-                              columns.read(feature)});
+        NetworkFile::FileNode& node = file.nodes.emplace_back();
+        node.id = FeatureNumbers{feature, number, nodes.what, notes}.whole(id, 0, false);
+        node.at = {p.getX(), p.getY(), is_flat ? nan : p.getZ()};
+        node.columns.kind = kind.text(feature);
+        for (auto const& [column, member] : columns) {
+            node.columns.*member = column.real(feature);
+        }
     });
     file.says.nodes = true;
 }
 
 namespace {
 
-using Q = Quantity;
-using FileArc = NetworkFile::FileArc;
-
-void require_fields(Layer const& arcs, ArcColumns const& columns, std::optional<Schema> schema, Notes& notes) {
-    std::vector<std::string> missing;
-    for (Quantity const q : {Q::arc_id, Q::from_node, Q::to_node, Q::ds_arc, Q::strahler, Q::shreve, Q::basin_id}) {
-        if (!columns.has(q) && (q == Q::arc_id || schema == Schema::native)) {
-            SchemaField const* const field = field_of(table_of(schema.value_or(Schema::native)), q);
-            missing.emplace_back(field == nullptr ? name_of(q) : field->name);
-        }
-    }
-    if (!columns.has(Q::arc_id)) {
-        throw BadInput(fmt::format("{}: no field {} (there are {}); name the field that holds arc_id", arcs.what,
-                                   fmt::join(missing, ", "), fields_of(*arcs.layer)));
-    }
-    if (!missing.empty()) {
-        notes.add(arcs.what, {"missing_field",
-                              0,
-                              {},
-                              static_cast<double>(missing.size()),
-                              fmt::format("no field {}", fmt::join(missing, ", "))});
-    }
-}
-
-// What there was in all the lines of a file.
-struct Drawn {
-    std::int64_t flat = 0;
-    std::int64_t raised = 0;
-    std::int64_t measured = 0;
-    std::string first_flat;
-    OtherShapes others;
-};
-
 class ArcReader {
 public:
     ArcReader(Layer const& arcs, std::optional<Schema> schema, Wish const& wish, Notes& notes)
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
-          columns_(*arcs.layer, schema, wish.fields, arcs.what, notes), fields_(*arcs.layer), attributes_(*arcs.layer),
-          by_feature_(!schema && takes_any_lines(wish)), whole_(wish.whole) {
+          fields_(*arcs.layer), attributes_(*arcs.layer), by_feature_(!schema && takes_any_lines(wish)),
+          whole_(wish.whole) {
+        find_columns(wish.columns);
         if (!by_feature_) {
-            require_fields(arcs, columns_, schema, notes);
+            require_fields();
         }
     }
 
@@ -183,17 +150,14 @@ public:
         file.schema = schema_ ? table_.name : by_feature_ ? "lines" : "mapped";
         file.id_shift = 1 - table_.first_id;
         file.says.nodes = false;
-        file.says.ends = columns_.has(Q::from_node) && columns_.has(Q::to_node);
-        file.says.downstream = columns_.has(Q::ds_arc) || (columns_.has(Q::key) && columns_.has(Q::ds_key));
-        file.says.strahler = columns_.has(Q::strahler);
-        file.says.shreve = columns_.has(Q::shreve);
-        file.says.basin = columns_.has(Q::basin_id) || columns_.has(Q::outlet_path) || columns_.has(Q::outlet_arc);
-        file.says.areas = columns_.has(Q::ds_area);
-        if (GIntBig const count = arcs_.layer->GetFeatureCount(FALSE); count > 0) {
-            file.arcs.reserve(static_cast<std::size_t>(count));
-        }
+        file.says.ends = has(Q::from_node) && has(Q::to_node);
+        file.says.downstream = has(Q::ds_arc) || (has(Q::key) && has(Q::ds_key));
+        file.says.strahler = has(Q::strahler);
+        file.says.shreve = has(Q::shreve);
+        file.says.basin = has(Q::basin_id) || has(Q::outlet_path) || has(Q::outlet_arc);
+        file.says.areas = has(Q::ds_area);
         arcs_.each(driver, run, [&](OGRFeature const& feature) { add(file, feature); });
-        if (!columns_.has(Q::ds_arc) && file.says.downstream) {
+        if (!has(Q::ds_arc) && file.says.downstream) {
             link_by_keys(file, keys_, ds_keys_);
         }
         if (by_feature_) {
@@ -205,100 +169,133 @@ public:
                 notes_.add(arcs_.what, finding);
             }
         }
-        say_what_was_drawn(file);
+        note_shapes(file);
     }
 
 private:
-    void link_by_features(NetworkFile& file) {
-        file.says.downstream = fields_.has_links();
-        for (FileArc& arc : file.arcs) {
-            arc.ds_arc = fields_.down_of(arc.id);
-        }
-        notes_.add(arcs_.what,
-                   {"by_feature",
-                    0,
-                    {},
-                    static_cast<double>(file.arcs.size()),
-                    fmt::format("its fields match no schema: lines are numbered by their features and joined by {}",
-                                file.says.downstream ? "their links" : "their ends")});
-    }
+    // Columns. Without a schema the arcs are understood by the user's alone, in the units of the native schema.
 
-    void add(NetworkFile& file, OGRFeature const& feature) {
-        ++number_;
-        attributes_.read(feature);
-        DrawnLine drawn = drawn_line(feature.GetGeometryRef(), number_, drawn_.others);
-        if (!drawn.is_line) {
-            return;
+    struct Told {
+        FileColumn column;
+        SchemaField const* field = nullptr;
+    };
+
+    void find_columns(std::map<Quantity, std::string> const& mapped) {
+        for (SchemaField const& field : table_.fields) {
+            if (field.quantity != Q::constant && schema_ && !has(field.quantity)) {
+                columns_[field.quantity] = {FileColumn(*arcs_.layer, names_of(field)), &field};
+            }
         }
-        FileArc arc = numbers_of(feature);
-        note_shape(drawn, arc.id - file.id_shift);
-        for (auto& part : drawn.parts) {
-            arc.line = std::move(part);
-            file.arcs.push_back(arc);
-            if (columns_.has(Q::key)) {
-                keys_.push_back(key_);
-                ds_keys_.push_back(ds_key_);
+        for (auto const& [quantity, name] : mapped) {
+            FileColumn column(*arcs_.layer, {name});
+            auto const names = field_names(*arcs_.layer);
+            refuse_if<BadInput>(!column.is_there(), "{}: no field {}.{} (there are {})", arcs_.what, name,
+                                did_you_mean(name, names), listed(names));
+            columns_[quantity] = {std::move(column), field_of(table_, quantity)};
+        }
+        for (Told const& told : columns_.entries) {
+            if (&told != &columns_[Q::type] && told.column.is_there()) {
+                told.column.require_numbers(arcs_.what, notes_);
             }
         }
     }
 
+    void require_fields() {
+        std::vector<std::string> missing;
+        for (Quantity const q : {Q::arc_id, Q::from_node, Q::to_node, Q::ds_arc, Q::strahler, Q::shreve, Q::basin_id}) {
+            if (!has(q) && (q == Q::arc_id || schema_ == Schema::native)) {
+                SchemaField const* const field = field_of(table_, q);
+                missing.emplace_back(field == nullptr ? name_of(q) : field->name);
+            }
+        }
+        refuse_if<BadInput>(!has(Q::arc_id), "{}: no field {} (there are {}); name the field that holds arc_id",
+                            arcs_.what, listed(missing), listed(field_names(*arcs_.layer)));
+        if (!missing.empty()) {
+            notes_.add(arcs_.what, "missing_field", 0, static_cast<double>(missing.size()),
+                       fmt::format("no field {}", listed(missing)));
+        }
+    }
+
+    bool has(Quantity quantity) const { return columns_[quantity].column.is_there(); }
+    FileColumn const& column(Quantity quantity) const { return columns_[quantity].column; }
+
+    // In SI units; NaN where there is no such column, or no value that is known.
+    double real(OGRFeature const& feature, Quantity quantity) const {
+        Told const& told = columns_[quantity];
+        double const value = told.column.real(feature);
+        if (told.field == nullptr) {
+            return value;
+        }
+        return value == told.field->unknown ? nan : value * told.field->unit;
+    }
+
+    // What stands for no arc in a column of links.
+    std::int64_t none(Quantity quantity) const {
+        SchemaField const* const field = columns_[quantity].field;
+        return field == nullptr ? 0 : whole_in(field->unknown).value_or(0);
+    }
+
+    // Features.
+
+    void add(NetworkFile& file, OGRFeature const& feature) {
+        ++number_;
+        attributes_.read(feature);
+        DrawnLine drawn = drawn_line(feature.GetGeometryRef(), number_, others_);
+        if (!drawn.is_line) {
+            return;
+        }
+        FileArc arc = numbers_of(feature);
+        note_shape(feature.GetGeometryRef(), drawn, arc.id - file.id_shift);
+        for (auto& part : drawn.parts) {
+            arc.line = std::move(part);
+            file.arcs.push_back(arc);
+            keys_.push_back(arc.rank);
+            ds_keys_.push_back(ds_key_);
+        }
+    }
+
     FileArc numbers_of(OGRFeature const& feature) {
-        FeatureNumbers const numbers(feature, number_, arcs_.what, notes_);
+        FeatureNumbers const numbers{feature, number_, arcs_.what, notes_};
         bool const native = schema_ == Schema::native;
-        std::int64_t const id = by_feature_ ? number_ : numbers.whole(columns_.column(Q::arc_id), 0, false);
-        auto const number = [&](Quantity q) { return numbers.whole(columns_.column(q), id, false); };
-        auto const link = [&](Quantity q) {
-            FileColumn const& column = columns_.column(q);
-            std::int64_t const value = numbers.whole(column, id, !native);
-            bool const none = !column.is_there() || column.is_null(feature) || value == columns_.none(q).value_or(0);
-            return none ? 0 : value + 1 - table_.first_id;
-        };
+        std::int64_t const id = by_feature_ ? number_ : numbers.whole(column(Q::arc_id), 0, false);
+        auto const number = [&](Quantity q) { return numbers.whole(column(q), id, false); };
+        auto const optional = [&](Quantity q) { return numbers.whole(column(q), id, true); };
         FileArc arc;
-        bool const unnamed = !by_feature_ && columns_.column(Q::arc_id).is_null(feature);
-        arc.id = unnamed ? 0 : id + 1 - table_.first_id;
+        arc.id = !by_feature_ && column(Q::arc_id).is_null(feature) ? 0 : id + 1 - table_.first_id;
         arc.from_node = number(Q::from_node);
         arc.to_node = number(Q::to_node);
-        arc.ds_arc = link(Q::ds_arc);
-        key_ = number(Q::key);
-        ds_key_ = numbers.whole(columns_.column(Q::ds_key), id, true);
+        std::int64_t const below = numbers.whole(column(Q::ds_arc), id, !native);
+        bool const is_outlet = column(Q::ds_arc).is_null(feature) || below == none(Q::ds_arc);
+        arc.ds_arc = is_outlet ? 0 : below + 1 - table_.first_id;
+        arc.rank = number(Q::key);
+        ds_key_ = optional(Q::ds_key);
         arc.strahler = number(Q::strahler);
         arc.shreve = number(Q::shreve);
-        arc.basin = columns_.has(Q::basin_id)      ? number(Q::basin_id)
-                    : columns_.has(Q::outlet_path) ? number(Q::outlet_path)
-                                                   : numbers.whole(columns_.column(Q::outlet_arc), id, true);
-        arc.ds_area_m2 = columns_.real(feature, Q::ds_area);
-        arc.us_area_m2 = columns_.has(Q::us_area) ? columns_.real(feature, Q::us_area)
-                                                  : arc.ds_area_m2 - columns_.real(feature, Q::own_area);
-        double const persistence = columns_.real(feature, Q::persistence);
+        arc.basin = has(Q::basin_id)      ? number(Q::basin_id)
+                    : has(Q::outlet_path) ? number(Q::outlet_path)
+                                          : optional(Q::outlet_arc);
+        arc.ds_area_m2 = real(feature, Q::ds_area);
+        arc.us_area_m2 = has(Q::us_area) ? real(feature, Q::us_area) : arc.ds_area_m2 - real(feature, Q::own_area);
+        double const persistence = real(feature, Q::persistence);
         arc.persistence = std::isnan(persistence) ? std::numeric_limits<double>::infinity() : persistence;
-        arc.feature = native ? numbers.whole(columns_.column(Q::feature), id, true) : number_;
+        arc.feature = native ? optional(Q::feature) : number_;
         arc.record = number_;
         if (native) {
             arc.columns = columns_of(feature);
         } else {
-            RiverLine line;
-            line.feature = number_;
-            fields_.read(feature, line);
-            arc.size = std::move(line.size);
-            arc.channel = line.channel;
-            arc.name = std::move(line.name);
-            arc.runs = line.runs;
-            arc.rank = key_;
-            RiverFields::Unnatural unnatural = fields_.unnatural(feature);
-            arc.unnatural = std::move(unnatural.reason);
-            arc.is_channel = unnatural.is_channel;
+            take_fields(arc, feature);
         }
-        arc.type = columns_.column(Q::type).text(feature);
-        if (arc.type == "none") { // what stands for an empty text
+        arc.type = column(Q::type).text(feature);
+        if (arc.type == "none") { // which stands for an empty text
             arc.type.clear();
         }
-        arc.braided = numbers.whole(columns_.column(Q::braided), id, true) != 0;
-        arc.is_input = !columns_.has(Q::given) || numbers.whole(columns_.column(Q::given), id, true) != 0;
+        arc.braided = optional(Q::braided) != 0;
+        arc.is_input = !has(Q::given) || optional(Q::given) != 0;
         return arc;
     }
 
     NetworkFile::ArcColumns columns_of(OGRFeature const& feature) const {
-        auto const told = [&](Quantity q) { return columns_.real(feature, q); };
+        auto const told = [&](Quantity q) { return real(feature, q); };
         return {.n_up = told(Q::n_up),
                 .topo_ord = told(Q::topo_ord),
                 .hack = told(Q::hack),
@@ -311,59 +308,70 @@ private:
                 .slope = told(Q::slope)};
     }
 
-    void note_shape(DrawnLine const& drawn, std::int64_t id) {
+    void take_fields(FileArc& arc, OGRFeature const& feature) {
+        RiverLine line;
+        line.feature = number_;
+        fields_.read(feature, line);
+        arc.size = std::move(line.size);
+        arc.channel = line.channel;
+        arc.name = std::move(line.name);
+        arc.runs = line.runs;
+        RiverFields::Unnatural unnatural = fields_.unnatural(feature);
+        arc.unnatural = std::move(unnatural.reason);
+        arc.is_channel = unnatural.is_channel;
+    }
+
+    void link_by_features(NetworkFile& file) {
+        file.says.downstream = fields_.has_links();
+        for (FileArc& arc : file.arcs) {
+            arc.ds_arc = fields_.down_of(arc.id);
+        }
+        notes_.add(arcs_.what, "by_feature", 0, static_cast<double>(file.arcs.size()),
+                   fmt::format("its fields match no schema: lines are numbered by their features and joined by {}",
+                               file.says.downstream ? "their links" : "their ends"));
+    }
+
+    // Shapes.
+
+    void note_shape(OGRGeometry const* shape, DrawnLine const& drawn, std::int64_t id) {
         auto const& first = drawn.parts.front();
         bool const joined = drawn.parts.size() == 1;
         if (drawn.drawn_parts > 1 && !(joined && table_.segment_parts)) {
-            notes_.add(arcs_.what,
-                       {"multi_part",
-                        id,
-                        {},
-                        static_cast<double>(drawn.drawn_parts),
-                        fmt::format("feature {} has {} parts{}", number_, drawn.drawn_parts,
-                                    joined ? ", which join end to end: read as one line"
-                                           : ": an arc is one line; each was read as an arc of the same id")});
+            notes_.add(arcs_.what, "multi_part", id, drawn.drawn_parts,
+                       fmt::format("feature {} has {} parts{}", number_, drawn.drawn_parts,
+                                   joined ? ", which join end to end: read as one line"
+                                          : ": an arc is one line; each was read as an arc of the same id"));
         }
-        if (drawn.curved) {
-            notes_.add(arcs_.what,
-                       {"curve",
-                        id,
-                        {},
-                        static_cast<double>(first.size()),
-                        fmt::format("feature {} is a curve: read as a line of {} vertices", number_, first.size())});
+        if (shape != nullptr && shape->hasCurveGeometry(TRUE) != 0) {
+            notes_.add(arcs_.what, "curve", id, static_cast<double>(first.size()),
+                       fmt::format("feature {} is a curve: read as a line of {} vertices", number_, first.size()));
         }
-        drawn_.measured += drawn.has_m ? 1 : 0;
+        measured_ += shape != nullptr && shape->IsMeasured() != 0 ? 1 : 0;
         if (!first.empty()) {
-            (drawn.has_z ? drawn_.raised : drawn_.flat) += 1;
-            if (!drawn.has_z && drawn_.first_flat.empty()) {
-                drawn_.first_flat = fmt::format("feature {} has no heights (Z)", number_);
-            }
+            bool const is_flat = shape->Is3D() == 0;
+            (is_flat ? flat_ : raised_) += 1;
+            first_flat_ = first_flat_ == 0 && is_flat ? number_ : first_flat_;
         }
     }
 
-    void say_what_was_drawn(NetworkFile& file) {
-        for (Finding& finding : drawn_.others.findings()) {
-            finding.where = {}; // in coordinates of the file
-            notes_.add(arcs_.what, std::move(finding));
+    void note_shapes(NetworkFile& file) {
+        auto const note = [&](char const* kind, std::int64_t amount, std::string text) {
+            notes_.add(arcs_.what, kind, 0, static_cast<double>(amount), std::move(text));
+        };
+        for (Finding const& other : others_.findings()) { // whose places are in coordinates of the file
+            notes_.add(arcs_.what, other.kind.c_str(), 0, other.amount, other.text);
         }
-        if (drawn_.measured > 0) {
-            notes_.add(arcs_.what, {"measures",
-                                    0,
-                                    {},
-                                    static_cast<double>(drawn_.measured),
-                                    fmt::format("{} lines have measures (M), which were left out", drawn_.measured)});
+        if (measured_ > 0) {
+            note("measures", measured_, fmt::format("{} lines have measures (M), which were left out", measured_));
         }
-        file.says.heights = drawn_.raised > 0;
-        if (drawn_.flat > 0) {
-            notes_.add(arcs_.what, {"no_heights",
-                                    0,
-                                    {},
-                                    static_cast<double>(drawn_.flat),
-                                    fmt::format("{}: there are {} such lines", drawn_.first_flat, drawn_.flat)});
+        file.says.heights = raised_ > 0;
+        if (flat_ > 0) {
+            note("no_heights", flat_,
+                 fmt::format("feature {} has no heights (Z): there are {} such lines", first_flat_, flat_));
         }
-        // Many formats fill a Z that nobody has with 0.
+        // Many formats fill a Z that is not known with 0.
         bool const filled =
-            schema_ != Schema::native && drawn_.raised > 0 && std::ranges::all_of(file.arcs, [](FileArc const& arc) {
+            schema_ != Schema::native && raised_ > 0 && std::ranges::all_of(file.arcs, [](FileArc const& arc) {
                 return std::ranges::all_of(arc.line, [](Vec3 const& p) { return !(p.z != 0.0); });
             });
         if (filled) {
@@ -373,9 +381,7 @@ private:
                     p.z = nan;
                 }
             }
-            notes_.add(
-                arcs_.what,
-                {"no_heights", 0, {}, static_cast<double>(drawn_.raised), "every height (Z) is 0: treated as missing"});
+            note("no_heights", raised_, "every height (Z) is 0: treated as missing");
         }
     }
 
@@ -383,17 +389,21 @@ private:
     std::optional<Schema> schema_;
     SchemaTable const& table_;
     Notes& notes_;
-    ArcColumns columns_;
+    ByEnum<Quantity, Told, static_cast<std::size_t>(Quantity::constant)> columns_;
     RiverFields fields_;
     AttributeReader attributes_;
-    bool by_feature_ = false; // arcs have the numbers of their features
-    bool whole_ = false;      // findings are refused
-    std::int64_t number_ = 0; // of the feature in hand, in the order of the layer, from 1
-    Drawn drawn_;
-    std::int64_t key_ = 0; // of the feature in hand
-    std::int64_t ds_key_ = 0;
+    bool by_feature_ = false;        // arcs have the numbers of their features
+    bool whole_ = false;             // findings are refused
+    std::int64_t number_ = 0;        // of the feature in hand, in the order of the layer, from 1
+    std::int64_t ds_key_ = 0;        // likewise
     std::vector<std::int64_t> keys_; // by arc
     std::vector<std::int64_t> ds_keys_;
+    // What there was in all the lines of the file.
+    std::int64_t flat_ = 0;
+    std::int64_t first_flat_ = 0;
+    std::int64_t raised_ = 0;
+    std::int64_t measured_ = 0;
+    OtherShapes others_;
 };
 
 } // namespace

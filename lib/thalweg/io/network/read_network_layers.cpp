@@ -1,32 +1,146 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+// Which files and layers hold rivers or a network, and in whose schema.
 #include <algorithm>
-#include <charconv>
-#include <cmath>
+#include <array>
 #include <filesystem>
 #include <system_error>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
 
 namespace thalweg::io {
 
-namespace fs = std::filesystem;
-
 namespace {
 
-bool is_shapefile(fs::path const& path) {
-    return path.extension() == ".shp" || path.extension() == ".SHP";
-}
+namespace fs = std::filesystem;
 
-bool is_database(std::string const& path) {
+bool names_database(std::string const& path) {
     return path.starts_with("PG:") || path.starts_with("postgresql:");
 }
+
+std::vector<OGRLayer*> layers_of(GDALDataset& data) {
+    auto const layers = data.GetLayers();
+    return std::vector<OGRLayer*>(layers.begin(), layers.end());
+}
+
+std::vector<std::string> layer_names(std::vector<OGRLayer*> const& layers) {
+    std::vector<std::string> names;
+    for (OGRLayer* const layer : layers) {
+        names.emplace_back(layer->GetName());
+    }
+    return names;
+}
+
+bool is_line(OGRwkbGeometryType type) {
+    auto const flat = wkbFlatten(type);
+    return OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
+}
+
+bool may_hold_lines(OGRLayer& layer) {
+    auto const type = wkbFlatten(layer.GetGeomType());
+    return type == wkbUnknown || type == wkbGeometryCollection || is_line(type);
+}
+
+// Layers of rivers.
+
+enum class Holds : std::uint8_t { lines, other, nothing };
+
+// A layer of any shapes holds lines when one of its first features is one: exports of OpenStreetMap begin with nodes.
+Holds content_of(OGRLayer& layer, std::string const& what) {
+    constexpr int most_features = 1000000;
+    auto const type = wkbFlatten(layer.GetGeomType());
+    if (type != wkbUnknown && !is_line(type)) {
+        return type == wkbGeometryCollection ? Holds::lines : Holds::other;
+    }
+    Driver const driver;
+    Holds holds = Holds::nothing;
+    int looked_at = 0;
+    for (auto const& feature : layer) {
+        if (holds == Holds::lines || ++looked_at > most_features) {
+            break;
+        }
+        OGRGeometry const* const shape = feature->GetGeometryRef();
+        auto const drawn = shape == nullptr ? type : wkbFlatten(shape->getGeometryType());
+        holds = is_line(drawn) || drawn == wkbGeometryCollection ? Holds::lines : Holds::other;
+    }
+    layer.ResetReading();
+    driver.check(fmt::format("{}, layer {}", what, layer.GetName()));
+    return holds;
+}
+
+/// How clearly a name says that a layer holds the rivers: 0 most; all that do not say so are equal.
+std::size_t rank_of(std::string_view name) {
+    // thalweg; NHD and NHDPlus HR; EU-Hydro; OpenStreetMap; OS Open Rivers; and common names.
+    static constexpr std::array exact{"arcs",      "nhdflowline", "networknhdflowline", "nhdflowlinenetwork",
+                                      "rivernetl", "waterways",   "watercourselink"};
+    static constexpr std::array parts{"hydrorivers", "flowline", "waterway", "watercourse", "river", "stream"};
+    std::string const own = simple_name(name);
+    auto const has = [&](char const* part) { return own.find(part) != std::string::npos; };
+    if (auto const* const same = std::ranges::find(exact, own); same != exact.end()) {
+        return static_cast<std::size_t>(same - exact.begin());
+    }
+    bool const is_other = has("catchment") || has("nonnetwork");
+    auto const* const part = is_other ? parts.end() : std::ranges::find_if(parts, has);
+    return exact.size() + static_cast<std::size_t>(part - parts.begin());
+}
+
+/// The layers with lines; where there is none, those without features that may get some.
+std::vector<OGRLayer*> line_layers(GDALDataset& data, std::string const& what) {
+    std::vector<OGRLayer*> lines;
+    std::vector<OGRLayer*> empty;
+    std::vector<OGRLayer*> const all = layers_of(data);
+    for (OGRLayer* const layer : all) {
+        Holds const holds = content_of(*layer, what);
+        if (holds != Holds::other) {
+            (holds == Holds::lines ? lines : empty).push_back(layer);
+        }
+    }
+    refuse_if<BadInput>(lines.empty() && empty.empty(), "{} has no layer with lines ({})", what,
+                        listed(layer_names(all)));
+    return lines.empty() ? empty : lines;
+}
+
+} // namespace
+
+void require_lines(GDALDataset& data, std::string const& name, std::string const& who) {
+    line_layers(data, who + ": " + name);
+}
+
+OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string const& name, std::string const& who) {
+    std::string const what = who + ": " + name;
+    if (!wanted.empty()) {
+        std::vector<OGRLayer*> const layers = layers_of(data);
+        auto const at = std::ranges::find(layers, wanted, [](OGRLayer* layer) { return layer->GetName(); });
+        if (at == layers.end()) {
+            auto const names = layer_names(layers);
+            throw BadInput(
+                fmt::format("{} has no layer '{}'.{} ({})", what, wanted, did_you_mean(wanted, names), listed(names)));
+        }
+        refuse_if<BadInput>(!may_hold_lines(**at), "{}, layer {}: it holds {}, not lines", what, wanted,
+                            OGRGeometryTypeToName(wkbFlatten((*at)->GetGeomType())));
+        return **at;
+    }
+    std::vector<OGRLayer*> const lines = line_layers(data, what);
+    auto const rank = [](OGRLayer* layer) { return rank_of(layer->GetName()); };
+    OGRLayer* const best = *std::ranges::min_element(lines, {}, rank);
+    if (std::ranges::count(lines, rank(best), rank) > 1) {
+        throw BadInput(fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
+                                   "--set network.lines.layer=NAME",
+                                   what, lines.size(), listed(layer_names(lines))));
+    }
+    return *best;
+}
+
+namespace {
 
 // "NAME_arcs" and "arcs" end in "arcs" and have their counterpart in "NAME_nodes" and "nodes".
 bool ends_as(fs::path const& path, std::string_view layer) {
@@ -34,170 +148,141 @@ bool ends_as(fs::path const& path, std::string_view layer) {
     return stem == layer || stem.ends_with(fmt::format("_{}", layer));
 }
 
-fs::path counterpart(fs::path const& path, std::string_view layer, std::string_view other) {
-    std::string const stem = path.stem().string();
-    return path.parent_path() /
-           fmt::format("{}{}{}", stem.substr(0, stem.size() - layer.size()), other, path.extension().string());
+/// The files of networks in a folder: the network.gpkg that `make` wrote, else the arcs that `convert` wrote, else, if
+/// not only shapefiles are meant, GeoPackages.
+std::vector<std::string> networks_in(fs::path const& folder, bool shapefiles_alone) {
+    std::error_code error;
+    if (fs::path const file = folder / "network.gpkg"; fs::exists(file, error)) {
+        return {file.string()};
+    }
+    std::vector<std::string> arcs;
+    std::vector<std::string> packages;
+    for (auto const& entry : fs::directory_iterator(folder, error)) {
+        std::string const ending = lower_case(entry.path().extension().string());
+        bool const of_layers = ending == ".shp" || (!shapefiles_alone && (ending == ".fgb" || ending == ".geojson"));
+        if (of_layers && ends_as(entry.path(), "arcs")) {
+            arcs.push_back(entry.path().string());
+        } else if (ending == ".gpkg") {
+            packages.push_back(entry.path().string());
+        }
+    }
+    refuse_if<IoError>(static_cast<bool>(error), "io.read_network: {}: {}", folder.string(), error.message());
+    bool const is_terrain = fs::exists(folder / "recipe.toml"); // whose only package would hold contours
+    return arcs.empty() && !is_terrain && !shapefiles_alone ? packages : arcs;
 }
+
+/// Why a folder that GDAL does not open holds no rivers.
+char const* why_not(fs::path const& folder) {
+    if (fs::is_empty(folder)) {
+        return "the folder is empty";
+    }
+    return fs::exists(folder / "recipe.toml")
+               ? "its terrain has no rivers; to make it again, give its recipe.toml"
+               : "it holds neither network.gpkg, nor one other GeoPackage, nor shapefiles; name a file in it";
+}
+
+} // namespace
+
+RiverSource find_rivers(std::string const& path) {
+    std::error_code ignored;
+    RiverSource source{path, ""};
+    while (source.path.size() > 1 && source.path.ends_with('/')) {
+        source.path.pop_back();
+    }
+    bool const is_file = !names_database(path) && !path.starts_with("/vsi");
+    refuse_if<BadInput>(is_file && !fs::exists(path, ignored), "io.find_rivers: {} does not exist", path);
+    refuse_if<BadInput>(is_file && fs::is_regular_file(path, ignored) && fs::file_size(path, ignored) == 0,
+                        "io.find_rivers: {} is empty", path);
+    bool is_plain_folder = false;
+    if (is_file && fs::is_directory(path, ignored)) {
+        std::vector<std::string> const networks = networks_in(source.path, false);
+        is_plain_folder = networks.size() != 1;
+        source.path = is_plain_folder ? source.path : networks.front();
+    }
+    Driver const driver;
+    Dataset const data = open_undisturbed(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER);
+    if (!data) {
+        std::string const words = driver.take();
+        throw BadInput(is_plain_folder ? fmt::format("io.find_rivers: {} holds no rivers: {}", path, why_not(path))
+                                       : fmt::format("io.find_rivers: {} is not a file with lines that GDAL can read{}",
+                                                     source.path, words.empty() ? "" : " (" + words + ")"));
+    }
+    refuse_if<BadInput>(data->GetLayerCount() == 0 && data->GetRasterCount() > 0,
+                        "io.find_rivers: {} is a raster, not river lines", source.path);
+    require_lines(*data, source.path, "io.find_rivers");
+    source.layer = data->GetLayerByName("arcs") != nullptr ? "arcs" : "";
+    return source;
+}
+
+// Files of a network.
+
+namespace {
 
 NetworkPlace pair_of(fs::path const& path, bool whole) {
     std::error_code ignored;
+    auto const sibling = [&](std::string_view layer, std::string_view other) {
+        std::string const stem = path.stem().string();
+        std::string const name = stem.substr(0, stem.size() - layer.size()) + std::string(other);
+        return (path.parent_path() / (name + path.extension().string())).string();
+    };
     if (ends_as(path, "arcs")) {
-        fs::path const nodes = counterpart(path, "arcs", "nodes");
-        return {path.string(), whole || fs::exists(nodes, ignored) ? nodes.string() : ""};
+        std::string const nodes = sibling("arcs", "nodes");
+        return {path.string(), whole || fs::exists(nodes, ignored) ? nodes : ""};
     }
     if (ends_as(path, "nodes")) {
-        return {counterpart(path, "nodes", "arcs").string(), path.string()};
+        return {sibling("nodes", "arcs"), path.string()};
     }
-    if (whole) {
-        throw BadInput(fmt::format("io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string()));
-    }
+    refuse_if<BadInput>(whole, "io.read_network: {} is neither NAME_arcs.shp nor NAME_nodes.shp", path.string());
     return {path.string(), ""};
-}
-
-// A line of GDAL's that says what is the matter with a database file, in our words.
-[[noreturn]] void refuse(std::string const& what, std::string const& words) {
-    auto const say = [&](std::string_view part) { return words.find(part) != std::string::npos; };
-    refuse_if<IoError>(say("database is locked"), "{} is locked by another program; close it there and try again",
-                       what);
-    refuse_if<IoError>(say("readonly database"),
-                       "{} was left in the middle of a change (there is a -journal beside it); open it once with the "
-                       "program that wrote it",
-                       what);
-    throw BadInput(fmt::format("{} cannot be read: {}", what, words));
-}
-
-Dataset open(std::string const& path, std::string const& what, Driver const& driver) {
-    bool const database = is_database(path);
-    if (std::error_code ignored; !database && !fs::exists(path, ignored)) {
-        throw BadInput(what + " does not exist");
-    }
-    Dataset dataset = open_undisturbed(path, GDAL_OF_VECTOR);
-    if (dataset == nullptr) {
-        refuse(what, driver.take());
-    }
-    return dataset;
 }
 
 } // namespace
 
 NetworkPlace find_network(std::string const& path, bool whole) {
-    std::error_code error;
-    if (is_database(path)) {
-        return {path, path};
+    std::error_code ignored;
+    fs::path file = path;
+    bool const is_folder = !names_database(path) && fs::is_directory(file, ignored) && file.extension() != ".gdb";
+    if (is_folder) {
+        std::vector<std::string> const networks = networks_in(file, true);
+        refuse_if<BadInput>(networks.size() != 1,
+                            "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
+                            networks.size());
+        file = networks.front();
     }
-    fs::path const file = path;
-    if (!fs::is_directory(file, error) || file.extension() == ".gdb") {
-        bool const in_pairs = is_shapefile(file) || (!whole && (ends_as(file, "arcs") || ends_as(file, "nodes")));
-        return in_pairs ? pair_of(file, whole) : NetworkPlace{path, path};
-    }
-    if (fs::path const gpkg = file / "network.gpkg"; fs::exists(gpkg, error)) {
-        return {gpkg.string(), gpkg.string()};
-    }
-    std::vector<fs::path> found;
-    for (auto const& entry : fs::directory_iterator(file, error)) {
-        if (is_shapefile(entry.path()) && ends_as(entry.path(), "arcs")) {
-            found.push_back(entry.path());
-        }
-    }
-    if (error) {
-        throw IoError(fmt::format("io.read_network: {}: {}", path, error.message()));
-    }
-    refuse_if<BadInput>(found.size() != 1,
-                        "io.read_network: {} holds {} files NAME_arcs.shp and no network.gpkg: name the file", path,
-                        found.size());
-    return pair_of(found.front(), true);
+    bool const is_shapefile = lower_case(file.extension().string()) == ".shp";
+    bool const is_pair = is_shapefile || (!whole && (ends_as(file, "arcs") || ends_as(file, "nodes")));
+    return names_database(path) || !is_pair ? NetworkPlace{file.string(), file.string()}
+                                            : pair_of(file, whole || is_folder);
 }
 
-NetworkSource::NetworkSource(std::string const& path, Driver const& driver)
-    : what_("io.read_network: " + without_passwords(path)), dataset_(open(path, what_, driver)) {}
-
-OGRLayer* NetworkSource::layer(std::string const& name) const {
-    return dataset_->GetLayerByName(name.c_str());
-}
-
-std::vector<OGRLayer*> NetworkSource::layers() const {
-    std::vector<OGRLayer*> found;
-    for (OGRLayer* const layer : dataset_->GetLayers()) {
-        found.push_back(layer);
+NetworkSource open_network(std::string const& path, Driver const& driver) {
+    std::string const what = "io.read_network: " + without_passwords(path);
+    std::error_code ignored;
+    refuse_if<BadInput>(!names_database(path) && !fs::exists(path, ignored), "{} does not exist", what);
+    Dataset dataset = open_undisturbed(path, GDAL_OF_VECTOR);
+    if (dataset == nullptr) {
+        std::string const words = driver.take();
+        auto const say = [&](std::string_view part) { return words.find(part) != std::string::npos; };
+        refuse_if<IoError>(say("database is locked") || say("readonly database"),
+                           "{} is locked by another program, or was left in the middle of a change: close it there, or "
+                           "open it once with the program that wrote it",
+                           what);
+        throw BadInput(fmt::format("{} cannot be read: {}", what, words));
     }
-    return found;
+    return {what, std::move(dataset)};
 }
+
+// Layers of a network.
 
 namespace {
 
-// Whether a layer's features may be lines.
-bool may_hold_lines(OGRLayer& layer) {
-    auto const flat = wkbFlatten(layer.GetGeomType());
-    return flat == wkbUnknown || flat == wkbGeometryCollection || OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 ||
-           OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
+Layer layer_of(NetworkSource const& source, OGRLayer& layer, std::string const& name) {
+    return {&layer, fmt::format("{}, layer {}", source.what, name)};
 }
 
-std::vector<std::string> words_of(std::string_view text) {
-    std::vector<std::string> words;
-    while (!text.empty()) {
-        auto const end = std::min(text.find(' '), text.size());
-        words.emplace_back(text.substr(0, end));
-        text.remove_prefix(std::min(end + 1, text.size()));
-    }
-    return words;
-}
-
-// All of a text, blanks around it aside.
-double number_in(std::string_view text) {
-    auto const first = text.find_first_not_of(" \t");
-    if (first == std::string_view::npos) {
-        return nan;
-    }
-    text = text.substr(first, text.find_last_not_of(" \t") - first + 1);
-    double value = nan;
-    auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-    return error == std::errc{} && end == text.data() + text.size() ? value : nan;
-}
-
-std::optional<std::int64_t> whole_in(double value) {
-    constexpr double exact = 9007199254740992.0; // whole doubles are exact below 2^53
-    if (!(std::fabs(value) < exact) || value != std::floor(value)) {
-        return std::nullopt;
-    }
-    return static_cast<std::int64_t>(value);
-}
-
-std::string names_of(SchemaField const& field) {
-    return fmt::format("{} {}", field.name, field.also);
-}
-
-std::vector<std::string> field_names(OGRLayer& layer) {
-    std::vector<std::string> names;
-    for (int i = 0; i < layer.GetLayerDefn()->GetFieldCount(); ++i) {
-        names.emplace_back(layer.GetLayerDefn()->GetFieldDefn(i)->GetNameRef());
-    }
-    return names;
-}
-
-std::string names_of(std::vector<OGRLayer*> const& layers) {
-    std::vector<std::string> names;
-    for (OGRLayer* const layer : layers) {
-        names.emplace_back(layer->GetName());
-    }
-    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
-
-Layer named(OGRLayer& layer, std::string const& what, std::string const& name) {
-    return {&layer, fmt::format("{}, layer {}", what, name)};
-}
-
-// The schemas of which a layer has all the fields that tell it.
-std::vector<Schema> recognised(OGRLayer& layer) {
-    std::vector<Schema> found;
-    for (SchemaTable const& table : all_schemas()) {
-        if (std::ranges::all_of(table.told_by, [&](std::string_view names) {
-                return FileColumn(layer, std::string(names)).is_there();
-            })) {
-            found.push_back(table.schema);
-        }
-    }
-    return found;
+[[noreturn]] void refuse_layer(NetworkSource const& source, std::string const& wanted) {
+    throw BadInput(fmt::format("{} has no layer {} (there are {})", source.what, wanted,
+                               listed(layer_names(layers_of(*source.dataset)))));
 }
 
 // "native: arc_id, ...; taudem: ...", for a message: what recognised() looks for.
@@ -208,129 +293,12 @@ std::string what_tells() {
         for (std::string_view const names : table.told_by) {
             fields.push_back(fmt::format("{}", fmt::join(words_of(names), " or ")));
         }
-        schemas.push_back(fmt::format("{}: {}", table.name, fmt::join(fields, ", ")));
+        schemas.push_back(fmt::format("{}: {}", table.name, listed(fields)));
     }
     return fmt::format("{}", fmt::join(schemas, "; "));
 }
 
-// Whether fields that a user names make a schema needless.
-bool is_enough(std::map<Quantity, std::string> const& mapped) {
-    return mapped.contains(Quantity::arc_id) &&
-           (mapped.contains(Quantity::ds_arc) ||
-            (mapped.contains(Quantity::from_node) && mapped.contains(Quantity::to_node)));
-}
-
 } // namespace
-
-FileColumn::FileColumn(OGRLayer& layer, std::string const& names) {
-    for (std::string const& name : words_of(names)) {
-        if (int const field = layer.GetLayerDefn()->GetFieldIndex(name.c_str()); field >= 0) {
-            field_ = field;
-            OGRFieldDefn const& definition = *layer.GetLayerDefn()->GetFieldDefn(field);
-            is_text_ = definition.GetType() == OFTString;
-            name_ = definition.GetNameRef();
-            return;
-        }
-        if (EQUAL(name.c_str(), layer.GetFIDColumn())) {
-            field_ = feature_id;
-            name_ = name;
-            return;
-        }
-    }
-}
-
-bool FileColumn::is_null(OGRFeature const& feature) const {
-    return field_ == absent || (field_ >= 0 && feature.IsFieldSetAndNotNull(field_) == 0);
-}
-
-std::optional<std::int64_t> FileColumn::whole(OGRFeature const& feature) const {
-    if (field_ == feature_id) {
-        return feature.GetFID();
-    }
-    if (is_text_) {
-        return whole_in(number_in(feature.GetFieldAsString(field_)));
-    }
-    if (feature.GetFieldDefnRef(field_)->GetType() == OFTReal) {
-        return whole_in(feature.GetFieldAsDouble(field_));
-    }
-    return feature.GetFieldAsInteger64(field_);
-}
-
-double FileColumn::real(OGRFeature const& feature) const {
-    if (is_null(feature)) {
-        return nan;
-    }
-    if (field_ == feature_id) {
-        return static_cast<double>(feature.GetFID());
-    }
-    return is_text_ ? number_in(feature.GetFieldAsString(field_)) : feature.GetFieldAsDouble(field_);
-}
-
-std::string FileColumn::text(OGRFeature const& feature) const {
-    if (field_ == feature_id) {
-        return fmt::format("{}", feature.GetFID());
-    }
-    return is_null(feature) ? "" : as_utf8(feature.GetFieldAsString(field_));
-}
-
-void FileColumn::require_numbers(OGRLayer& layer, std::string const& what, Notes& notes) const {
-    if (field_ < 0) {
-        return;
-    }
-    OGRFieldType const type = layer.GetLayerDefn()->GetFieldDefn(field_)->GetType();
-    if (is_text_) {
-        notes.add(what,
-                  {"text_number", 0, {}, 0.0, fmt::format("field {} holds text, which is read as numbers", name_)});
-    } else if (type != OFTInteger && type != OFTInteger64 && type != OFTReal) {
-        throw BadInput(fmt::format("{}: field {} does not hold numbers, but {}; name another field", what, name_,
-                                   OGRFieldDefn::GetFieldTypeName(type)));
-    }
-}
-
-ArcColumns::ArcColumns(OGRLayer& layer, std::optional<Schema> schema, std::map<Quantity, std::string> const& mapped,
-                       std::string const& what, Notes& notes) {
-    SchemaTable const& table = table_of(schema.value_or(Schema::native));
-    for (SchemaField const& field : table.fields) {
-        if (field.quantity != Quantity::constant && schema && !has(field.quantity)) {
-            columns_[field.quantity] = {FileColumn(layer, names_of(field)), &field};
-        }
-    }
-    for (auto const& [quantity, name] : mapped) {
-        FileColumn column(layer, name);
-        if (!column.is_there()) {
-            throw BadInput(fmt::format("{}: no field {}.{} (there are {})", what, name,
-                                       did_you_mean(name, field_names(layer)), fields_of(layer)));
-        }
-        columns_[quantity] = {std::move(column), field_of(table, quantity)};
-    }
-    for (Told const& told : columns_.entries) {
-        if (&told != &columns_[Quantity::type] && told.column.is_there()) {
-            told.column.require_numbers(layer, what, notes);
-        }
-    }
-}
-
-double ArcColumns::real(OGRFeature const& feature, Quantity quantity) const {
-    Told const& told = columns_[quantity];
-    if (!told.column.is_there()) {
-        return nan;
-    }
-    double const value = told.column.real(feature);
-    if (told.field == nullptr) {
-        return value;
-    }
-    return value == told.field->unknown ? nan : value * told.field->unit;
-}
-
-std::optional<std::int64_t> ArcColumns::none(Quantity quantity) const {
-    SchemaField const* const field = columns_[quantity].field;
-    return field == nullptr ? std::nullopt : whole_in(field->unknown);
-}
-
-std::string fields_of(OGRLayer& layer) {
-    std::vector<std::string> const names = field_names(layer);
-    return names.empty() ? "none" : fmt::format("{}", fmt::join(names, ", "));
-}
 
 void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFeature const&)> const& body) const {
     GIntBig const announced = layer->GetFeatureCount();
@@ -345,38 +313,28 @@ void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFea
                        what, read, announced);
 }
 
-bool takes_any_lines(Wish const& wish) {
-    return wish.any_lines && wish.fields.empty();
-}
-
 Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
-    std::string const& what = source.what();
+    std::string const name = wish.arcs_layer.empty() ? "arcs" : wish.arcs_layer;
+    if (OGRLayer* const layer = source.dataset->GetLayerByName(name.c_str())) {
+        return layer_of(source, *layer, name);
+    }
     if (!wish.arcs_layer.empty()) {
-        if (OGRLayer* const layer = source.layer(wish.arcs_layer)) {
-            return named(*layer, what, wish.arcs_layer);
-        }
-        throw BadInput(
-            fmt::format("{} has no layer {} (there are {})", what, wish.arcs_layer, names_of(source.layers())));
+        refuse_layer(source, name);
     }
-    if (OGRLayer* const layer = source.layer("arcs")) {
-        return named(*layer, what, "arcs");
-    }
-    std::vector<OGRLayer*> lines = source.layers();
-    refuse_if<BadInput>(wish.whole && (lines.size() != 1 || !may_hold_lines(*lines.front())), "{} has no layer arcs",
-                        what);
+    std::vector<OGRLayer*> const all = layers_of(*source.dataset);
+    std::vector<OGRLayer*> lines = all;
     std::erase_if(lines, [](OGRLayer* layer) { return !may_hold_lines(*layer); });
+    refuse_if<BadInput>(wish.whole && (all.size() != 1 || lines.empty()), "{} has no layer arcs", source.what);
     if (lines.size() > 1) {
         std::vector<OGRLayer*> understood = lines;
         std::erase_if(understood, [](OGRLayer* layer) { return recognised(*layer).empty(); });
         lines = understood.size() == 1 ? understood : lines;
     }
-    if (lines.size() != 1) {
-        throw BadInput(
-            lines.empty()
-                ? fmt::format("{} has no layer of lines (there are {})", what, names_of(source.layers()))
-                : fmt::format("{} has {} layers of lines; name one of them ({})", what, lines.size(), names_of(lines)));
-    }
-    return named(*lines.front(), what, wish.whole ? "arcs" : lines.front()->GetName());
+    refuse_if<BadInput>(lines.empty(), "{} has no layer of lines (there are {})", source.what,
+                        listed(layer_names(all)));
+    refuse_if<BadInput>(lines.size() > 1, "{} has {} layers of lines; name one of them ({})", source.what, lines.size(),
+                        listed(layer_names(lines)));
+    return layer_of(source, *lines.front(), wish.whole ? "arcs" : lines.front()->GetName());
 }
 
 std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
@@ -384,51 +342,51 @@ std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {
         return wish.schema;
     }
     auto const found = recognised(*arcs.layer);
-    // Thalweg's own files hold the columns of the user's beside theirs.
-    if (std::ranges::find(found, Schema::native) != found.end()) {
+    if (is_in_network_schema(*arcs.layer)) { // and the user's columns may be another's
         return Schema::native;
     }
     if (found.size() == 1) {
         return found.front();
     }
-    if (is_enough(wish.fields) || (found.empty() && takes_any_lines(wish))) {
+    auto const names_field = [&](Quantity quantity) { return wish.columns.contains(quantity); };
+    bool const is_enough =
+        names_field(Quantity::arc_id) &&
+        (names_field(Quantity::ds_arc) || (names_field(Quantity::from_node) && names_field(Quantity::to_node)));
+    if (is_enough || (found.empty() && takes_any_lines(wish))) {
         return std::nullopt;
     }
-    std::vector<std::string_view> names;
+    refuse_if<BadInput>(
+        found.empty(),
+        "{}: its fields ({}) match no schema ({}); name the schema, or the fields that hold arc_id and ds_arc, or "
+        "arc_id, from_node and to_node{}",
+        arcs.what, listed(field_names(*arcs.layer)), what_tells(),
+        field_names(*arcs.layer).empty() ? "; a shapefile without fields has lost its .dbf" : "");
+    std::vector<std::string> names;
     for (Schema const schema : found) {
-        names.push_back(table_of(schema).name);
-    }
-    if (found.empty()) {
-        throw BadInput(fmt::format(
-            "{}: its fields ({}) match no schema ({}); name the schema, or the fields "
-            "that hold arc_id and ds_arc, or arc_id, from_node and to_node{}",
-            arcs.what, fields_of(*arcs.layer), what_tells(),
-            arcs.layer->GetLayerDefn()->GetFieldCount() == 0 ? "; a shapefile without fields has lost its .dbf" : ""));
+        names.emplace_back(table_of(schema).name);
     }
     throw BadInput(
-        fmt::format("{}: its fields match several schemas ({}); name one of them", arcs.what, fmt::join(names, ", ")));
+        fmt::format("{}: its fields match several schemas ({}); name one of them", arcs.what, listed(names)));
 }
 
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,
                                   std::optional<Schema> schema, Wish const& wish) {
-    if (!wish.nodes_layer.empty()) {
-        for (NetworkSource const* const place : {source, &arcs_source}) {
-            if (OGRLayer* const layer = place == nullptr ? nullptr : place->layer(wish.nodes_layer)) {
-                return named(*layer, place->what(), wish.nodes_layer);
-            }
-        }
-        throw BadInput(fmt::format("{} has no layer {} (there are {})", arcs_source.what(), wish.nodes_layer,
-                                   names_of(arcs_source.layers())));
-    }
-    if (source == nullptr || (schema ? schema != Schema::native : takes_any_lines(wish))) {
+    std::string const name = wish.nodes_layer.empty() ? "nodes" : wish.nodes_layer;
+    if (wish.nodes_layer.empty() &&
+        (source == nullptr || (schema ? schema != Schema::native : takes_any_lines(wish)))) {
         return std::nullopt;
     }
-    if (OGRLayer* const layer = source->layer("nodes")) {
-        return named(*layer, source->what(), "nodes");
+    for (NetworkSource const* const place : {source == nullptr ? &arcs_source : source, &arcs_source}) {
+        if (OGRLayer* const layer = place->dataset->GetLayerByName(name.c_str())) {
+            return layer_of(*place, *layer, name);
+        }
     }
-    auto const layers = source->layers();
+    if (!wish.nodes_layer.empty()) {
+        refuse_layer(arcs_source, name);
+    }
+    auto const layers = layers_of(*source->dataset);
     bool const own_file = layers.size() == 1 && layers.front() != arcs.layer;
-    return own_file ? std::optional(named(*layers.front(), source->what(), "nodes")) : std::nullopt;
+    return own_file ? std::optional(layer_of(*source, *layers.front(), name)) : std::nullopt;
 }
 
 } // namespace thalweg::io

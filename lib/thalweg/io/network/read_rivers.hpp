@@ -12,7 +12,7 @@
 
 namespace thalweg::io {
 
-/// Where the rivers are that somebody's path names.
+/// Where the rivers of a path are.
 struct RiverSource {
     std::string path;
     std::string layer; ///< "arcs" of a network that thalweg wrote, else ""

@@ -5,13 +5,11 @@
 #include <algorithm>
 #include <array>
 
-#include <fmt/format.h>
-#include <fmt/ranges.h>
-
 #include <thalweg/core/indexed.hpp>
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/io/network/internal/table.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/network/internal/network_tables.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 
 namespace thalweg::io {
 
@@ -20,32 +18,36 @@ namespace {
 using Kind = Column::Kind;
 using Q = Quantity;
 
-constexpr double km = 1e3;
-constexpr double km2 = 1e6;
-constexpr double cm = 0.01;
-
-// In the units of others: as fine as those in metres.
-constexpr int km_decimals = 12;
-constexpr int km2_decimals = 12;
-constexpr int cm_decimals = 7;
+/// What a 1 in a file is in m, m2 or m/m, and the decimals in a shapefile: as fine as those in metres.
+struct FieldUnit {
+    double si;
+    int decimals;
+};
+constexpr FieldUnit m{1.0, length_decimals};
+constexpr FieldUnit m2{1.0, area_decimals};
+constexpr FieldUnit ratio{1.0, slope_decimals};
+constexpr FieldUnit km{1e3, 12};
+constexpr FieldUnit km2{1e6, 12};
+constexpr FieldUnit cm{0.01, 7};
 
 constexpr SchemaField integer(Q quantity, std::string_view name, std::string_view also = {}) {
     return {.quantity = quantity, .name = name, .also = also};
 }
 
-// A field that names an arc; none stands for no arc.
-constexpr SchemaField link(Q quantity, std::string_view name, double none, std::string_view also = {}) {
-    return {.quantity = quantity, .name = name, .also = also, .unknown = none};
+// A field that names an arc.
+constexpr SchemaField link(Q quantity, std::string_view name, double no_arc, std::string_view also = {}) {
+    return {.quantity = quantity, .name = name, .also = also, .unknown = no_arc};
 }
 
-constexpr SchemaField real(Q quantity, std::string_view name, int decimals, double unit = 1.0,
-                           std::string_view also = {}) {
-    return {.quantity = quantity, .name = name, .kind = Kind::real, .decimals = decimals, .unit = unit, .also = also};
-}
-
-constexpr SchemaField with_unknown(SchemaField field, double unknown) {
-    field.unknown = unknown;
-    return field;
+constexpr SchemaField real(Q quantity, std::string_view name, FieldUnit unit, std::string_view also = {},
+                           double unknown = nan) {
+    return {.quantity = quantity,
+            .name = name,
+            .kind = Kind::real,
+            .decimals = unit.decimals,
+            .unit = unit.si,
+            .also = also,
+            .unknown = unknown};
 }
 
 constexpr SchemaField only_read(SchemaField field) {
@@ -61,7 +63,6 @@ constexpr SchemaField always(std::string_view name, std::string_view text) {
     return {.name = name, .kind = Kind::text, .text = text};
 }
 
-// The network schema. Its own tables are written by network_tables.
 constexpr std::array native_fields{
     integer(Q::arc_id, "arc_id"),
     integer(Q::from_node, "from_node"),
@@ -73,16 +74,16 @@ constexpr std::array native_fields{
     integer(Q::strahler, "strahler"),
     integer(Q::shreve, "shreve"),
     integer(Q::hack, "hack"),
-    real(Q::length, "length", length_decimals),
-    real(Q::length_3d, "length_3d", length_decimals),
-    real(Q::straight, "straight", length_decimals),
-    real(Q::z_up, "z_up", length_decimals),
-    real(Q::z_down, "z_down", length_decimals),
-    real(Q::dist_out, "dist_out", length_decimals),
-    real(Q::slope, "slope", slope_decimals),
-    real(Q::us_area, "us_area", area_decimals),
-    real(Q::ds_area, "ds_area", area_decimals),
-    with_unknown(real(Q::persistence, "survives", length_decimals), -1), // which stands for infinity
+    real(Q::length, "length", m),
+    real(Q::length_3d, "length_3d", m),
+    real(Q::straight, "straight", m),
+    real(Q::z_up, "z_up", m),
+    real(Q::z_down, "z_down", m),
+    real(Q::dist_out, "dist_out", m),
+    real(Q::slope, "slope", ratio),
+    real(Q::us_area, "us_area", m2),
+    real(Q::ds_area, "ds_area", m2),
+    real(Q::persistence, "survives", m, {}, -1), // which stands for infinity
     SchemaField{.quantity = Q::feature, .name = "feature", .kind = Kind::wide_integer},
     SchemaField{.quantity = Q::type, .name = "type", .kind = Kind::text},
     integer(Q::braided, "braided"),
@@ -98,17 +99,17 @@ constexpr std::array taudem_fields{
     link(Q::us_arc_2, "USLINKNO2", -1),
     always("DSNODEID", Kind::integer, -1),
     integer(Q::strahler, "strmOrder", "Order"),
-    real(Q::length, "Length", length_decimals),
+    real(Q::length, "Length", m),
     integer(Q::shreve, "Magnitude"),
-    real(Q::ds_area, "DSContArea", area_decimals, 1.0, "DS_Cont_Ar"),
-    real(Q::drop, "strmDrop", length_decimals, 1.0, "Drop"),
-    real(Q::slope, "Slope", slope_decimals),
-    real(Q::straight, "StraightL", length_decimals, 1.0, "Straight_L"),
-    real(Q::us_area, "USContArea", area_decimals, 1.0, "US_Cont_Ar"),
+    real(Q::ds_area, "DSContArea", m2, "DS_Cont_Ar"),
+    real(Q::drop, "strmDrop", m, "Drop"),
+    real(Q::slope, "Slope", ratio),
+    real(Q::straight, "StraightL", m, "Straight_L"),
+    real(Q::us_area, "USContArea", m2, "US_Cont_Ar"),
     integer(Q::arc_id, "WSNO"),
-    real(Q::dist_out, "DOUTEND", length_decimals, 1.0, "DOUT_END"),
-    real(Q::dist_up, "DOUTSTART", length_decimals, 1.0, "DOUT_START"),
-    real(Q::dist_mid, "DOUTMID", length_decimals, 1.0, "DOUT_MID"),
+    real(Q::dist_out, "DOUTEND", m, "DOUT_END"),
+    real(Q::dist_up, "DOUTSTART", m, "DOUT_START"),
+    real(Q::dist_mid, "DOUTMID", m, "DOUT_MID"),
 };
 
 // NHDPlus Version 2 User Guide (2012) and NHDPlus HR data dictionary: NHDFlowline with PlusFlowlineVAA and elevslope
@@ -117,7 +118,7 @@ constexpr std::array taudem_fields{
 constexpr std::array nhdplus_fields{
     integer(Q::arc_id, "COMID", "NHDPlusID"),
     always("RESOLUTION", "Local"),
-    real(Q::length, "LENGTHKM", km_decimals, km),
+    real(Q::length, "LENGTHKM", km),
     always("FLOWDIR", "With Digitized"),
     always("WBAREACOMI", Kind::integer, 0),
     always("FTYPE", "StreamRiver"),
@@ -129,9 +130,9 @@ constexpr std::array nhdplus_fields{
     integer(Q::to_node, "ToNode"),
     integer(Q::key, "Hydroseq"),
     integer(Q::path, "LevelPathI", "LevelPath LevelPathID"),
-    real(Q::dist_out, "Pathlength", km_decimals, km),
+    real(Q::dist_out, "Pathlength", km),
     integer(Q::outlet_path, "TerminalPa", "TerminalPath"),
-    real(Q::length_us, "ArbolateSu", km_decimals, km, "ArbolateSum"),
+    real(Q::length_us, "ArbolateSu", km, "ArbolateSum"),
     always("Divergence", Kind::integer, 0),
     integer(Q::is_source, "StartFlag"),
     integer(Q::is_outlet, "TerminalFl", "TerminalFlag"),
@@ -146,31 +147,24 @@ constexpr std::array nhdplus_fields{
     always("FromMeas", Kind::real, 0),
     always("ToMeas", Kind::real, 100),
     always("RtnDiv", Kind::integer, 0),
-    real(Q::own_area, "AreaSqKM", km2_decimals, km2),
-    real(Q::ds_area, "TotDASqKM", km2_decimals, km2),
-    real(Q::ds_area, "DivDASqKM", km2_decimals, km2),
-    with_unknown(real(Q::z_up, "MAXELEVSMO", cm_decimals, cm), -9998),
-    with_unknown(real(Q::z_down, "MINELEVSMO", cm_decimals, cm), -9998),
-    with_unknown(real(Q::slope, "SLOPE", slope_decimals), -9998),
+    real(Q::own_area, "AreaSqKM", km2),
+    real(Q::ds_area, "TotDASqKM", km2),
+    real(Q::ds_area, "DivDASqKM", km2),
+    real(Q::z_up, "MAXELEVSMO", cm, {}, -9998),
+    real(Q::z_down, "MINELEVSMO", cm, {}, -9998),
+    real(Q::slope, "SLOPE", ratio, {}, -9998),
 };
 
 // HydroRIVERS Technical Documentation v1.0 (2019). Discharge, its class and the sub-basin of HydroBASINS are not
 // known here.
 constexpr std::array hydrorivers_fields{
-    integer(Q::arc_id, "HYRIV_ID"),
-    link(Q::ds_arc, "NEXT_DOWN", 0),
-    integer(Q::outlet_arc, "MAIN_RIV"),
-    real(Q::length, "LENGTH_KM", km_decimals, km),
-    real(Q::dist_out, "DIST_DN_KM", km_decimals, km),
-    real(Q::dist_source, "DIST_UP_KM", km_decimals, km),
-    real(Q::own_area, "CATCH_SKM", km2_decimals, km2),
-    real(Q::ds_area, "UPLAND_SKM", km2_decimals, km2),
-    always("ENDORHEIC", Kind::integer, 0),
-    always("DIS_AV_CMS", Kind::real, -9999),
-    integer(Q::strahler, "ORD_STRA"),
-    integer(Q::hack, "ORD_CLAS"),
-    always("ORD_FLOW", Kind::integer, 0),
-    always("HYBAS_L12", Kind::integer, 0),
+    integer(Q::arc_id, "HYRIV_ID"),        link(Q::ds_arc, "NEXT_DOWN", 0),
+    integer(Q::outlet_arc, "MAIN_RIV"),    real(Q::length, "LENGTH_KM", km),
+    real(Q::dist_out, "DIST_DN_KM", km),   real(Q::dist_source, "DIST_UP_KM", km),
+    real(Q::own_area, "CATCH_SKM", km2),   real(Q::ds_area, "UPLAND_SKM", km2),
+    always("ENDORHEIC", Kind::integer, 0), always("DIS_AV_CMS", Kind::real, -9999),
+    integer(Q::strahler, "ORD_STRA"),      integer(Q::hack, "ORD_CLAS"),
+    always("ORD_FLOW", Kind::integer, 0),  always("HYBAS_L12", Kind::integer, 0),
 };
 
 // GRASS addon r.stream.order, the table of stream_vect (its source stream_vector.c, misspellings included; prev_str of
@@ -192,17 +186,17 @@ constexpr std::array grass_fields{
     integer(Q::topo_ord, "topo_dim"),
     integer(Q::scheidegger, "scheidegger", "scheidegge"),
     integer(Q::drwal, "drwal_old"),
-    real(Q::length, "length", length_decimals),
-    real(Q::straight, "stright", length_decimals),
-    real(Q::sinuosity, "sinosoid", slope_decimals, 1.0, "sinusoid"),
-    real(Q::dist_source, "cum_length", length_decimals),
+    real(Q::length, "length", m),
+    real(Q::straight, "stright", m),
+    real(Q::sinuosity, "sinosoid", ratio, "sinusoid"),
+    real(Q::dist_source, "cum_length", m),
     always("flow_accum", Kind::real, 0),
-    real(Q::dist_up, "out_dist", length_decimals),
-    real(Q::z_up, "source_elev", length_decimals, 1.0, "source_ele"),
-    real(Q::z_down, "outlet_elev", length_decimals, 1.0, "outlet_ele"),
-    real(Q::drop, "elev_drop", length_decimals),
+    real(Q::dist_up, "out_dist", m),
+    real(Q::z_up, "source_elev", m, "source_ele"),
+    real(Q::z_down, "outlet_elev", m, "outlet_ele"),
+    real(Q::drop, "elev_drop", m),
     always("out_drop", Kind::real, 0),
-    real(Q::slope, "gradient", slope_decimals),
+    real(Q::slope, "gradient", ratio),
     only_read(integer(Q::basin_id, "network")),
 };
 
@@ -212,34 +206,15 @@ constexpr std::array<std::string_view, 2> nhdplus_told{"comid nhdplusid", "hydro
 constexpr std::array<std::string_view, 2> hydrorivers_told{"hyriv_id", "next_down"};
 constexpr std::array<std::string_view, 2> grass_told{"stream cat", "next_stream next_strea stream_type stream_typ"};
 
-constexpr ByEnum<Schema, SchemaTable, 5> tables{{
-    SchemaTable{.name = "native", .fields = native_fields, .told_by = native_told},
-    SchemaTable{.schema = Schema::taudem,
-                .name = "taudem",
-                .fields = taudem_fields,
-                .told_by = taudem_told,
-                .layer = "streamnet",
-                .first_id = 0,
-                .most_upstream = 2,
-                .drawn_upstream = true,
-                .segment_parts = true},
-    SchemaTable{.schema = Schema::nhdplus,
-                .name = "nhdplus",
-                .fields = nhdplus_fields,
-                .told_by = nhdplus_told,
-                .layer = "NHDFlowline_Network"},
-    SchemaTable{.schema = Schema::hydrorivers,
-                .name = "hydrorivers",
-                .fields = hydrorivers_fields,
-                .told_by = hydrorivers_told,
-                .layer = "HydroRIVERS"},
-    SchemaTable{.schema = Schema::grass,
-                .name = "grass",
-                .fields = grass_fields,
-                .told_by = grass_told,
-                .layer = "streams",
-                .most_upstream = 5},
-}};
+// In the order of the enumerators; the layer, the least arc id, how many arcs may flow into one, whether lines are
+// drawn upstream, and whether each segment is a part of its own.
+constexpr ByEnum<Schema, SchemaTable, 5> tables{{{
+    {Schema::native, "native", native_fields, native_told},
+    {Schema::taudem, "taudem", taudem_fields, taudem_told, "streamnet", 0, 2, true, true},
+    {Schema::nhdplus, "nhdplus", nhdplus_fields, nhdplus_told, "NHDFlowline_Network"},
+    {Schema::hydrorivers, "hydrorivers", hydrorivers_fields, hydrorivers_told, "HydroRIVERS"},
+    {Schema::grass, "grass", grass_fields, grass_told, "streams", 1, 5},
+}}};
 
 // In the order of the enumerators.
 constexpr ByEnum<Quantity, std::string_view, static_cast<std::size_t>(Quantity::constant) + 1> quantity_names{
@@ -252,17 +227,6 @@ constexpr ByEnum<Quantity, std::string_view, static_cast<std::size_t>(Quantity::
      "dist_source", "length_us", "own_area",    "constant"}};
 static_assert(quantity_names[Quantity::constant] == "constant");
 
-// Written so that a table in another order does not compile.
-constexpr bool in_order() {
-    for (std::size_t i = 0; i < tables.entries.size(); ++i) {
-        if (tables.entries.at(i).schema != static_cast<Schema>(i)) {
-            return false;
-        }
-    }
-    return true;
-}
-static_assert(in_order());
-
 } // namespace
 
 std::string_view name_of(Quantity quantity) {
@@ -271,10 +235,8 @@ std::string_view name_of(Quantity quantity) {
 
 std::optional<Quantity> quantity_of(std::string_view name) {
     auto const* const found = std::ranges::find(quantity_names.entries, name);
-    if (found == quantity_names.entries.end() || *found == name_of(Quantity::constant)) {
-        return std::nullopt;
-    }
-    return static_cast<Quantity>(found - quantity_names.entries.begin());
+    auto const quantity = static_cast<Quantity>(found - quantity_names.entries.begin());
+    return quantity < Quantity::constant ? std::optional(quantity) : std::nullopt;
 }
 
 SchemaTable const& table_of(Schema schema) {
@@ -288,13 +250,12 @@ std::span<SchemaTable const> all_schemas() {
 Schema schema_named(std::string const& name) {
     std::vector<std::string> names;
     for (SchemaTable const& table : tables.entries) {
-        if (table.name == name) {
-            return table.schema;
-        }
         names.emplace_back(table.name);
     }
-    throw BadInput(fmt::format("io.schema_named: there is no schema '{}'.{} ({})", name, did_you_mean(name, names),
-                               fmt::join(names, ", ")));
+    auto const found = std::ranges::find(names, name);
+    refuse_if<BadInput>(found == names.end(), "io.schema_named: there is no schema '{}'.{} ({})", name,
+                        did_you_mean(name, names), listed(names));
+    return static_cast<Schema>(found - names.begin());
 }
 
 SchemaField const* field_of(SchemaTable const& table, Quantity quantity) {

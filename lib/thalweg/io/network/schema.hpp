@@ -13,12 +13,12 @@
 
 namespace thalweg::io {
 
-/// Whose words and units a network's fields are in.
+/// Whose field names and units a network has.
 enum class Schema : std::uint8_t { native, taudem, nhdplus, hydrorivers, grass };
 
-/// What a field of an arc tells. An arc's ends are up and down; the outlet is where its water leaves the network.
+/// What a field says of an arc. An arc has an upper and a lower end; its outlet is where its water leaves the network.
 enum class Quantity : std::uint8_t {
-    // The columns of the network schema, in its order.
+    // The columns of the native schema, in its order.
     arc_id,
     from_node,
     to_node,
@@ -42,8 +42,8 @@ enum class Quantity : std::uint8_t {
     feature,
     type,
     braided,
-    given, ///< 1, or 0 for a side valley that the land has grown
-    // What others tell besides.
+    given, ///< 1, or 0 for a side valley grown in the terrain
+    // What other schemas have besides.
     us_arc_1, ///< the arcs upstream, in order of arc_id; none beyond the last
     us_arc_2,
     us_arc_3,
@@ -75,7 +75,7 @@ enum class Quantity : std::uint8_t {
 };
 
 /// \param quantity the quantity
-/// \return the name by which a user names a quantity: of the columns of the network schema theirs.
+/// \return the name by which a user names a quantity: of the columns of the native schema, their own.
 std::string_view name_of(Quantity quantity);
 /// \param name its name
 /// \return nothing for an unknown name.
@@ -87,26 +87,26 @@ struct SchemaField {
     std::string_view name = {}; ///< as its owner writes it; found in any case of letters
     Column::Kind kind = Column::Kind::integer;
     int decimals = 0;                                          ///< of a real in a shapefile
-    double unit = 1.0;                                         ///< what a 1 in the file is, in m, m2 or m/m
-    std::string_view also = {};                                ///< other names it goes by, a blank between them
-    double unknown = std::numeric_limits<double>::quiet_NaN(); ///< stands for no arc, or for a value that is not known
+    double unit = 1.0;                                         ///< of a number in the file, in m, m2 or m/m
+    std::string_view also = {};                                ///< other names, separated by blanks
+    double unknown = std::numeric_limits<double>::quiet_NaN(); ///< stands for no arc, or for an unknown value
     double value = 0.0;                                        ///< of a constant that is a number
     std::string_view text = {};                                ///< of a constant that is a text
-    bool written = true;                                       ///< else it is only understood when read
+    bool written = true;                                       ///< else it is only read
 };
 
-/// The one place that knows how the arcs of a network are called in somebody's files.
+/// How somebody's files hold the arcs of a network.
 struct SchemaTable {
     Schema schema = Schema::native;
     std::string_view name = {};                ///< "taudem"
     std::span<SchemaField const> fields;       ///< in the order in which they are written
-    std::span<std::string_view const> told_by; ///< a file with all of these fields is of this schema; a blank between
-                                               ///< those of which one is enough
+    std::span<std::string_view const> told_by; ///< a file with all of these fields is of this schema; of names that a
+                                               ///< blank separates one is enough
     std::string_view layer = "arcs";           ///< the layer of arcs, when written
     std::int64_t first_id = 1;   ///< the least arc id: in a file arc_id k is k - 1 + first_id, in every field of arcs
     int most_upstream = 0;       ///< how many arcs may flow into one; 0 for any number
-    bool drawn_upstream = false; ///< vertex 0 is at the end down
-    bool segment_parts = false;  ///< its owner writes every segment as a part of its own
+    bool drawn_upstream = false; ///< vertex 0 is at the lower end
+    bool segment_parts = false;  ///< every segment of a line is a part of its own
 };
 
 SchemaTable const& table_of(Schema schema);

@@ -1,14 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-
-#include <thalweg/io/network/internal/table.hpp>
-
-#include <algorithm>
 #include <array>
 #include <cmath>
 #include <filesystem>
 #include <limits>
+#include <memory>
 
+#include <cpl_conv.h>
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
@@ -16,197 +14,149 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/network/internal/network_tables.hpp>
 
 namespace thalweg::io {
+
 namespace {
 
-// A dBase field is text: these widths hold what a reader takes for a 32-bit, a 64-bit and a real number.
-constexpr int integer_width = 9;
-constexpr int wide_integer_width = 18;
-constexpr int real_width = 24;
-constexpr int text_width = 32; // grows by itself up to text_limit
+using Kind = Column::Kind;
+using Shape = Table::Shape;
+
+struct FileFormat {
+    char const* word;   // as messages name it
+    char const* driver; // as GDAL does
+    std::array<char const*, 3> options = {};
+};
+
+// In the order of LayerFormat.
+constexpr ByEnum<LayerFormat, FileFormat, 5> file_formats{
+    {{{"geopackage", "GPKG", {"GEOMETRY_NULLABLE=NO"}},
+      {"shapefile", "ESRI Shapefile", {"ENCODING=UTF-8", "DBF_DATE_LAST_UPDATE=2000-01-01"}},
+      {"flatgeobuf", "FlatGeobuf"},
+      {"geojson", "GeoJSON", {"SIGNIFICANT_FIGURES=17"}}, // any double, bit for bit
+      {"postgis", "PostgreSQL", {"GEOMETRY_NAME=geom", "FID=fid", "GEOMETRY_NULLABLE=NO"}}}}};
+
+// In the order of Table::Shape.
+constexpr ByEnum<Shape, OGRwkbGeometryType, 6> shape_types{
+    {{wkbNone, wkbPoint25D, wkbLineString25D, wkbLineString, wkbPolygon25D, wkbMultiPolygon}}};
+
+// A dBase field is text: its width holds what a reader takes for a 32-bit, a 64-bit and a real number. A user's columns
+// have room for any such number, also for one that a reader takes for 64 bits.
+struct FieldKind {
+    OGRFieldType type;
+    int width = 0;
+    int users_width = 0;
+};
+
+// In the order of Column::Kind. Texts grow up to text_limit by themselves.
+constexpr ByEnum<Kind, FieldKind, 7> field_kinds{{{{OFTInteger, 9, 11},
+                                                   {OFTInteger64, 18, 20},
+                                                   {OFTReal, 24, 24},
+                                                   {OFTString, 32, 32},
+                                                   {OFTDate},
+                                                   {OFTTime},
+                                                   {OFTDateTime}}}};
 constexpr std::size_t text_limit = 254;
 
-// Both formats stamp the day of writing unless told another.
-constexpr char const* date = "2000-01-01";
-constexpr char const* instant = "2000-01-01T00:00:00.000Z";
-
-// Room for any number a user may have, one that a reader takes for 64 bits included.
-int users_width(Column::Kind kind, int width) {
-    constexpr int any_integer = 11;
-    constexpr int any_wide_integer = 20;
-    return kind == Column::Kind::integer ? any_integer : kind == Column::Kind::wide_integer ? any_wide_integer : width;
-}
-
-void add_field(LayerTarget const& target, OGRLayer& layer, Column const& column) {
-    OGRFieldDefn field(column.name.c_str(), OFTInteger);
-    int width = integer_width;
-    switch (column.kind) {
-    case Column::Kind::integer: break;
-    case Column::Kind::wide_integer:
-        field.SetType(OFTInteger64);
-        width = wide_integer_width;
-        break;
-    case Column::Kind::real:
-        field.SetType(OFTReal);
-        width = real_width;
-        break;
-    case Column::Kind::text:
-        field.SetType(OFTString);
-        width = text_width;
-        break;
-    case Column::Kind::date:
-        field.SetType(OFTDate);
-        width = 0;
-        break;
-    case Column::Kind::time:
-        field.SetType(OFTTime);
-        width = 0;
-        break;
-    case Column::Kind::datetime:
-        field.SetType(OFTDateTime);
-        width = 0;
-        break;
-    }
-    bool const is_part_of_moment = column.kind == Column::Kind::date || column.kind == Column::Kind::time;
-    if (target.format == LayerFormat::flatgeobuf && is_part_of_moment) { // which has no other
-        field.SetType(OFTString);
-    }
-    if (target.format == LayerFormat::shapefile) {
-        field.SetWidth(column.is_users ? users_width(column.kind, width) : width);
-        field.SetPrecision(column.decimals);
-    } else if (!column.is_users) {
-        field.SetNullable(FALSE);
-    }
-    target.require(layer.CreateField(&field) == OGRERR_NONE);
-}
-
-// Least power of ten that has too many digits for a field.
-double limit_of(Column const& column, LayerFormat format) {
-    auto const digits = [](int count) {
-        double power = 1.0;
-        for (int i = 0; i < count; ++i) {
-            power *= 10.0;
-        }
-        return power;
-    };
-    if (column.kind == Column::Kind::integer) {
-        return digits(integer_width - 1); // in every format, so that they hold the same
-    }
-    if (format != LayerFormat::shapefile) {
-        return std::numeric_limits<double>::infinity();
-    }
-    return column.kind == Column::Kind::wide_integer ? digits(wide_integer_width - 1)
-                                                     : digits(real_width - 2 - column.decimals);
-}
-
-CPLStringList options_of(LayerTarget const& target, bool has_shape) {
-    CPLStringList options;
-    switch (target.format) {
-    case LayerFormat::geopackage:
-        if (has_shape) {
-            options.SetNameValue("GEOMETRY_NULLABLE", "NO");
-        }
-        break;
-    case LayerFormat::shapefile:
-        options.SetNameValue("ENCODING", "UTF-8");
-        options.SetNameValue("DBF_DATE_LAST_UPDATE", date);
-        break;
-    case LayerFormat::flatgeobuf: break;
-    case LayerFormat::geojson: options.SetNameValue("SIGNIFICANT_FIGURES", "17"); break; // any double, bit for bit
-    case LayerFormat::postgresql:
-        options.SetNameValue("GEOMETRY_NAME", "geom");
-        options.SetNameValue("FID", "fid");
-        options.SetNameValue("GEOMETRY_NULLABLE", "NO");
-        if (!target.db_schema.empty()) {
-            options.SetNameValue("SCHEMA", target.db_schema.c_str());
-        }
-        break;
-    }
-    return options;
-}
-
 OGRLayer& create_layer(LayerTarget const& target, Table const& table) {
-    CPLStringList options = options_of(target, table.shape != Table::Shape::none);
-    OGRwkbGeometryType type = wkbNone;
-    if (table.shape != Table::Shape::none) {
-        type = table.shape == Table::Shape::point       ? wkbPoint25D
-               : table.shape == Table::Shape::line      ? wkbLineString25D
-               : table.shape == Table::Shape::plan_line ? wkbLineString
-               : table.shape == Table::Shape::polygon   ? wkbPolygon25D
-                                                        : wkbMultiPolygon;
+    CPLStringList options;
+    for (char const* const option : file_formats[target.format].options) {
+        if (option != nullptr) {
+            options.AddString(option);
+        }
     }
-    OGRLayer* const layer = target.dataset.CreateLayer(table.name.c_str(), type == wkbNone ? nullptr : target.reference,
-                                                       type, options.List());
+    if (!target.db_schema.empty()) {
+        options.SetNameValue("SCHEMA", target.db_schema.c_str());
+    }
+    OGRLayer* const layer =
+        target.dataset.CreateLayer(table.name.c_str(), table.shape == Shape::none ? nullptr : target.reference,
+                                   shape_types[table.shape], options.List());
     target.require(layer != nullptr);
     for (Column const& column : table.columns) {
-        add_field(target, *layer, column);
+        FieldKind const& kind = field_kinds[column.kind];
+        // FlatGeobuf has neither dates nor times of day, only both in one.
+        bool const as_text =
+            target.format == LayerFormat::flatgeobuf && (column.kind == Kind::date || column.kind == Kind::time);
+        OGRFieldDefn field(column.name.c_str(), as_text ? OFTString : kind.type);
+        if (target.format == LayerFormat::shapefile) {
+            field.SetWidth(column.is_users ? kind.users_width : kind.width);
+            field.SetPrecision(column.decimals);
+        } else if (!column.is_users) {
+            field.SetNullable(FALSE);
+        }
+        target.require(layer->CreateField(&field) == OGRERR_NONE);
     }
     return *layer;
 }
 
+// The least power of ten that has too many digits for a column. Integers have it in every format, so that all hold the
+// same.
+double limit_of(Column const& column, LayerFormat format) {
+    if (column.is_users || (column.kind != Kind::integer && format != LayerFormat::shapefile)) {
+        return std::numeric_limits<double>::infinity();
+    }
+    int const width = field_kinds[column.kind].width;
+    double power = 1.0;
+    for (int digits = column.kind == Kind::real ? width - 2 - column.decimals : width - 1; digits > 0; --digits) {
+        power *= 10.0;
+    }
+    return power;
+}
+
 void set_field(OGRFeature& feature, int index, Column const& column, std::size_t row, LayerTarget const& target,
                std::string const& table) {
-    auto const refuse = [&](std::string const& why) {
-        throw BadInput(fmt::format("{}: {} {} has {} {}", target.what, table, row + 1, column.name, why));
-    };
     auto const value = column.at(row);
+    double const limit = limit_of(column, target.format);
     if (std::holds_alternative<std::monostate>(value)) {
         feature.SetFieldNull(index);
-        return;
-    }
-    double const limit = column.is_users ? std::numeric_limits<double>::infinity() : limit_of(column, target.format);
-    if (auto const* whole = std::get_if<std::int64_t>(&value)) {
-        if (!(std::fabs(static_cast<double>(*whole)) < limit)) {
-            refuse(fmt::format("= {}, more than the field holds", *whole));
-        }
+    } else if (auto const* whole = std::get_if<std::int64_t>(&value)) {
+        refuse_if<BadInput>(!(std::fabs(static_cast<double>(*whole)) < limit),
+                            "{}: {} {} has {} = {}, more than the field holds", target.what, table, row + 1,
+                            column.name, *whole);
         feature.SetField(index, static_cast<GIntBig>(*whole));
     } else if (auto const* real = std::get_if<double>(&value)) {
-        if (!std::isfinite(*real) || !(std::fabs(*real) < limit)) {
-            refuse(fmt::format("= {}, which cannot be written", *real));
-        }
+        refuse_if<BadInput>(!std::isfinite(*real) || !(std::fabs(*real) < limit),
+                            "{}: {} {} has {} = {}, which cannot be written", target.what, table, row + 1, column.name,
+                            *real);
         feature.SetField(index, *real);
     } else {
         auto const& text = std::get<std::string>(value);
-        if (target.format == LayerFormat::shapefile && text.size() > text_limit) {
-            refuse(fmt::format("of more than {} bytes", text_limit));
-        }
+        refuse_if<BadInput>(target.format == LayerFormat::shapefile && text.size() > text_limit,
+                            "{}: {} {} has {} of more than {} bytes", target.what, table, row + 1, column.name,
+                            text_limit);
         feature.SetField(index, text.c_str());
     }
 }
 
-void set_parts(OGRFeature& feature, Table const& table, std::size_t row, LayerTarget const& target) {
-    OGRMultiPolygon parts;
-    for (Polygon const& part : table.parts_at(row)) {
-        OGRPolygon drawn;
+std::unique_ptr<OGRGeometry> drawn_polygons(std::vector<Polygon> const& parts) {
+    auto drawn = std::make_unique<OGRMultiPolygon>();
+    for (Polygon const& part : parts) {
+        OGRPolygon polygon;
         for (auto const& positions : part.rings) {
             OGRLinearRing ring;
-            ring.setNumPoints(static_cast<int>(positions.size()));
-            for (int i = 0; Vec2 const p : positions) {
-                ring.setPoint(i++, p.x, p.y);
+            for (Vec2 const p : positions) {
+                ring.addPoint(p.x, p.y);
             }
             ring.closeRings();
-            target.require(drawn.addRing(&ring) == OGRERR_NONE);
+            polygon.addRing(&ring);
         }
-        target.require(parts.addGeometry(&drawn) == OGRERR_NONE);
+        drawn->addGeometry(&polygon);
     }
-    target.require(feature.SetGeometry(&parts) == OGRERR_NONE);
+    return drawn;
 }
 
-void set_shape(OGRFeature& feature, Table const& table, std::size_t row, LayerTarget const& target) {
-    if (table.shape == Table::Shape::multi_polygon) {
-        set_parts(feature, table, row, target);
-        return;
+std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, std::string const& what) {
+    if (table.shape == Shape::multi_polygon) {
+        return drawn_polygons(table.parts_at(row));
     }
     std::vector<Vec3> const positions = table.shape_at(row);
     for (Vec3 const& p : positions) {
-        refuse_if<BadInput>(!is_finite(p), "{}: {} {} has a vertex ({}, {}, {})", target.what, table.name, row + 1, p.x,
-                            p.y, p.z);
+        refuse_if<BadInput>(table.shape == Shape::plan_line ? !is_finite(plan(p)) : !is_finite(p),
+                            "{}: {} {} has a vertex ({}, {}, {})", what, table.name, row + 1, p.x, p.y, p.z);
     }
-    if (table.shape == Table::Shape::point) {
-        OGRPoint const point(positions.at(0).x, positions.at(0).y, positions.at(0).z);
-        target.require(feature.SetGeometry(&point) == OGRERR_NONE);
-        return;
+    if (table.shape == Shape::point) {
+        return std::make_unique<OGRPoint>(positions.at(0).x, positions.at(0).y, positions.at(0).z);
     }
     auto const draw = [&](OGRSimpleCurve& line) {
         line.setNumPoints(static_cast<int>(positions.size()));
@@ -214,34 +164,22 @@ void set_shape(OGRFeature& feature, Table const& table, std::size_t row, LayerTa
             line.setPoint(i++, p.x, p.y, p.z);
         }
     };
-    if (table.shape == Table::Shape::line || table.shape == Table::Shape::plan_line) {
-        OGRLineString line;
-        draw(line);
-        if (table.shape == Table::Shape::plan_line) {
-            line.flattenTo2D();
-        }
-        target.require(feature.SetGeometry(&line) == OGRERR_NONE);
-        return;
+    if (table.shape == Shape::polygon) {
+        OGRLinearRing ring;
+        draw(ring);
+        auto polygon = std::make_unique<OGRPolygon>();
+        polygon->addRing(&ring);
+        return polygon;
     }
-    OGRLinearRing ring;
-    draw(ring);
-    OGRPolygon polygon;
-    target.require(polygon.addRing(&ring) == OGRERR_NONE && feature.SetGeometry(&polygon) == OGRERR_NONE);
-}
-
-GIntBig id_of(GIntBig row, LayerFormat format) {
-    // A shapefile counts its features from 0 and would leave a gap; the others count by themselves.
-    return format == LayerFormat::geopackage ? row + 1 : format == LayerFormat::shapefile ? row : OGRNullFID;
+    auto line = std::make_unique<OGRLineString>();
+    draw(*line);
+    if (table.shape == Shape::plan_line) {
+        line->flattenTo2D();
+    }
+    return line;
 }
 
 } // namespace
-
-FixedDate::FixedDate() {
-    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", instant);
-}
-FixedDate::~FixedDate() {
-    CPLSetThreadLocalConfigOption("OGR_CURRENT_DATE", nullptr);
-}
 
 void LayerTarget::require(bool done) const {
     if (!done) {
@@ -251,41 +189,25 @@ void LayerTarget::require(bool done) const {
 }
 
 void write_layer(LayerTarget const& target, Table const& table, Run const& run) {
-    constexpr std::size_t rows_between_reports = 1024;
     OGRLayer& layer = create_layer(target, table);
     OGRFeature feature(layer.GetLayerDefn());
-    for (std::size_t row = 0; row < table.rows; ++row) {
-        if (row % rows_between_reports == 0) {
-            run.at(static_cast<double>(row) / static_cast<double>(table.rows), "write");
-        }
+    each_row(table, run, [&](std::size_t row) {
         for (int i = 0; Column const& column : table.columns) {
             set_field(feature, i++, column, row, target, table.name);
         }
-        if (table.shape != Table::Shape::none) {
-            set_shape(feature, table, row, target);
+        if (table.shape != Shape::none) {
+            target.require(feature.SetGeometry(drawn_shape(table, row, target.what).get()) == OGRERR_NONE);
         }
-        feature.SetFID(id_of(static_cast<GIntBig>(row), target.format));
+        // A shapefile counts its features from 0 and would leave a gap; other formats than GeoPackage count themselves.
+        auto const id = static_cast<GIntBig>(row);
+        feature.SetFID(target.format == LayerFormat::geopackage  ? id + 1
+                       : target.format == LayerFormat::shapefile ? id
+                                                                 : OGRNullFID);
         target.require(layer.CreateFeature(&feature) == OGRERR_NONE);
-    }
+    });
 }
 
 namespace {
-
-struct FileFormat {
-    char const* word;   // as messages name it
-    char const* driver; // as GDAL does
-};
-
-// In the order of LayerFormat.
-constexpr ByEnum<LayerFormat, FileFormat, 4> file_formats{
-    {{{"geopackage", "GPKG"}, {"shapefile", "ESRI Shapefile"}, {"flatgeobuf", "FlatGeobuf"}, {"geojson", "GeoJSON"}}}};
-
-void require_code(OGRSpatialReference const* reference, std::string const& what) {
-    refuse_if<BadInput>(reference == nullptr || reference->GetAuthorityCode(nullptr) == nullptr,
-                        "{}: GeoJSON takes coordinates without an EPSG code for degrees: bring the network into a CRS "
-                        "that has one, or write FlatGeobuf",
-                        what);
-}
 
 /// A CRS that could not be written, such as the .prj of a shapefile, leaves only a file without one, and no error.
 void require_crs(std::string const& path, OGRSpatialReference const& wanted, std::string const& what) {
@@ -300,68 +222,45 @@ void require_crs(std::string const& path, OGRSpatialReference const& wanted, std
     }
 }
 
-void write_file(std::vector<Table const*> const& tables, std::string const& crs, std::string const& path,
-                LayerFormat format, Run const& run) {
+} // namespace
+
+void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
+                Run const& run) {
     FileFormat const& file_format = file_formats[format];
     std::string const what = fmt::format("io.write_{}: {}", file_format.word, path);
-    if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
-        throw IoError(what + " exists already");
-    }
+    std::error_code ignored;
+    refuse_if<IoError>(std::filesystem::exists(path, ignored), "{} exists already", what);
     Driver const driver;
-    FixedDate const fixed_date;
-    OGRSpatialReference reference;
-    if (!crs.empty()) {
-        reference = read_reference(crs);
-    }
-    OGRSpatialReference* const used = crs.empty() ? nullptr : &reference;
-    if (format == LayerFormat::geojson) {
-        require_code(used, what);
-    }
+    CPLConfigOptionSetter const date(date_option, fixed_date, false);
+    OGRSpatialReference reference = crs.empty() ? OGRSpatialReference() : read_reference(crs);
+    refuse_if<BadInput>(
+        format == LayerFormat::geojson && (crs.empty() || reference.GetAuthorityCode(nullptr) == nullptr),
+        "{}: GeoJSON takes coordinates without an EPSG code for degrees: bring the network into a CRS that has one, or "
+        "write FlatGeobuf",
+        what);
     GDALDriver* const writer = GetGDALDriverManager()->GetDriverByName(file_format.driver);
     Dataset dataset(writer == nullptr ? nullptr : writer->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     if (dataset == nullptr) {
         driver.check(what);
         throw IoError(what + " could not be created");
     }
-    LayerTarget const target{format, what, driver, *dataset, used};
+    LayerTarget const target{format, what, driver, *dataset, crs.empty() ? nullptr : &reference};
     bool const transactions = format == LayerFormat::geopackage;
-    if (transactions) {
-        target.require(dataset->StartTransaction() == OGRERR_NONE);
+    target.require(!transactions || dataset->StartTransaction() == OGRERR_NONE);
+    for (Table const& table : tables) {
+        write_layer(target, table, run);
     }
-    for (Table const* const table : tables) {
-        write_layer(target, *table, run);
-    }
-    if (transactions) {
-        target.require(dataset->CommitTransaction() == OGRERR_NONE);
-    }
+    target.require(!transactions || dataset->CommitTransaction() == OGRERR_NONE);
     dataset.reset();
     driver.check(what);
-    if (used != nullptr) {
-        require_crs(path, *used, what);
+    if (!crs.empty()) {
+        require_crs(path, reference, what);
         driver.check(what);
     }
 }
 
-} // namespace
-
 void write_tables(std::vector<Table> const& tables, std::string const& crs, std::string const& path, Run const& run) {
-    std::vector<Table const*> all;
-    for (Table const& table : tables) {
-        all.push_back(&table);
-    }
-    write_file(all, crs, path, LayerFormat::geopackage, run);
-}
-
-void write_shapefile(Table const& table, std::string const& crs, std::string const& path, Run const& run) {
-    write_file({&table}, crs, path, LayerFormat::shapefile, run);
-}
-
-void write_flatgeobuf(Table const& table, std::string const& crs, std::string const& path, Run const& run) {
-    write_file({&table}, crs, path, LayerFormat::flatgeobuf, run);
-}
-
-void write_geojson(Table const& table, std::string const& crs, std::string const& path, Run const& run) {
-    write_file({&table}, crs, path, LayerFormat::geojson, run);
+    write_file(tables, crs, path, LayerFormat::geopackage, run);
 }
 
 } // namespace thalweg::io

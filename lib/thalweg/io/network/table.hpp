@@ -51,30 +51,4 @@ struct Table {
 void write_tables(std::vector<Table> const& tables, std::string const& crs, std::string const& path,
                   Run const& run = {});
 
-/// Writes a table with shapes as a new shapefile PATH (ends in .shp), UTF-8.
-/// \post like write_tables.
-/// \param table the table
-/// \param crs "EPSG:n" or WKT; "": none
-/// \param path path of the file
-/// \throws Error like write_tables
-void write_shapefile(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
-
-/// Writes a table with shapes as a new FlatGeobuf, with its spatial index.
-/// \post like write_tables.
-/// \param table the table
-/// \param crs "EPSG:n" or WKT; "": none
-/// \param path path of the file
-/// \throws Error like write_tables
-void write_flatgeobuf(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
-
-/// Writes a table with shapes as new GeoJSON in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946
-/// would round them to degrees.
-/// \post like write_tables; BadInput also when the CRS has no EPSG code.
-/// \param table the table
-/// \param crs "EPSG:n" or WKT; "": none
-/// \param path path of the file
-/// \throws Error like write_tables
-/// \throws BadInput also when the CRS has no EPSG code
-void write_geojson(Table const& table, std::string const& crs, std::string const& path, Run const& run = {});
-
 } // namespace thalweg::io

@@ -1,29 +1,27 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <filesystem>
 #include <iterator>
 
 #include <fmt/format.h>
+#include <ogrsf_frmts.h>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/internal/files.hpp>
+#include <thalweg/io/gdal/internal/access.hpp>
+#include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
+#include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
-namespace {
 
-// A network as nodes and edges: an edge an arc, its attributes the arc's columns; a node's id is its number + 1.
-struct GraphTables {
-    Table arcs;
-    Table nodes;
-    StreamNetwork const& plan;
-    std::string crs;
-};
+namespace {
 
 using Kind = Column::Kind;
 using Value = Column::Value;
@@ -74,66 +72,32 @@ std::string well_known(std::vector<Vec3> const& line) {
     return out + ')';
 }
 
-class Writer {
-public:
-    Writer(GraphTables const& graph, std::string const& path, char const* who, Quote quote)
-        : graph_(graph), what_(fmt::format("io.{}: {}", who, path)), quote_(quote), file_(path, what_) {}
+// A network as nodes and edges in a text: an edge is an arc, its attributes the arc's columns; a node's id is its
+// number
+// + 1.
 
-    std::string value(Table const& table, Column const& column, std::size_t row) const {
-        Value const value = column.at(row);
-        if (std::holds_alternative<std::monostate>(value)) {
-            return quote_ == in_python ? "None" : "";
-        }
-        if (auto const* text = std::get_if<std::string>(&value)) {
-            return quote_(*text);
-        }
-        if (auto const* whole = std::get_if<std::int64_t>(&value)) {
-            return fmt::format("{}", *whole);
-        }
-        double const real = std::get<double>(value);
-        refuse_if<BadInput>(!std::isfinite(real), "{}: {} {} has {} = {}, which cannot be written", what_, table.name,
-                            row + 1, column.name, real);
-        return fmt::format("{:#}", real); // with a point: nobody takes it for an integer
+std::string value_text(Table const& table, Column const& column, std::size_t row, Quote quote,
+                       std::string const& what) {
+    Value const value = column.at(row);
+    if (std::holds_alternative<std::monostate>(value)) {
+        return quote == in_python ? "None" : "";
     }
-    std::string geometry(std::size_t row) const { return quote_(well_known(graph_.arcs.shape_at(row))); }
-    std::pair<NodeId, NodeId> ends(ArcId a) const { return {graph_.plan.from(a) + 1, graph_.plan.to(a) + 1}; }
-    void append(std::string_view text) { file_.append(text); }
-    void close() { file_.close(); }
-
-private:
-    GraphTables const& graph_;
-    std::string what_;
-    Quote quote_;
-    NewFile file_;
-};
-
-/// Calls body for each row of a table.
-template <class Body> void each_row(Table const& table, Run const& run, Body const& body) {
-    constexpr std::size_t rows_between_reports = 1024;
-    for (std::size_t row = 0; row < table.rows; ++row) {
-        if (row % rows_between_reports == 0) {
-            run.at(static_cast<double>(row) / static_cast<double>(table.rows), "write");
-        }
-        body(row);
+    if (auto const* text = std::get_if<std::string>(&value)) {
+        return quote(*text);
     }
+    if (auto const* whole = std::get_if<std::int64_t>(&value)) {
+        return fmt::format("{}", *whole);
+    }
+    double const real = std::get<double>(value);
+    refuse_if<BadInput>(!std::isfinite(real), "{}: {} {} has {} = {}, which cannot be written", what, table.name,
+                        row + 1, column.name, real);
+    return fmt::format("{:#}", real); // with a point: nobody takes it for an integer
 }
 
-/// Whether a column is one of the two that every edge begins with.
-bool is_end(Column const& column) {
-    return column.name == "from_node" || column.name == "to_node";
-}
-
+/// GraphML knows no dates.
 char const* graphml_type(Kind kind) {
-    switch (kind) {
-    case Kind::integer:
-    case Kind::wide_integer: return "long";
-    case Kind::real: return "double";
-    case Kind::text:
-    case Kind::date:
-    case Kind::time:
-    case Kind::datetime: break; // GraphML knows no dates
-    }
-    return "string";
+    bool const is_whole = kind == Kind::integer || kind == Kind::wide_integer;
+    return is_whole ? "long" : kind == Kind::real ? "double" : "string";
 }
 
 std::string graphml_key(std::string const& id, char const* of, std::string const& name, char const* type) {
@@ -141,127 +105,116 @@ std::string graphml_key(std::string const& id, char const* of, std::string const
 }
 
 // Writes a new GraphML file: a directed graph with attribute crs; nodes with their columns and x, y; edges with theirs
-// and their line, geometry, as well-known text. networkx.read_graphml(PATH, node_type=int) reads it. Gives: numbers
-// that read back bit for bit. Throws: BadInput naming table, row and column when a number is not finite; IoError, also
-// when the file exists. Source: GraphML 1.0.
-void write_graphml(GraphTables const& graph, std::string const& path, Run const& run = {}) {
-    Writer writer(graph, path, "write_graphml", in_xml);
-    std::string text = "<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
-                       "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
-                       graphml_key("crs", "graph", "crs", "string") + graphml_key("x", "node", "x", "double") +
-                       graphml_key("y", "node", "y", "double") + graphml_key("geometry", "edge", "geometry", "string");
-    for (std::size_t i = 0; i < graph.nodes.columns.size(); ++i) {
-        Column const& column = graph.nodes.columns[i];
-        text += graphml_key(fmt::format("n{}", i), "node", column.name, graphml_type(column.kind));
-    }
-    for (std::size_t i = 0; i < graph.arcs.columns.size(); ++i) {
-        Column const& column = graph.arcs.columns[i];
-        text += graphml_key(fmt::format("e{}", i), "edge", column.name, graphml_type(column.kind));
-    }
-    text += fmt::format("  <graph id=\"network\" edgedefault=\"directed\">\n    <data key=\"crs\">{}</data>\n",
-                        in_xml(graph.crs));
-    writer.append(text);
+// and their line, geometry, as well-known text. networkx.read_graphml(PATH, node_type=int) reads it. Numbers read back
+// bit for bit. Throws: BadInput naming table, row and column when a number is not finite; IoError, also when the file
+// exists. Source: GraphML 1.0.
+void write_graphml(NetworkTables const& tables, Table const& arcs, std::string const& path, Run const& run) {
+    std::string const what = "io.write_graphml: " + path;
+    StreamNetwork const& plan = tables.network.plan;
+    Table const nodes = nodes_table(tables);
+    NewFile graph(path, what);
+    graph.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
+                 "<graphml xmlns=\"http://graphml.graphdrawing.org/xmlns\">\n" +
+                 graphml_key("crs", "graph", "crs", "string") + graphml_key("x", "node", "x", "double") +
+                 graphml_key("y", "node", "y", "double") + graphml_key("geometry", "edge", "geometry", "string"));
+    auto const append_keys = [&](Table const& table, char letter, char const* of) {
+        for (std::size_t i = 0; i < table.columns.size(); ++i) {
+            Column const& column = table.columns[i];
+            graph.append(graphml_key(fmt::format("{}{}", letter, i), of, column.name, graphml_type(column.kind)));
+        }
+    };
+    append_keys(nodes, 'n', "node");
+    append_keys(arcs, 'e', "edge");
+    graph.append(fmt::format("  <graph id=\"network\" edgedefault=\"directed\">\n    <data key=\"crs\">{}</data>\n",
+                             in_xml(tables.crs)));
     auto const data = [&](Table const& table, char letter, std::size_t row) {
         std::string out;
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
-            fmt::format_to(std::back_inserter(out), "<data key=\"{}{}\">{}</data>", letter, i,
-                           writer.value(table, table.columns[i], row));
+            out += fmt::format("<data key=\"{}{}\">{}</data>", letter, i,
+                               value_text(table, table.columns[i], row, in_xml, what));
         }
         return out;
     };
-    each_row(graph.nodes, run, [&](std::size_t row) {
-        Vec3 const at = graph.nodes.shape_at(row).front();
-        writer.append(
+    each_row(nodes, run, [&](std::size_t row) {
+        Vec3 const at = nodes.shape_at(row).front();
+        graph.append(
             fmt::format("    <node id=\"{}\"><data key=\"x\">{:#}</data><data key=\"y\">{:#}</data>{}</node>\n",
-                        row + 1, at.x, at.y, data(graph.nodes, 'n', row)));
+                        row + 1, at.x, at.y, data(nodes, 'n', row)));
     });
-    each_row(graph.arcs, run, [&](std::size_t row) {
-        auto const [from, to] = writer.ends(row);
-        writer.append(fmt::format("    <edge source=\"{}\" target=\"{}\">{}<data key=\"geometry\">{}</data></edge>\n",
-                                  from, to, data(graph.arcs, 'e', row), writer.geometry(row)));
+    each_row(arcs, run, [&](std::size_t row) {
+        graph.append(fmt::format("    <edge source=\"{}\" target=\"{}\">{}<data key=\"geometry\">{}</data></edge>\n",
+                                 plan.from(row) + 1, plan.to(row) + 1, data(arcs, 'e', row),
+                                 in_xml(well_known(arcs.shape_at(row)))));
     });
-    writer.append("  </graph>\n</graphml>\n");
-    writer.close();
+    graph.append("  </graph>\n</graphml>\n");
+    graph.close();
 }
 
 // Writes the edges as a new CSV table: from_node, to_node, the other columns, geometry; a header first (RFC 4180).
-// pandas.read_csv and networkx.from_pandas_edgelist read it. Gives and throws: like write_graphml.
-void write_edge_table(GraphTables const& graph, std::string const& path, Run const& run = {}) {
-    Writer writer(graph, path, "write_edge_table", in_csv);
-    std::string header = "from_node,to_node";
-    for (Column const& column : graph.arcs.columns) {
-        header += is_end(column) ? "" : fmt::format(",{}", in_csv(column.name));
-    }
-    writer.append(header + ",geometry\r\n");
-    each_row(graph.arcs, run, [&](std::size_t row) {
-        auto const [from, to] = writer.ends(row);
-        std::string line = fmt::format("{},{}", from, to);
-        for (Column const& column : graph.arcs.columns) {
-            line += is_end(column) ? "" : fmt::format(",{}", writer.value(graph.arcs, column, row));
+// pandas.read_csv and networkx.from_pandas_edgelist read it. Or NetworkX's own edge list: two nodes and a Python
+// dictionary of the other columns a line, comments first. networkx.read_edgelist(PATH, nodetype=int,
+// create_using=networkx.DiGraph) reads it. Like write_graphml for the rest.
+void write_edges(NetworkTables const& tables, Table arcs, std::string const& path, bool is_csv, Run const& run) {
+    std::string const what = fmt::format("io.{}: {}", is_csv ? "write_edge_table" : "write_edge_list", path);
+    StreamNetwork const& plan = tables.network.plan;
+    NewFile graph(path, what);
+    std::erase_if(arcs.columns, [](Column const& c) { return c.name == "from_node" || c.name == "to_node"; });
+    if (is_csv) {
+        graph.append("from_node,to_node");
+        for (Column const& column : arcs.columns) {
+            graph.append(fmt::format(",{}", in_csv(column.name)));
         }
-        writer.append(fmt::format("{},{}\r\n", line, writer.geometry(row)));
-    });
-    writer.close();
-}
-
-// Writes NetworkX's own edge list: two nodes and a Python dictionary of the other columns a line, comments first.
-// networkx.read_edgelist(PATH, nodetype=int, create_using=networkx.DiGraph) reads it. Gives and throws: likewise.
-void write_edge_list(GraphTables const& graph, std::string const& path, Run const& run = {}) {
-    Writer writer(graph, path, "write_edge_list", in_python);
-    writer.append("# networkx.read_edgelist(path, nodetype=int, create_using=networkx.DiGraph)\n");
-    each_row(graph.arcs, run, [&](std::size_t row) {
-        auto const [from, to] = writer.ends(row);
+        graph.append(",geometry\r\n");
+    } else {
+        graph.append("# networkx.read_edgelist(path, nodetype=int, create_using=networkx.DiGraph)\n");
+    }
+    each_row(arcs, run, [&](std::size_t row) {
         std::string line;
-        for (Column const& column : graph.arcs.columns) {
-            if (!is_end(column)) {
-                line += fmt::format("{}{}: {}", line.empty() ? "" : ", ", in_python(column.name),
-                                    writer.value(graph.arcs, column, row));
-            }
+        for (Column const& column : arcs.columns) {
+            std::string const value = value_text(arcs, column, row, is_csv ? in_csv : in_python, what);
+            line += is_csv ? fmt::format("{},", value)
+                           : fmt::format("{}{}: {}", line.empty() ? "" : ", ", in_python(column.name), value);
         }
-        writer.append(fmt::format("{} {} {{{}}}\n", from, to, line));
+        NodeId const from = plan.from(row) + 1;
+        NodeId const to = plan.to(row) + 1;
+        graph.append(is_csv ? fmt::format("{},{},{}{}\r\n", from, to, line, in_csv(well_known(arcs.shape_at(row))))
+                            : fmt::format("{} {} {{{}}}\n", from, to, line));
     });
-    writer.close();
+    graph.close();
 }
 
-void require_lines(RidgeLines const& ridges, std::string const& what) {
-    for (std::size_t i = 0; i < ridges.lines.size(); ++i) {
-        if (ridges.lines[i].line.size() < 2) {
-            throw BadInput(fmt::format("{}: ridge {} between streams {} and {} has fewer than two vertices", what,
-                                       i + 1, ridges.lines[i].left, ridges.lines[i].right));
+/// NAME_LAYER.ending for NAME.ending.
+std::string file_of(std::filesystem::path const& path, std::string const& layer) {
+    return (path.parent_path() / fmt::format("{}_{}{}", path.stem().string(), layer, path.extension().string()))
+        .string();
+}
+
+bool is_a_file_a_layer(NetworkFormat format) {
+    return format == NetworkFormat::shapefile || format == NetworkFormat::flatgeobuf ||
+           format == NetworkFormat::geojson;
+}
+
+Mask mask_of(StreamNetwork const& plan, Grid const& grid) {
+    Mask cells(grid);
+    for (std::size_t a = 0; a < plan.arc_count(); ++a) {
+        for (Cell const c : cells_along(plan.arc(a).line, grid, fmt::format("arc {}", a + 1))) {
+            cells[c] = 1;
         }
     }
-}
-
-Table run_table(std::map<std::string, std::string> const& rows) {
-    std::vector<std::pair<std::string, std::string>> const list(rows.begin(), rows.end());
-    return {"run",
-            Table::Shape::none,
-            list.size(),
-            {{"name", Column::Kind::text, 0, [=](std::size_t row) { return list[row].first; }},
-             {"value", Column::Kind::text, 0, [=](std::size_t row) { return list[row].second; }}},
-            {}};
+    return cells;
 }
 
 } // namespace
 
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run) {
     std::string const file = path.ends_with(".gpkg") ? path : path + ".gpkg";
-    require_whole(tables, "io.write_geopackage: " + file);
-    std::vector<Table> layers{arcs_table(tables), nodes_table(tables)};
-    if (tables.ridges != nullptr && !tables.ridges->lines.empty()) {
-        require_lines(*tables.ridges, "io.write_geopackage: " + file);
-        layers.push_back(ridges_table(*tables.ridges, tables.unit));
+    write_tables(geopackage_tables(tables, "io.write_geopackage: " + file), tables.crs, file, run);
+}
+
+void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run) {
+    for (Table const& layer : network_layers(tables, Schema::native, true, "io.write_shapefiles: " + path)) {
+        write_file({&layer, 1}, tables.crs, fmt::format("{}_{}.shp", path, layer.name), LayerFormat::shapefile, run);
     }
-    if (tables.secondary != nullptr && !tables.secondary->empty()) {
-        layers.push_back(secondary_table(*tables.secondary, tables.user));
-    }
-    bool const has_sources =
-        tables.user != nullptr && std::ranges::any_of(tables.user->sources, [](auto const& of) { return !of.empty(); });
-    if (has_sources) {
-        layers.push_back(sources_table(*tables.user));
-    }
-    layers.push_back(run_table(tables.run));
-    write_tables(layers, tables.crs, file, run);
 }
 
 std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema schema) {
@@ -280,43 +233,6 @@ std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema s
     return names;
 }
 
-void write_shapefiles(NetworkTables const& tables, std::string const& path, Run const& run) {
-    require_whole(tables, "io.write_shapefiles: " + path);
-    write_shapefile(arcs_table(tables, true), tables.crs, path + "_arcs.shp", run);
-    write_shapefile(nodes_table(tables), tables.crs, path + "_nodes.shp", run);
-}
-
-namespace {
-
-/// PATH without its ending, which follows.
-std::pair<std::string, std::string> stem_and_ending(std::string const& path) {
-    std::string const ending = std::filesystem::path(path).extension().string();
-    return {path.substr(0, path.size() - ending.size()), ending};
-}
-
-bool is_a_file_a_layer(NetworkFormat format) {
-    return format == NetworkFormat::shapefile || format == NetworkFormat::flatgeobuf ||
-           format == NetworkFormat::geojson;
-}
-
-/// The file of a layer: one a layer where there are several.
-std::string file_of(std::string const& path, std::string const& layer, bool several) {
-    auto const [stem, ending] = stem_and_ending(path);
-    return several ? fmt::format("{}_{}{}", stem, layer, ending) : path;
-}
-
-Mask mask_of(StreamNetwork const& plan, Grid const& grid) {
-    Mask cells(grid);
-    for (std::size_t a = 0; a < plan.arc_count(); ++a) {
-        for (Cell const c : cells_along(plan.arc(a).line, grid, fmt::format("arc {}", a + 1))) {
-            cells[c] = 1;
-        }
-    }
-    return cells;
-}
-
-} // namespace
-
 std::vector<NetworkFormatName> const& network_formats() {
     static std::vector<NetworkFormatName> const formats{
         {NetworkFormat::geopackage, "gpkg", ".gpkg"},    {NetworkFormat::shapefile, "shp", ".shp"},
@@ -332,18 +248,15 @@ NetworkFormat network_format(std::string const& name, std::string const& path) {
 
 std::vector<std::string> network_files(std::string const& path, WriteNetworkParams const& params) {
     std::string const name = std::filesystem::path(path).filename().string();
-    if (!is_a_file_a_layer(params.format)) {
-        return {name};
-    }
     std::vector<std::string> files{name};
-    if (params.schema == Schema::native) {
-        files = {file_of(name, "arcs", true), file_of(name, "nodes", true)};
+    if (is_a_file_a_layer(params.format) && params.schema == Schema::native) {
+        files = {file_of(name, "arcs"), file_of(name, "nodes")};
     }
     if (params.format == NetworkFormat::shapefile) {
         std::vector<std::string> const layers = files;
         for (std::string const& layer : layers) {
             for (char const* const ending : {".shx", ".dbf", ".prj", ".cpg"}) {
-                files.push_back(stem_and_ending(layer).first + ending);
+                files.push_back(std::filesystem::path(layer).replace_extension(ending).string());
             }
         }
     }
@@ -352,33 +265,23 @@ std::vector<std::string> network_files(std::string const& path, WriteNetworkPara
 
 void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params,
                    Run const& run) {
-    std::string const what = "io.write_network: " + path;
     if (params.schema == Schema::native && params.format == NetworkFormat::geopackage) {
         write_geopackage(tables, path, run);
         return;
     }
     bool const is_shapefile = params.format == NetworkFormat::shapefile;
-    std::vector<Table> const layers = network_layers(tables, params.schema, is_shapefile, what);
-    auto const each = [&](auto const& write) {
-        for (Table const& layer : layers) {
-            write(layer, tables.crs, file_of(path, layer.name, layers.size() > 1), run);
-        }
-    };
+    std::vector<Table> const layers = network_layers(tables, params.schema, is_shapefile, "io.write_network: " + path);
     switch (params.format) {
     case NetworkFormat::geopackage: write_tables(layers, tables.crs, path, run); break;
-    case NetworkFormat::shapefile: each(write_shapefile); break;
-    case NetworkFormat::flatgeobuf: each(write_flatgeobuf); break;
-    case NetworkFormat::geojson: each(write_geojson); break;
-    case NetworkFormat::graphml:
-        write_graphml({layers.front(), nodes_table(tables), tables.network.plan, tables.crs}, path, run);
-        break;
-    case NetworkFormat::csv:
-        write_edge_table({layers.front(), nodes_table(tables), tables.network.plan, tables.crs}, path, run);
-        break;
-    case NetworkFormat::edges:
-        write_edge_list({layers.front(), nodes_table(tables), tables.network.plan, tables.crs}, path, run);
-        break;
+    case NetworkFormat::graphml: write_graphml(tables, layers.front(), path, run); break;
+    case NetworkFormat::csv: write_edges(tables, layers.front(), path, true, run); break;
+    case NetworkFormat::edges: write_edges(tables, layers.front(), path, false, run); break;
     case NetworkFormat::mask: write_mask(mask_of(tables.network.plan, params.grid), path, run); break;
+    default:
+        for (Table const& layer : layers) { // both enumerations of formats begin alike
+            write_file({&layer, 1}, tables.crs, layers.size() > 1 ? file_of(path, layer.name) : path,
+                       static_cast<LayerFormat>(params.format), run);
+        }
     }
 }
 
@@ -395,6 +298,162 @@ void write_findings(std::vector<Finding> const& findings, std::string const& crs
                      {"amount", Column::Kind::real, 0, [=](std::size_t row) { return finite(at(row).amount); }},
                      {"text", Column::Kind::text, 0, [=](std::size_t row) { return at(row).text; }}};
     write_tables({table}, crs, path, run);
+}
+
+// A network in a database.
+
+namespace {
+
+/// What is made, where: names are plain, so that they stand in SQL as they are.
+struct Names {
+    std::string schema; ///< of the database; "" for its default
+    std::string name;
+
+    std::string full(std::string const& relation) const { return schema.empty() ? relation : schema + "." + relation; }
+    std::string edges() const { return name + "_edges"; }
+};
+
+bool is_plain_word(std::string_view word) {
+    auto const letter = [](char c) { return (c >= 'a' && c <= 'z') || c == '_'; };
+    constexpr std::size_t most = 50; // PostgreSQL cuts names after 63 bytes, ours get endings
+    return !word.empty() && word.size() <= most && letter(word.front()) &&
+           std::ranges::all_of(word, [&](char c) { return letter(c) || (c >= '0' && c <= '9'); });
+}
+
+Names names_of(std::string const& text) {
+    std::size_t const dot = text.find('.');
+    Names names{dot == std::string::npos ? "" : text.substr(0, dot),
+                dot == std::string::npos ? text : text.substr(dot + 1)};
+    refuse_if<BadParameter>((dot != std::string::npos && !is_plain_word(names.schema)) || !is_plain_word(names.name),
+                            "io.write_postgis: '{}' is not a valid table name: write NAME or SCHEMA.NAME in lower-case "
+                            "letters, digits and _, at most 50",
+                            text);
+    return names;
+}
+
+Dataset open_database(std::string const& connection, std::string const& what, Driver const& driver) {
+    std::array<char const*, 2> constexpr drivers{"PostgreSQL", nullptr};
+    std::array<char const*, 2> constexpr options{"LIST_ALL_TABLES=NO", nullptr};
+    Dataset dataset(
+        GDALDataset::Open(connection.c_str(), GDAL_OF_VECTOR | GDAL_OF_UPDATE, drivers.data(), options.data()));
+    if (dataset == nullptr) {
+        std::string const reason = driver.take();
+        throw IoError(fmt::format("{} cannot be reached: {}", what, reason.empty() ? "no reason given" : reason));
+    }
+    return dataset;
+}
+
+/// A database in a transaction, which is rolled back unless commit() is called.
+class Database {
+public:
+    Database(std::string const& connection, std::string const& what, std::string const& crs, std::string const& schema)
+        : dataset_(open_database(connection, what, driver_)),
+          reference_(crs.empty() ? OGRSpatialReference() : read_reference(crs)),
+          target_{LayerFormat::postgresql, what, driver_, *dataset_, crs.empty() ? nullptr : &reference_, schema} {
+        target_.require(dataset_->StartTransaction() == OGRERR_NONE);
+    }
+    ~Database() {
+        if (open_) {
+            dataset_->RollbackTransaction();
+        }
+    }
+    Database(Database const&) = delete;
+    Database& operator=(Database const&) = delete;
+
+    /// The first field of the first row that a query gives, "" for none.
+    std::string ask(std::string const& sql) {
+        OGRLayer* const result = dataset_->ExecuteSQL(sql.c_str(), nullptr, nullptr);
+        driver_.check(target_.what);
+        std::string answer;
+        if (result != nullptr) {
+            if (OGRFeatureUniquePtr const row{result->GetNextFeature()}; row != nullptr && row->GetFieldCount() > 0) {
+                answer = row->GetFieldAsString(0);
+            }
+            dataset_->ReleaseResultSet(result);
+        }
+        return answer;
+    }
+    void write(Table const& table, Run const& run) {
+        write_layer(target_, table, run);
+        // The driver makes a table when its first row comes, or it is asked for what it holds.
+        if (OGRLayer* const layer = dataset_->GetLayer(dataset_->GetLayerCount() - 1)) {
+            target_.require(layer->SyncToDisk() == OGRERR_NONE);
+        }
+    }
+    void commit() {
+        target_.require(dataset_->CommitTransaction() == OGRERR_NONE);
+        open_ = false;
+        driver_.check(target_.what);
+    }
+
+private:
+    Driver driver_;
+    Connection connection_;
+    Dataset dataset_;
+    OGRSpatialReference reference_;
+    LayerTarget target_;
+    bool open_ = true;
+};
+
+/// The view that pgRouting takes.
+std::string edges_view(Names const& names, std::string const& table, SchemaTable const& schema) {
+    auto const column = [&](Quantity quantity) { return lower_case(std::string(field_of(schema, quantity)->name)); };
+    return fmt::format("CREATE VIEW {} AS SELECT {}::bigint AS id, {}::bigint AS source, {}::bigint AS target, {} AS "
+                       "cost, -1.0::double precision AS reverse_cost, geom FROM {}",
+                       names.full(names.edges()), column(Quantity::arc_id), column(Quantity::from_node),
+                       column(Quantity::to_node), column(Quantity::length), names.full(table));
+}
+
+} // namespace
+
+bool is_postgis(std::string const& name) {
+    return name.starts_with("PG:") || name.starts_with("pg:");
+}
+
+std::vector<std::string> write_postgis(NetworkTables const& tables, std::string const& connection,
+                                       WritePostgisParams const& params, Run const& run) {
+    Names const names = names_of(params.name);
+    std::string const what = "io.write_postgis: " + names.full(names.name);
+    std::vector<Table> layers = network_layers(tables, params.schema, false, what);
+    bool const routable = field_of(table_of(params.schema), Quantity::from_node) != nullptr;
+    std::vector<std::string> relations;
+    for (Table& layer : layers) {
+        layer.name = layers.size() > 1 ? names.name + "_" + layer.name : names.name;
+        relations.push_back(layer.name);
+    }
+    if (routable) {
+        relations.push_back(names.edges());
+    }
+
+    Database database(connection, what, tables.crs, names.schema);
+    refuse_if<BadInput>(
+        !names.schema.empty() &&
+            database.ask(fmt::format("SELECT 1 FROM pg_namespace WHERE nspname = '{}'", names.schema)).empty(),
+        "{}: the database has no schema {}: create it first", what, names.schema);
+    for (auto relation = relations.rbegin(); relation != relations.rend(); ++relation) { // the view before its table
+        std::string const kind = database.ask(
+            fmt::format("SELECT relkind FROM pg_class WHERE oid = to_regclass('{}')", names.full(*relation)));
+        if (kind.empty()) {
+            continue;
+        }
+        bool const is_view = routable && *relation == names.edges();
+        refuse_if<BadInput>(!params.overwrite, "{}: {} already exists: give another name (--table) or use --overwrite",
+                            what, names.full(*relation));
+        refuse_if<BadInput>(kind != (is_view ? "v" : "r"), "{}: {} is not a {} written by thalweg, and is not replaced",
+                            what, names.full(*relation), is_view ? "view" : "table");
+        database.ask(fmt::format("DROP {} {}", is_view ? "VIEW" : "TABLE", names.full(*relation)));
+    }
+    for (Table const& layer : layers) {
+        database.write(layer, run);
+    }
+    if (routable) {
+        database.ask(edges_view(names, layers.front().name, table_of(params.schema)));
+    }
+    database.commit();
+    for (std::string& relation : relations) {
+        relation = names.full(relation);
+    }
+    return relations;
 }
 
 } // namespace thalweg::io

@@ -45,8 +45,8 @@ struct NetworkTables {
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the
 /// fields of the network schema and five more by arc: survives (real [cells]; -1 for infinity), feature (integer), type
-/// (text; none where there is none), braided (integer, 1 or 0) and given (integer, 0 for a side valley that the land
-/// has grown, else 1). dist_out of an arc counts from its downstream end, as in NHDPlus (Pathlength) and HydroRIVERS
+/// (text; none where there is none), braided (integer, 1 or 0) and given (integer, 0 for a side valley grown in the
+/// terrain, else 1). dist_out of an arc counts from its downstream end, as in NHDPlus (Pathlength) and HydroRIVERS
 /// (DIST_DN_KM). arc_id is the arc's number + 1, node_id the node's + 1. Where there are ridges, also the layer ridges
 /// (LineStringZ): ridge_id, the ridge's number + 1; left and right, the labels of its streams; length [m] in plan;
 /// z_min and z_max [m]. Where there are lines that are not in the network, also the layer secondary (LineString):
@@ -116,8 +116,8 @@ struct WriteNetworkParams {
 /// schema NAME_arcs and NAME_nodes of shapefile, FlatGeobuf and GeoJSON; of a shapefile all it may have, .shp first.
 std::vector<std::string> network_files(std::string const& path, WriteNetworkParams const& params);
 
-/// Writes a network in any format and anyone's schema: in the network schema both layers as write_geopackage has them,
-/// in another its layer of arcs alone (nodes too where it is a graph).
+/// Writes a network in any format and schema: in the native schema both layers like write_geopackage, in another its
+/// layer of arcs alone (also nodes where it is a graph).
 /// \post the same bytes for the same network, on any day. Lines are bit for bit those of the network; numbers in text
 /// (GraphML, CSV, edge lists) are the shortest that read back the same. Quantities that are not known are what the
 /// schema has for them (schema.hpp).

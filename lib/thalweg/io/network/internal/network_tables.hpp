@@ -4,25 +4,27 @@
 
 #include <cstdint>
 #include <functional>
+#include <span>
 #include <string>
-#include <utility>
 #include <vector>
 
-#include <thalweg/core/features.hpp>
-#include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/river_files.hpp>
-#include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/table.hpp>
 #include <thalweg/io/network/write_network.hpp>
 
+class GDALDataset;
+class OGRSpatialReference;
+
 namespace thalweg::io {
 
-// A user's columns beside those of a schema.
+// The columns of a user beside those of a schema.
 
 /// The names that columns get beside others that are taken, in a layer of a schema: u_NAME where the name is taken, or
 /// is that of a feature's id or geometry, or the layer would be recognised as another schema's by it; else as they are;
-/// with a number where two are one in any case of letters.
+/// with a number where two are equal in any case of letters.
 std::vector<std::string> user_names(AttributeTable const& attributes, std::vector<std::string> const& taken,
                                     Schema schema = Schema::native);
 
@@ -35,33 +37,65 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
                       std::function<std::int64_t(std::size_t row)> const& record, bool short_names,
                       Schema schema = Schema::native);
 
-/// Length [m] of a line and the heights of its vertices.
-double length_in_space(std::vector<Vec2> const& line, std::vector<double> const& z);
+// The tables of a network, which must outlive them.
 
-/// The layer arcs of the network schema. The arguments must outlive the table.
-/// short_names: of user columns, for a shapefile.
-Table arcs_table(NetworkTables const& tables, bool short_names = false);
-
-/// The layer nodes of the network schema. The arguments must outlive the table.
-Table nodes_table(NetworkTables const& tables);
-
-/// The layer ridges of the network schema. The argument must outlive the table; every ridge has a vertex.
-Table ridges_table(RidgeLines const& ridges, HeightUnit unit = HeightUnit::metre);
-
-/// The layer secondary: lines that are not in the network, in plan. The arguments must outlive the table.
-Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData const* user);
-
-/// The table sources. The argument must outlive the table.
-Table sources_table(UserData const& user);
-
-/// Throws BadInput when the tables are not those of the network: a wrong one would write another arc's numbers without
-/// a sound. what: who asks ("io.write_geopackage: PATH"), begins the message.
-void require_whole(NetworkTables const& tables, std::string const& what);
-
-/// The layers of a network in a schema, that of the arcs first; of a foreign one there is no other.
-/// Takes: short_names: at most ten characters. The arguments must outlive the tables.
-/// Throws: BadInput like require_whole, and when more arcs meet than the schema can name.
+/// The layers of a network in a schema: arcs and nodes in the native one, else arcs alone. what: "io.write_geopackage:
+/// PATH", begins messages. Takes: short_names: at most ten characters. Throws: BadInput when the tables do not belong
+/// to the network, or more arcs meet than the schema can name.
 std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
                                   std::string const& what);
+
+/// The layer nodes of the native schema.
+Table nodes_table(NetworkTables const& tables);
+
+/// All tables of the native schema's GeoPackage. Throws: BadInput like network_layers, or when a ridge has fewer than
+/// two vertices.
+std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string const& what);
+
+// How a table becomes a layer of what GDAL has opened.
+
+enum class LayerFormat : std::uint8_t { geopackage, shapefile, flatgeobuf, geojson, postgresql };
+
+struct LayerTarget {
+    LayerFormat format;
+    std::string what; ///< "io.write_geopackage: PATH", begins every message
+    Driver const& driver;
+    GDALDataset& dataset;
+    OGRSpatialReference* reference; ///< null for none
+    std::string db_schema = {};     ///< of a database, for the layer; "" for its default
+
+    /// Throws IoError, with GDAL's words where it has some.
+    void require(bool done) const;
+};
+
+/// Writes a table as a new layer. Throws: BadInput naming table, row and column when a number is not finite or does not
+/// fit its column; IoError; Cancelled.
+void write_layer(LayerTarget const& target, Table const& table, Run const& run);
+
+/// Writes tables with shapes as the layers of a new file: see write_tables. A shapefile's path ends in .shp, and it is
+/// UTF-8. GeoJSON is in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946 would round them to
+/// degrees. Throws: BadInput also when GeoJSON has a CRS without EPSG code.
+void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
+                Run const& run);
+
+/// Calls body for each row of a table, and run now and then.
+template <class Body> void each_row(Table const& table, Run const& run, Body const& body) {
+    constexpr std::size_t rows_between_reports = 1024;
+    for (std::size_t row = 0; row < table.rows; ++row) {
+        if (row % rows_between_reports == 0) {
+            run.at(static_cast<double>(row) / static_cast<double>(table.rows), "write");
+        }
+        body(row);
+    }
+}
+
+/// What formats stamp as the day of writing: a CPLConfigOptionSetter sets it for a thread.
+inline constexpr char const* date_option = "OGR_CURRENT_DATE";
+inline constexpr char const* fixed_date = "2000-01-01T00:00:00.000Z";
+
+// Decimals in a shapefile: more than a double at 1e6 m carries, few enough for 1e13 m or 1e16 m2.
+inline constexpr int length_decimals = 9;
+inline constexpr int area_decimals = 6;
+inline constexpr int slope_decimals = 15;
 
 } // namespace thalweg::io

@@ -2,14 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <array>
-#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
 #include <map>
 #include <optional>
 #include <string>
+#include <string_view>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
@@ -18,32 +18,209 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
-#include <thalweg/io/network/schema.hpp>
+#include <thalweg/io/network/read_network.hpp>
 
-class OGRLayer;
 class OGRFeature;
+class OGRGeometry;
+class OGRLayer;
 
 namespace thalweg::io {
 
-// What reading a network has to say.
+class Notes;
 
-class Notes {
+// Names.
+
+/// The words of a text that are separated by single blanks, as the tables of names list them.
+std::vector<std::string> words_of(std::string_view text);
+
+/// All names of a field, its own first.
+std::vector<std::string> names_of(SchemaField const& field);
+
+/// With a to z for A to Z.
+std::string lower_case(std::string text);
+
+/// "a, b, c"; "none" for an empty list.
+std::string listed(std::vector<std::string> const& names);
+
+std::vector<std::string> field_names(OGRLayer& layer);
+
+// Columns.
+
+/// What a file does not say.
+inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
+
+/// A column of numbers or texts, found by its name in any case of letters; the feature id of the format may be one too.
+class FileColumn {
 public:
-    /// Strict notes throw what they are given as BadInput.
-    explicit Notes(bool strict) : strict_(strict) {}
+    FileColumn() = default;
+    /// Takes the first of the names that the layer has.
+    FileColumn(OGRLayer& layer, std::vector<std::string> const& names, bool or_feature_id = true);
 
-    /// source: the file and layer for the message of a strict note.
-    void add(std::string const& source, Finding finding);
-    /// The first thousand of each kind, and one more that counts the rest.
-    std::vector<Finding> take();
+    bool is_there() const { return field_ != absent; }
+    /// Whether its type is one of numbers.
+    bool is_number() const;
+    bool is_null(OGRFeature const& feature) const;
+    /// Nothing when it is not a whole number.
+    std::optional<std::int64_t> whole(OGRFeature const& feature) const;
+    /// NaN when it is not a number. A text counts when all of it is one.
+    double real(OGRFeature const& feature) const;
+    /// "" for NULL.
+    std::string text(OGRFeature const& feature) const;
+    /// The name as the file has it.
+    std::string const& name() const { return name_; }
+    /// Throws: BadInput when it cannot hold numbers; a note when it holds them as text.
+    void require_numbers(std::string const& what, Notes& notes) const;
 
 private:
-    bool strict_;
-    std::vector<Finding> findings_;
-    std::map<std::string, std::size_t> count_;
+    static constexpr int absent = -1;
+    static constexpr int feature_id = -2;
+    int field_ = absent;
+    int type_ = -1; ///< OGRFieldType
+    std::string name_;
 };
 
-// Where the layers of a network are.
+/// Nothing when a number is not whole, or so large that doubles skip whole numbers.
+std::optional<std::int64_t> whole_in(double value);
+
+/// The columns of a user's layer.
+class AttributeReader {
+public:
+    /// Takes every field of the layer, except those of the native schema where the layer is in it.
+    explicit AttributeReader(OGRLayer& layer);
+
+    /// The values of the next feature.
+    void read(OGRFeature const& feature);
+    /// All rows, in the order of reading.
+    AttributeTable take() { return std::move(table_); }
+    /// as_text (columns): fields of a type that AttributeTable does not have, kept as text. not_utf8 (values): texts
+    /// read so far of which bytes are kept as \xNN.
+    std::vector<Finding> findings() const;
+
+private:
+    std::vector<int> fields_; ///< by column
+    AttributeTable table_;
+    std::vector<Finding> findings_;
+    std::int64_t escaped_ = 0;
+};
+
+/// The schemas of which a layer has all the fields that identify it.
+std::vector<Schema> recognised(OGRLayer& layer);
+
+/// Whether a layer is in the native schema.
+bool is_in_network_schema(OGRLayer& layer);
+
+/// What a column of a river file says of a line. docs/river_files.md lists the names.
+enum class RiverQuantity : std::uint8_t {
+    size,        ///< larger for larger rivers
+    river_class, ///< 1 for the largest rivers
+    area,        ///< drainage area at the lower end
+    divergence,
+    calculated_order, ///< 0 on minor paths
+    order,
+    name,
+    direction,
+    waterway, ///< OpenStreetMap: this and the next four
+    tunnel,
+    man_made,
+    natural,
+    other_way, ///< roads, railways and the like
+    ftype,     ///< NHD: this and the next
+    fcode
+};
+
+/// What the known columns of a river file say: NHDPlus, HydroRIVERS, EU-Hydro, OpenStreetMap, network schemas.
+class RiverFields {
+public:
+    /// id, down: the columns of a line's own id and of the line downstream where a user names both.
+    explicit RiverFields(OGRLayer& layer, FileColumn id = {}, FileColumn down = {});
+
+    /// Sets size, area, name, channel and runs, and remembers the links of the feature.
+    void read(OGRFeature const& feature, RiverLine& line);
+    /// Why a feature is not a natural watercourse.
+    struct Unnatural {
+        std::string reason = {}; ///< "FTYPE Coastline"; "" where it is one, or no field says so
+        bool is_channel = false; ///< it carries water: a canal, ditch, drain or pipe
+        bool is_coast = false;   ///< by any field
+    };
+    Unnatural unnatural(OGRFeature const& feature) const;
+    /// Whether there are fields of links.
+    bool has_links() const { return down_.is_there(); }
+    /// The feature downstream by the file's links, once every feature has been read; 0 where it names none.
+    std::int64_t down_of(std::int64_t feature) const;
+    /// Sets `down` of all lines, once every feature has been read.
+    void link(std::vector<RiverLine>& lines) const;
+
+private:
+    struct Found {
+        FileColumn column;
+        double unit = 1.0;
+    };
+    bool has(RiverQuantity quantity) const { return !found_[quantity].empty(); }
+    std::string text(OGRFeature const& feature, RiverQuantity quantity) const;
+    double number(OGRFeature const& feature, RiverQuantity quantity) const;
+    int runs_of(OGRFeature const& feature) const;
+
+    FileColumn id_;
+    FileColumn down_;
+    ByEnum<RiverQuantity, std::vector<Found>, static_cast<std::size_t>(RiverQuantity::fcode) + 1> found_;
+    std::map<std::string, std::int64_t> feature_of_; ///< by own id: the first feature that has it
+    std::map<std::int64_t, std::string> down_id_;    ///< by feature: the id downstream
+};
+
+// Lines.
+
+/// Counts the shapes of a layer that are not lines.
+class OtherShapes {
+public:
+    void add(OGRGeometry const& shape, std::int64_t feature);
+    std::int64_t count() const { return count_; }
+    /// One for each type of shape: not_a_line [shapes], at the first of them.
+    std::vector<Finding> findings() const;
+
+private:
+    std::map<std::string, Finding> types_; ///< the first of each, and how many
+    std::int64_t count_ = 0;
+};
+
+/// The parts of a geometry that are lines, curves as OGR linearises them; z is NaN without heights. Other shapes go to
+/// others.
+std::vector<std::vector<Vec3>> parts_of(OGRGeometry const& shape, std::int64_t feature, OtherShapes& others);
+
+struct DrawnLine {
+    std::vector<std::vector<Vec3>> parts; ///< one when they join end to end
+    bool is_line = true;                  ///< else there are only other shapes
+    int drawn_parts = 0;                  ///< as they stand in the file
+};
+
+/// A geometry as an arc. None (nullptr) is a line without vertices.
+DrawnLine drawn_line(OGRGeometry const* shape, std::int64_t feature, OtherShapes& others);
+
+// Layers.
+
+/// A file or database, opened read-only.
+struct NetworkSource {
+    std::string what; ///< "io.read_network: PATH", without a password
+    Dataset dataset;
+};
+
+/// A layer, and how messages name it.
+struct Layer {
+    OGRLayer* layer = nullptr;
+    std::string what = {};
+
+    /// Calls body for each feature. Throws: IoError when there are fewer than the file announces.
+    void each(Driver const& driver, Run const& run, std::function<void(OGRFeature const&)> const& body) const;
+};
+
+/// Throws: BadInput that lists the layers when none has lines; IoError when features cannot be read.
+void require_lines(GDALDataset& data, std::string const& name, std::string const& who);
+
+/// The layer of a source that holds its rivers.
+/// Takes: a layer's name, or "" for the only layer with lines that is not empty; where there are several, the one whose
+/// name says that it holds rivers (arcs, NHDFlowline, waterways, rivers, ...), if only one does. name: of the source,
+/// for messages; who: begins them. Throws: BadInput that lists the layers: no such layer, none with lines, several of
+/// which none is clearly meant; IoError when features cannot be read.
+OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string const& name, std::string const& who);
 
 /// The files of a network: a GeoPackage is both; nodes is "" where there is no file for them.
 struct NetworkPlace {
@@ -54,131 +231,76 @@ struct NetworkPlace {
 /// Takes: see read_network. whole: a shapefile must be NAME_arcs.shp or NAME_nodes.shp. Throws: BadInput, IoError.
 NetworkPlace find_network(std::string const& path, bool whole);
 
-/// A file or database, opened to be read only.
-class NetworkSource {
-public:
-    /// Throws: BadInput, IoError like read_network.
-    NetworkSource(std::string const& path, Driver const& driver);
+/// Throws: BadInput, IoError like read_network.
+NetworkSource open_network(std::string const& path, Driver const& driver);
 
-    /// "io.read_network: PATH", without a password.
-    std::string const& what() const { return what_; }
-    /// Null when it has none of this name.
-    OGRLayer* layer(std::string const& name) const;
-    std::vector<OGRLayer*> layers() const;
-
-private:
-    std::string what_;
-    Dataset dataset_;
-};
-
-// Which layers of a source are a network, and in whose words.
-
-/// What a user asks for, understood: see ReadNetworkParams.
-struct Wish {
-    std::optional<Schema> schema = {};
-    std::map<Quantity, std::string> fields = {};
+/// What a user asks for, understood.
+struct Wish : ReadNetworkParams {
+    std::map<Quantity, std::string> columns = {}; ///< fields by quantity
     std::string node_id = "node_id";
-    std::string arcs_layer = {};
-    std::string nodes_layer = {};
-    std::string crs = {};
-    std::string source_crs = {};
-    bool any_lines = false;
-    bool bridge = false;
     bool whole = false; ///< every layer, field and value of the native schema, or an error
 };
 
 /// Whether lines without a known schema are arcs as they are.
-bool takes_any_lines(Wish const& wish);
-
-/// A layer, and how it is called in messages.
-struct Layer {
-    OGRLayer* layer = nullptr;
-    std::string what = {};
-
-    /// Calls body for each feature, as many as the file announces. Throws: IoError.
-    void each(Driver const& driver, Run const& run, std::function<void(OGRFeature const&)> const& body) const;
-};
+inline bool takes_any_lines(Wish const& wish) {
+    return wish.any_lines && wish.columns.empty();
+}
 
 /// Throws: BadInput like read_network.
 Layer choose_arcs(NetworkSource const& source, Wish const& wish);
 
 /// The layer of nodes that belongs to the arcs, if there is one. Takes: the source of nodes, which may be that of the
-/// arcs, or null. Throws: BadInput when there is none of the name that is wanted.
+/// arcs, or null. Throws: BadInput when a layer is named that is not there.
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,
                                   std::optional<Schema> schema, Wish const& wish);
 
 /// Nothing when the fields that the user names are enough, or any lines are taken. Throws: BadInput like read_network.
 std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish);
 
-// Which column of a layer holds what.
+// The features of a network's layers.
 
-/// What a file does not say.
-inline constexpr double nan = std::numeric_limits<double>::quiet_NaN();
-
-/// A column of numbers or texts, found by its name in any case of letters; the feature id of the format is one too.
-class FileColumn {
+/// What reading a network has to say.
+class Notes {
 public:
-    FileColumn() = default;
-    /// Takes: the first of the names (a blank between them) that the layer has.
-    FileColumn(OGRLayer& layer, std::string const& names);
+    /// Strict notes throw what they are given as BadInput.
+    explicit Notes(bool strict) : strict_(strict) {}
 
-    bool is_there() const { return field_ != absent; }
-    bool is_null(OGRFeature const& feature) const;
-    /// Nothing when it is not a whole number.
-    std::optional<std::int64_t> whole(OGRFeature const& feature) const;
-    /// NaN when it is no number.
-    double real(OGRFeature const& feature) const;
-    std::string text(OGRFeature const& feature) const;
-    /// The name as the file has it.
-    std::string const& name() const { return name_; }
-    /// Throws: BadInput when it can hold no numbers; a note when it holds them as text.
-    void require_numbers(OGRLayer& layer, std::string const& what, Notes& notes) const;
+    /// source: the file and layer for the message of a strict note.
+    void add(std::string const& source, Finding finding);
+    void add(std::string const& source, char const* kind, std::int64_t feature, double amount, std::string text) {
+        add(source, {kind, feature, {}, amount, std::move(text)});
+    }
+    /// The first thousand of each kind, and one more that counts the rest.
+    std::vector<Finding> take();
 
 private:
-    static constexpr int absent = -1;
-    static constexpr int feature_id = -2;
-    int field_ = absent;
-    bool is_text_ = false;
-    std::string name_;
+    bool strict_;
+    std::vector<Finding> findings_;
+    std::map<std::string, std::size_t> count_;
 };
 
-/// The columns of the layer of arcs by what they tell.
-class ArcColumns {
-public:
-    /// mapped: by quantity the field that the user names. Without a schema the arcs are understood by these alone, in
-    /// the units of the native schema. Throws: BadInput when a field that is named, or that of arc ids, is missing, or
-    /// one holds no numbers.
-    ArcColumns(OGRLayer& layer, std::optional<Schema> schema, std::map<Quantity, std::string> const& mapped,
-               std::string const& what, Notes& notes);
+/// Reads the arcs as they are drawn and linked in the file, and what the file says. Throws: like read_network.
+void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schema, Wish const& wish,
+               Driver const& driver, Notes& notes, Run const& run);
 
-    bool has(Quantity quantity) const { return column(quantity).is_there(); }
-    FileColumn const& column(Quantity quantity) const { return columns_[quantity].column; }
-    /// In SI units; NaN where there is no such column, or no value that is known.
-    double real(OGRFeature const& feature, Quantity quantity) const;
-    /// What stands for no arc in a column of links.
-    std::optional<std::int64_t> none(Quantity quantity) const;
+/// Reads which features arcs were made of. A table without the columns for it is skipped.
+void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run);
 
-private:
-    struct Told {
-        FileColumn column;
-        SchemaField const* field = nullptr;
-    };
-    ByEnum<Quantity, Told, static_cast<std::size_t>(Quantity::constant)> columns_;
-};
+/// Reads the nodes. Takes: the field of their ids. Throws: like read_network.
+void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
+                Run const& run);
 
-/// The names of a layer's fields.
-std::string fields_of(OGRLayer& layer);
-
-// How the arcs of a network file hang together.
+// How the arcs of a network file are linked.
 
 /// Sets ds_arc by keys. Takes: by arc its key and that of the arc downstream, 0 for none. A key that no arc has stands
 /// in ds_arc as the negative of itself, for drop_links_out.
 void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys);
 
-/// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there; its basins go by others.
+/// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there. Its basins do not count
+/// then.
 void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes);
 
-/// Turns all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
+/// Reverses all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
 void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& what, Notes& notes);
 
 /// Makes a node for each place in plan where an arc begins or ends, from 1 in the order of the arcs, and sets from_node
@@ -190,18 +312,5 @@ void place_nodes(NetworkFile& file);
 
 /// Sets ds_arc to the first arc that begins at the arc's end.
 void link_by_nodes(NetworkFile& file);
-
-// The features of a network's layers.
-
-/// Reads the arcs as they are drawn and linked in the file, and what the file says. Throws: like read_network.
-void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schema, Wish const& wish,
-               Driver const& driver, Notes& notes, Run const& run);
-
-/// Reads which features arcs were made of. What is no such table is passed over.
-void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run);
-
-/// Reads the nodes. Takes: the field of their ids. Throws: like read_network.
-void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
-                Run const& run);
 
 } // namespace thalweg::io
