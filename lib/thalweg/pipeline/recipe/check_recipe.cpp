@@ -174,10 +174,6 @@ void check_network(Recipe const& recipe, Faults& faults) {
     NetworkRecipe const& n = *recipe.network;
     add_if(n.source == Source::lines && n.lines.path.empty(), faults,
            "network.lines.path is missing: source = \"lines\" needs a file");
-    add_if(n.source != Source::lines && !n.lines.path.empty(), faults,
-           "network.lines.path is given but source is not \"lines\"");
-    add_if(n.source != Source::tokunaga && !(n.tokunaga.strokes.empty() && n.tokunaga.region.empty()), faults,
-           "network.tokunaga names a file but source is not \"tokunaga\"");
     add_if(!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty(), faults,
            "network.tokunaga.strokes and region do not go together: strokes fill the grid");
     add_if((n.source == Source::lines || n.source == Source::tokunaga) && n.rotate_deg.value_or(0.0) != 0.0, faults,
@@ -222,8 +218,6 @@ bool has_random_points(Recipe const& recipe) {
 }
 
 void check_surface(Recipe const& recipe, Faults& faults) {
-    add_if(recipe.surface && recipe.surface->base == Base::tin && recipe.surface->method != Method::dilate, faults,
-           R"(surface.base = "tin" goes with surface.method = "dilate")");
     add_if(recipe.surface && recipe.surface->dilate.increment.function, faults,
            "surface.increment is a function, which no recipe can hold: write it as an expression in x, "
            "or call surface::dilate with it");

@@ -21,26 +21,22 @@ std::string text_of(double x) {
     return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 
-std::string text_of(bool b) {
-    return b ? "true" : "false";
-}
-
-std::string text_of(std::int64_t i) {
-    return fmt::format("{}", i);
-}
-
 std::string text_of(std::string const& s) {
     std::ostringstream out;
     out << toml::value<std::string>(s);
     return out.str();
 }
 
-template <std::size_t N> std::string text_of(std::array<double, N> const& list) {
+template <std::size_t n> std::string text_of(std::array<double, n> const& list) {
     std::string out;
     for (double const x : list) {
         out += (out.empty() ? "" : ", ") + text_of(x);
     }
     return "[ " + out + " ]";
+}
+
+template <class T> std::string text_of(T whole_or_yes_no) {
+    return fmt::format("{}", whole_or_yes_no);
 }
 
 } // namespace
@@ -71,93 +67,73 @@ template <class T> T const& required(std::string const& wanted, Value const& v) 
     return *held;
 }
 
-void require_in(Range const& range, double v) {
-    refuse_if<BadParameter>(!range.holds(v), "{} is outside its range {}", v, range.text());
-}
-
-std::vector<std::string> choice_words(std::vector<Choice> const& choices) {
-    std::vector<std::string> words;
-    for (auto const& [word, number] : choices) {
-        words.push_back(word);
-    }
-    return words;
-}
-
-/// The value that a word stands for in a recipe: of a key of integers or words "16" is an integer.
+/// What a word is in a recipe: of a key of integers or words "16" is an integer.
 Value value_of_word(Key const& key, std::string const& word) {
     bool const is_integer =
         key.row->kind == KeyKind::integer_or_word && word.find_first_not_of("0123456789") == std::string::npos;
     return is_integer ? Value(std::int64_t{std::stoi(word)}) : Value(word);
 }
 
-Choice const& choice_of(Key const& key, Value const& v) {
+/// The enumerator that a value stands for, as a number.
+int number_for(Key const& key, Value const& v) {
     bool const is_text = std::holds_alternative<std::string>(v);
     if (key.row->kind == KeyKind::word && !is_text) {
         refuse_value("a text in quotes", v);
     }
-    for (Choice const& one : key.choices) {
-        if (value_of_word(key, one.first) == v) {
-            return one;
+    std::vector<std::string> const& words = key.help.choices;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (value_of_word(key, words[i]) == v) {
+            return key.numbers[i];
         }
     }
-    std::vector<std::string> const words = choice_words(key.choices);
     throw BadParameter(fmt::format("{} is not one of its values.{} ({})", toml_text(v),
                                    is_text ? did_you_mean(std::get<std::string>(v), words) : "",
                                    fmt::join(words, ", ")));
 }
 
-/// The value as a key of this kind holds it. Throws BadParameter for one that the key may not have.
-Value checked(Key const& key, Value const& v) {
-    Allowed const& allowed = key.row->allowed;
-    switch (key.row->kind) {
-    case KeyKind::yes_no: return required<bool>("true or false", v);
-    case KeyKind::integer: {
-        std::int64_t const x = required<std::int64_t>("an integer", v);
-        require_in(allowed.range, static_cast<double>(x));
-        return x;
-    }
-    case KeyKind::number: {
-        auto const* const whole = std::get_if<std::int64_t>(&v);
-        double const x = whole != nullptr ? static_cast<double>(*whole) : required<double>("a number", v);
-        require_in(allowed.range, x);
-        return x;
-    }
-    case KeyKind::text:
-    case KeyKind::file: {
-        std::string const& s = required<std::string>("a text in quotes", v);
-        refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos,
-                                "the text is too long or holds a null byte");
-        break;
-    }
-    case KeyKind::word:
-    case KeyKind::integer_or_word: choice_of(key, v); break;
-    case KeyKind::pair:
-    case KeyKind::triple:
-    case KeyKind::quad: break;
-    }
-    if (allowed.fits != nullptr && !allowed.fits(v)) {
-        refuse_value(allowed.form, v);
-    }
-    return v;
-}
-
-/// The type of Value that a field's values are.
-template <class T> struct HeldAs {
-    using Type = std::conditional_t<std::is_integral_v<T> && !std::is_same_v<T, bool>, std::int64_t, T>;
-};
-template <class T> struct HeldAs<std::optional<T>> {
-    using Type = T;
-};
-
-/// Puts a checked value into the field of its key.
+/// Puts a value into the field of its key. Throws BadParameter for one that the key may not have.
 struct Store {
     Key const& key;
     Value const& value;
 
-    template <class T> void operator()(T* field) const {
-        *field = static_cast<T>(std::get<typename HeldAs<T>::Type>(value));
+    void operator()(bool* field) const { *field = required<bool>("true or false", value); }
+    void operator()(double* field) const { *field = number(); }
+    void operator()(std::optional<double>* field) const { *field = number(); }
+    void operator()(Enumeration const& field) const { field.set(field.at, number_for(key, value)); }
+    void operator()(std::string* field) const {
+        std::string const& s = required<std::string>("a text in quotes", value);
+        refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos,
+                                "the text is too long or holds a null byte");
+        require_fit();
+        *field = s;
     }
-    void operator()(Enumeration const& field) const { field.set(field.at, choice_of(key, value).second); }
+    template <class Integer> void operator()(Integer* field) const {
+        std::int64_t const x = required<std::int64_t>("an integer", value);
+        require_in_range(static_cast<double>(x));
+        *field = static_cast<Integer>(x);
+    }
+    template <class List> void operator()(std::optional<List>* field) const {
+        require_fit();
+        *field = std::get<List>(value);
+    }
+
+private:
+    double number() const {
+        auto const* const whole = std::get_if<std::int64_t>(&value);
+        double const x = whole != nullptr ? static_cast<double>(*whole) : required<double>("a number", value);
+        require_in_range(x);
+        return x;
+    }
+    void require_in_range(double x) const {
+        Range const& range = key.row->allowed.range;
+        refuse_if<BadParameter>(!range.holds(x), "{} is outside its range {}", x, range.text());
+    }
+    void require_fit() const {
+        Allowed const& allowed = key.row->allowed;
+        if (allowed.fits != nullptr && !allowed.fits(value)) {
+            refuse_value(allowed.form, value);
+        }
+    }
 };
 
 /// Takes it out; nothing where it is left out.
@@ -165,16 +141,20 @@ struct Show {
     Key const& key;
 
     template <class T> std::optional<Value> operator()(T const* field) const {
-        return static_cast<typename HeldAs<T>::Type>(*field);
+        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+            return static_cast<std::int64_t>(*field);
+        } else {
+            return *field;
+        }
     }
     template <class T> std::optional<Value> operator()(std::optional<T> const* field) const {
         return *field ? std::optional<Value>(**field) : std::nullopt;
     }
     std::optional<Value> operator()(Enumeration const& field) const {
-        int const number = field.get(field.at);
-        auto const at = std::find_if(key.choices.begin(), key.choices.end(),
-                                     [&](Choice const& one) { return one.second == number; });
-        return at == key.choices.end() ? std::nullopt : std::optional<Value>(value_of_word(key, at->first));
+        auto const at = std::find(key.numbers.begin(), key.numbers.end(), field.get(field.at)) - key.numbers.begin();
+        auto const& words = key.help.choices;
+        auto const place = static_cast<std::size_t>(at);
+        return place == words.size() ? std::nullopt : std::optional<Value>(value_of_word(key, words[place]));
     }
 };
 
@@ -206,33 +186,27 @@ constexpr std::array<Section, 9> sections = {
      {"patch", [](Recipe const& r) { return r.patches.size(); }, [](Recipe& r) { r.patches.emplace_back(); }, true},
      {"output", always_one, nothing_to_begin}}};
 
-char const* type_of(KeyKind kind) {
-    switch (kind) {
-    case KeyKind::yes_no: return "yes/no";
-    case KeyKind::integer: return "integer";
-    case KeyKind::number: return "number";
-    case KeyKind::pair: return "two numbers";
-    case KeyKind::triple: return "three numbers";
-    case KeyKind::quad: return "four numbers";
-    case KeyKind::integer_or_word: return "integer or text";
-    case KeyKind::text:
-    case KeyKind::file:
-    case KeyKind::word: break;
-    }
-    return "text";
-}
+/// By KeyKind.
+constexpr std::array<char const*, 10> type_names{"yes/no",       "integer", "number", "two numbers", "three numbers",
+                                                 "four numbers", "text",    "text",   "text",        "integer or text"};
 
-std::vector<Choice> choices_of(Row const& row) {
-    if (row.kind == KeyKind::yes_no) {
-        return {{"true", 1}, {"false", 0}};
+/// Lists the words of a key and what they stand for.
+void list_words(Key& key, Field const& field) {
+    Allowed const& allowed = key.row->allowed;
+    auto const* const enumeration = std::get_if<Enumeration>(&field);
+    int const least = enumeration == nullptr ? 0 : enumeration->least;
+    auto const add = [&](std::string const& word, std::optional<int> number) {
+        key.numbers.push_back(number.value_or(least + static_cast<int>(key.numbers.size())));
+        key.help.choices.push_back(word);
+    };
+    for (std::string const& word : allowed.more_words == nullptr ? std::vector<std::string>() : allowed.more_words()) {
+        add(word, std::nullopt);
     }
-    std::vector<Choice> choices = row.allowed.listed == nullptr ? std::vector<Choice>() : row.allowed.listed();
-    for (Word const& word : row.allowed.words) {
+    for (Word const& word : allowed.words) {
         if (word.text != nullptr) {
-            choices.emplace_back(word.text, word.number);
+            add(word.text, word.number);
         }
     }
-    return choices;
 }
 
 /// What is allowed, for people.
@@ -240,12 +214,10 @@ std::string range_text(Key const& key) {
     if (key.range) {
         return key.range->text();
     }
-    if (key.help.is_file) {
-        return "file name";
-    }
     std::vector<std::string> ways = key.help.choices;
-    if (*key.row->allowed.form != '\0') {
-        ways.emplace_back(key.row->allowed.form);
+    std::string const form = key.help.is_file ? "file name" : key.row->allowed.form;
+    if (!form.empty()) {
+        ways.push_back(form);
     }
     return fmt::format("{}", fmt::join(ways, " | "));
 }
@@ -255,38 +227,41 @@ std::string standard_text(Value const& value) {
     return number != nullptr ? fmt::format("{}", *number) : toml_text(value);
 }
 
-Key make_key(Row const& row, Recipe const& standard) {
+/// With parts of conditions in place of their names.
+std::string written_out(std::string text) {
+    for (auto const& [name, condition] : named_conditions()) {
+        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+            text.replace(at, name.size(), condition);
+        }
+    }
+    return text;
+}
+
+Key make_key(Row const& row, Recipe& standard) {
     std::string_view const path = row.path;
-    auto const dot = path.find('.');
     Key key;
     key.row = &row;
-    key.part = find_section(dot == std::string_view::npos ? "" : path.substr(0, dot));
-    key.choices = choices_of(row);
-    key.use = read_use(row.used);
-    key.use.test = row.extra.holds;
+    key.part = find_section(path.substr(0, path.find('.') == std::string_view::npos ? 0 : path.find('.')));
+    key.use = {written_out(row.used), row.extra.holds};
+    key.help.path = path;
+    key.help.type = type_names.at(static_cast<std::size_t>(row.kind));
+    key.help.unit = row.unit;
+    key.help.meaning = row.meaning;
+    key.help.used_by = key.use.text;
+    key.help.is_file = row.kind == KeyKind::file;
+    key.folder = row.extra.folder != nullptr ? row.extra.folder : key.name() + "/";
     if (row.kind == KeyKind::integer || row.kind == KeyKind::number) {
         key.range = row.allowed.range;
     }
-    key.help = {row.path,
-                type_of(row.kind),
-                "",
-                row.unit,
-                row.extra.standard,
-                row.meaning,
-                choice_words(key.choices),
-                key.use.text,
-                row.kind == KeyKind::file};
+    list_words(key, row.field(standard, 0));
     key.help.range = range_text(key);
-    key.folder = row.extra.folder != nullptr ? row.extra.folder : key.name() + "/";
     auto const value = key.take(standard);
-    if (key.help.standard.empty() && value) {
-        key.help.standard = standard_text(*value);
-    }
+    key.help.standard = *row.extra.standard == '\0' && value ? standard_text(*value) : row.extra.standard;
     return key;
 }
 
 std::vector<Key> make_keys() {
-    Recipe const standard = with_all_sections();
+    Recipe standard = with_all_sections();
     std::vector<Key> keys;
     for (Row const& row : recipe_rows()) {
         keys.push_back(make_key(row, standard));
@@ -297,12 +272,13 @@ std::vector<Key> make_keys() {
 } // namespace
 
 void Key::put(Recipe& recipe, Value const& value, std::optional<Item> item) const {
-    Value const held = checked(*this, value);
+    Recipe trial = with_all_sections();
+    std::visit(Store{*this, value}, row->field(trial, 0));
     std::size_t const count = part->count(recipe);
     if (count == 0 || item == count) {
         part->begin(recipe);
     }
-    std::visit(Store{*this, held}, row->field(recipe, item.value_or(part->count(recipe) - 1)));
+    std::visit(Store{*this, value}, row->field(recipe, item.value_or(part->count(recipe) - 1)));
 }
 
 std::optional<Value> Key::take(Recipe const& recipe, std::optional<Item> item) const {

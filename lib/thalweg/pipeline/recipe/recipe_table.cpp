@@ -23,26 +23,18 @@ bool falls_by_slope(Recipe const& r) {
     return may_be_of_file || !(in_equilibrium(r) && is_graded);
 }
 
-std::vector<Choice> rosgen_types() {
-    std::vector<Choice> types{{"by_order", -1}};
+std::vector<std::string> rosgen_words() {
+    std::vector<std::string> words{"by_order"};
     for (network::Rosgen const type : network::rosgen_types) {
-        types.emplace_back(network::name_of(type), static_cast<int>(type));
+        words.emplace_back(network::name_of(type));
     }
-    return types;
+    return words;
 }
 
-std::vector<Choice> schemas() {
-    std::vector<Choice> all;
+std::vector<std::string> schema_names() {
+    std::vector<std::string> names;
     for (io::SchemaTable const& table : io::all_schemas()) {
-        all.emplace_back(table.name, static_cast<int>(table.schema));
-    }
-    return all;
-}
-
-std::vector<Choice> increments() {
-    std::vector<Choice> names;
-    for (std::string const& name : surface::increment_names()) {
-        names.emplace_back(name, 0);
+        names.emplace_back(table.name);
     }
     return names;
 }
@@ -97,26 +89,27 @@ constexpr Row key(char const* path, KeyKind kind, char const* unit, Allowed cons
 
 } // namespace
 
-std::span<NamedCondition const> named_conditions() {
-    static constexpr NamedCondition conditions[] = {
-        {"by_links",
-         R"(network.source = "lines" and (network.lines.orientation = "auto" or network.lines.divergences = "main"))"},
-        {"has_surface", "no [network] or [surface]"},
-        {"by_equilibrium", R"([network] and surface.method = "equilibrium")"},
-        {"by_rough_rock", "by_equilibrium and surface.roughness > 0"},
-        {"by_dilation", R"([network] and surface.method = "dilate")"},
-        // around rivers, or between points
-        {"by_diffusion", R"(surface.method = "diffuse" and ([network] or from_points))"},
+std::span<std::pair<std::string_view, std::string_view> const> named_conditions() {
+    // those that name others stand before these
+    static constexpr std::pair<std::string_view, std::string_view> conditions[] = {
+        // ridges or random points rise above the rivers
+        {"rises", "(with_ridges) or ((beside_rivers) and skeleton.scatter > 0)"},
+        {"with_ridges", R"((beside_rivers) and skeleton.ridges = "voronoi" or "segments")"},
         // around rivers by a method that honours ridges and points
         {"beside_rivers",
          R"(([network] and surface.method = "diffuse" or "tin") or (by_dilation and surface.base = "tin"))"},
-        {"with_ridges", R"(beside_rivers and skeleton.ridges = "voronoi" or "segments")"},
-        // ridges or random points rise above the rivers
-        {"rises", "with_ridges or (beside_rivers and skeleton.scatter > 0)"},
-        {"with_noise", R"([network] and surface.method = "diffuse" and skeleton.ridges = "voronoi" or "segments")"},
-        {"has_extremes", "statistics.max or statistics.min"},
+        // around rivers, or between points
+        {"by_diffusion", R"(surface.method = "diffuse" and ([network] or (from_points)))"},
         // terrain that is interpolated between points, in a file or random
-        {"from_points", R"(no [network] and (no [statistics] or statistics.skeleton = "points"))"}};
+        {"from_points", R"(no [network] and (no [statistics] or statistics.skeleton = "points"))"},
+        {"by_dilation", R"([network] and surface.method = "dilate")"},
+        {"by_rough_rock", "by_equilibrium and surface.roughness > 0"},
+        {"by_equilibrium", R"([network] and surface.method = "equilibrium")"},
+        {"with_noise", R"([network] and surface.method = "diffuse" and skeleton.ridges = "voronoi" or "segments")"},
+        {"by_links",
+         R"(network.source = "lines" and (network.lines.orientation = "auto" or network.lines.divergences = "main"))"},
+        {"has_surface", "no [network] or [surface]"},
+        {"has_extremes", "(statistics.max or statistics.min)"}};
     return conditions;
 }
 
@@ -142,16 +135,11 @@ std::span<Row const> recipe_rows() {
         key("grid.origin", pair, "m", {"[west, north]", is_corner}, "", "north-western corner of the grid",
             [](Recipe& r, Item) -> Field { return &r.grid.origin; },
             {.standard = "[500000, 5000000], or the line file's box"}),
-        key("grid.clip", yes_no, "", {},
+        key("grid.clip", yes_no, "", {"true", "false"},
             R"(network.source = "lines" or (network.source = "forest" and network.forest.region))",
             "cut rivers and polygons at the grid's edge instead of refusing those that cross it",
             [](Recipe& r, Item) -> Field { return &r.grid.clip; }),
-        key("network.source", word, "",
-            {{"dla", Source::dla},
-             {"tokunaga", Source::tokunaga},
-             {"forest", Source::forest},
-             {"lines", Source::lines}},
-            "",
+        key("network.source", word, "", {"dla", "tokunaga", "forest", "lines"}, "",
             "where the rivers come from: a DLA cluster, a Tokunaga tree, a forest of trees that grow inland from a "
             "coast, or lines of a file",
             [](Recipe& r, Item) -> Field { return choice(r.network->source); }),
@@ -159,16 +147,8 @@ std::span<Row const> recipe_rows() {
             [](Recipe& r, Item) -> Field { return &r.network->prune_cells; },
             {.standard = "20 for dla and forest, else 0"}),
         key("network.heights", word, "",
-            {{"auto", Heights::automatic},
-             {"straight", Heights::straight},
-             {"straight_repaired", Heights::straight_repaired},
-             {"along_stream", Heights::along_stream},
-             {"rosgen", Heights::rosgen},
-             {"graded", Heights::graded},
-             {"file", Heights::file},
-             {"soft", Heights::soft},
-             {"fixed", Heights::fixed},
-             {"ends", Heights::ends}},
+            {"auto", "straight", "straight_repaired", "along_stream", "rosgen", "graded", "file", "soft", "fixed",
+             "ends"},
             "",
             "elevations of the rivers. auto: file where the lines have Z, else graded with equilibrium and "
             "straight_repaired otherwise. With equilibrium, soft, fixed and ends take those of the file or "
@@ -184,7 +164,7 @@ std::span<Row const> recipe_rows() {
             "vertices whose heights in the file dem.tif misses by more, beside what the river falls within a cell, are "
             "counted in a warning",
             [](Recipe& r, Item) -> Field { return &r.network->heights_tolerance_m; }),
-        key("network.concavity", number, "", {0, 1}, R"(network.heights = "graded" or by_equilibrium)",
+        key("network.concavity", number, "", {0, 1}, R"(network.heights = "graded" or (by_equilibrium))",
             "concavity theta of graded rivers and of equilibrium terrain: slope ~ area^-theta",
             [](Recipe& r, Item) -> Field { return &r.network->concavity; }, {.earlier = {0.45}}),
         key("network.rotate", number, "degrees", {-180, 180}, R"(network.source = "dla")",
@@ -194,24 +174,21 @@ std::span<Row const> recipe_rows() {
             "meander amplitude, 1 as in nature; left out: 1 for grown rivers with equilibrium, 0.3 where they end on a "
             "coast, else 0",
             [](Recipe& r, Item) -> Field { return &r.network->meander; }),
-        key("network.inland", word, "",
-            {{"carry", InlandEnds::carry}, {"sink", InlandEnds::sink}, {"coast", InlandEnds::coast}},
+        key("network.inland", word, "", {"carry", "sink", "coast"},
             R"(by_equilibrium and network.source = "dla" or "tokunaga" or "lines")",
             "rivers that end inside the grid: extend them to its border or the sea, keep them as sinks, or take their "
             "ends for mouths on a coast and make what lies before them the sea",
             [](Recipe& r, Item) -> Field { return choice(r.network->inland); }),
-        key("network.fill_space", yes_no, "", {}, "by_equilibrium",
+        key("network.fill_space", yes_no, "", {"true", "false"}, "by_equilibrium",
             "add the side valleys of the terrain to the network as arcs",
             [](Recipe& r, Item) -> Field { return &r.network->fill_space; }),
         key("network.support", integer, "cells", {1, 1e9}, "by_equilibrium and network.fill_space = true",
             "drainage area at which a side valley begins",
             [](Recipe& r, Item) -> Field { return &r.network->support_cells; }),
-        key("network.rosgen", word, "", rosgen_types, R"(network.heights = "rosgen" or network.coast > 0)",
+        key("network.rosgen", word, "", rosgen_words, R"(network.heights = "rosgen" or network.coast > 0)",
             "Rosgen type of rivers without one: by Strahler order, or one type for all",
             [](Recipe& r, Item) -> Field { return choice(r.network->rosgen); }),
-        key("network.rosgen_slope", word, "",
-            {{"middle", network::SlopeDraw::middle}, {"uniform", network::SlopeDraw::uniform}},
-            R"(network.heights = "rosgen")",
+        key("network.rosgen_slope", word, "", {"middle", "uniform"}, R"(network.heights = "rosgen")",
             "slope of a river within its type's range: the usual value, or a random one",
             [](Recipe& r, Item) -> Field { return choice(r.network->rosgen_slope); }),
         key("network.coast", number, "m", {0, 1e9}, "",
@@ -228,19 +205,11 @@ std::span<Row const> recipe_rows() {
         key("network.dla.visits", integer, "", {1, 255}, R"(network.source = "dla")",
             "noise-reduction count M: arrivals that a site needs before it is occupied",
             [](Recipe& r, Item) -> Field { return &r.network->dla.visits; }),
-        key("network.dla.rule", word, "",
-            {{"count_first", network::VisitRule::count_first},
-             {"stick_then_count", network::VisitRule::stick_then_count}},
+        key("network.dla.rule", word, "", {"count_first", "stick_then_count"},
             R"(network.source = "dla" and network.dla.visits > 1 and network.dla.sticking < 1)",
             "whether an arrival counts before or after its sticking test",
             [](Recipe& r, Item) -> Field { return choice(r.network->dla.rule); }),
-        key("network.dla.branch", word, "",
-            {{"largest", network::BranchChoice::largest},
-             {"north", network::BranchChoice::north},
-             {"east", network::BranchChoice::east},
-             {"south", network::BranchChoice::south},
-             {"west", network::BranchChoice::west},
-             {"all", network::BranchChoice::all}},
+        key("network.dla.branch", word, "", {"largest", "north", "east", "south", "west", "all"},
             R"(network.source = "dla")", "which arm of the cluster becomes the valley",
             [](Recipe& r, Item) -> Field { return choice(r.network->branch); }),
         key("network.tokunaga.generator", integer, "", {1, 50}, R"(network.source = "tokunaga")",
@@ -250,16 +219,12 @@ std::span<Row const> recipe_rows() {
         key("network.tokunaga.order", integer, "", {1, 12}, R"(network.source = "tokunaga")",
             "Strahler order at the outlet; with strokes, that of one as long as the grid is wide",
             [](Recipe& r, Item) -> Field { return &r.network->tokunaga.order; }),
-        key("network.tokunaga.rule", word, "",
-            {{"tokunaga", network::SideRule::tokunaga},
-             {"constant", network::SideRule::constant},
-             {"plane", network::SideRule::plane}},
+        key("network.tokunaga.rule", word, "", {"tokunaga", "constant", "plane"},
             R"(network.source = "tokunaga" and no network.tokunaga.strokes)",
             "number of side branches of a link: by its order, constant as published, or such that the fractal "
             "dimension is 2",
             [](Recipe& r, Item) -> Field { return choice(r.network->tokunaga.rule); }),
-        key("network.tokunaga.mouth", word, "",
-            {{"north", Side::north}, {"east", Side::east}, {"south", Side::south}, {"west", Side::west}},
+        key("network.tokunaga.mouth", word, "", {"north", "east", "south", "west"},
             R"(network.source = "tokunaga" and no network.tokunaga.strokes)",
             "side of the grid or region where the river leaves",
             [](Recipe& r, Item) -> Field { return choice(r.network->tokunaga.mouth); }),
@@ -275,7 +240,7 @@ std::span<Row const> recipe_rows() {
         key("network.tokunaga.spacing", number, "cells", {0, 1e6}, R"(network.source = "tokunaga")",
             "minimum distance between links; closer ones are left out",
             [](Recipe& r, Item) -> Field { return &r.network->tokunaga.spacing_cells; }),
-        key("network.forest.shape", word, "", {{"grid", LandShape::grid}, {"island", LandShape::island}},
+        key("network.forest.shape", word, "", {"grid", "island"},
             R"(network.source = "forest" and no network.forest.region)",
             "extent of the land where no region is given: the whole grid, or an island in it",
             [](Recipe& r, Item) -> Field { return choice(r.network->forest.shape); }),
@@ -351,18 +316,15 @@ std::span<Row const> recipe_rows() {
             "DEM of the land that the lines are of, in any CRS, for the flow direction of lines: together with angles "
             "at confluences, where fields and Z do not tell it",
             [](Recipe& r, Item) -> Field { return &r.network->lines.dem; }),
-        key("network.lines.divergences", word, "",
-            {{"main", network::Divergences::main}, {"error", network::Divergences::error}},
-            R"(network.source = "lines")",
+        key("network.lines.divergences", word, "", {"main", "error"}, R"(network.source = "lines")",
             "where water could go more than one way: keep the main path and report the other branches as secondary, or "
             "refuse the file",
             [](Recipe& r, Item) -> Field { return choice(r.network->lines.divergences); }),
-        key("network.lines.filter", word, "", {{"natural", io::LineFilter::natural}, {"none", io::LineFilter::none}},
-            R"(network.source = "lines")",
+        key("network.lines.filter", word, "", {"natural", "none"}, R"(network.source = "lines")",
             "natural leaves out canals, ditches, pipes, weirs and coastlines, as the fields of OSM and NHD name them; "
             "none keeps all lines",
             [](Recipe& r, Item) -> Field { return choice(r.network->lines.filter); }),
-        key("network.lines.coastlines", word, "", {{"sea", Coastlines::sea}, {"none", Coastlines::none}},
+        key("network.lines.coastlines", word, "", {"sea", "none"},
             R"(network.source = "lines" and network.lines.filter = "natural")",
             "coastlines among the lines: sea, beyond them is the sea, where rivers end; none, they mean nothing",
             [](Recipe& r, Item) -> Field { return choice(r.network->lines.coastlines); }),
@@ -370,14 +332,13 @@ std::span<Row const> recipe_rows() {
             "least share of the given length that must be in the network (check given_length): without what filter, "
             "coastlines, divergences, duplicates, the grid and network.prune leave out",
             [](Recipe& r, Item) -> Field { return &r.network->lines.keep; }),
-        key("skeleton.ridges", word, "",
-            {{"none", Ridges::none}, {"voronoi", Ridges::voronoi}, {"segments", Ridges::segments}}, "beside_rivers",
+        key("skeleton.ridges", word, "", {"none", "voronoi", "segments"}, "beside_rivers",
             "ridges midway between streams: edges of the Voronoi diagram of points along them, or exact medial lines",
             [](Recipe& r, Item) -> Field { return choice(r.skeleton->ridges); }),
         key("skeleton.ridge_gain", number, "m/m", {0, 100}, "rises",
             "lambda_h: rise of a ridge above its rivers per metre of distance, and greatest rise of a random point",
             [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_gain; }),
-        key("skeleton.ridge_farthest", number, "m", {0, 1e7}, "rises and skeleton.ridge_gain > 0",
+        key("skeleton.ridge_farthest", number, "m", {0, 1e7}, "(rises) and skeleton.ridge_gain > 0",
             "d_max: distance from the rivers beyond which ridges and random points rise no more; 0: none",
             [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_farthest_m; }),
         key("skeleton.ridge_noise", number, "m", {0, 1e5}, "with_noise",
@@ -390,24 +351,21 @@ std::span<Row const> recipe_rows() {
             "L: heights of cells up to this far from rivers, ridges and points by inverse midpoint displacement; 0: "
             "none",
             [](Recipe& r, Item) -> Field { return &r.skeleton->midpoint_inverse_cells; }),
-        key("skeleton.points", file, "", {}, "(from_points or beside_rivers) and skeleton.scatter = 0",
+        key("skeleton.points", file, "", {}, "((from_points) or beside_rivers) and skeleton.scatter = 0",
             "points with heights: CSV, XYZ, or a file of points (GeoPackage, ...)",
             [](Recipe& r, Item) -> Field { return &r.skeleton->points; }),
-        key("skeleton.scatter", integer, "", {0, 1e7}, "(from_points or beside_rivers) and no skeleton.points",
+        key("skeleton.scatter", integer, "", {0, 1e7}, "((from_points) or beside_rivers) and no skeleton.points",
             "number of random points, between the rivers or, without [network], including the extremes of [statistics]",
             [](Recipe& r, Item) -> Field { return &r.skeleton->scatter; }),
-        key("skeleton.spacing", number, "cells", {0, 1e5}, "(from_points or beside_rivers) and skeleton.scatter > 0",
+        key("skeleton.spacing", number, "cells", {0, 1e5}, "((from_points) or beside_rivers) and skeleton.scatter > 0",
             "minimum distance r between random points, and from them to rivers",
             [](Recipe& r, Item) -> Field { return &r.skeleton->spacing_cells; }),
-        key("skeleton.law", word, "",
-            {{"uniform", skeleton::HeightLaw::uniform}, {"normal", skeleton::HeightLaw::normal}},
-            "(from_points or beside_rivers) and skeleton.scatter > 0",
+        key("skeleton.law", word, "", {"uniform", "normal"},
+            "((from_points) or beside_rivers) and skeleton.scatter > 0",
             "distribution of the heights of random points; with [network], of their share of ridge_gain times the "
             "distance from the nearest river",
             [](Recipe& r, Item) -> Field { return choice(r.skeleton->law); }),
-        key("skeleton.deviation", word, "",
-            {{"exact", skeleton::Deviation::exact}, {"printed", skeleton::Deviation::printed}},
-            "from_points and skeleton.scatter > 0",
+        key("skeleton.deviation", word, "", {"exact", "printed"}, "from_points and skeleton.scatter > 0",
             "deviation of random points: exactly statistics.std, or by equation 8 of Zhang, Liu and Li, heights "
             "uniform within statistics.std of the mean",
             [](Recipe& r, Item) -> Field { return choice(r.skeleton->deviation); }),
@@ -416,37 +374,30 @@ std::span<Row const> recipe_rows() {
             "from_points and skeleton.scatter > 0 and statistics.reach > 0 and has_extremes",
             "pull of random points towards max and min at distance R: with a step as published, or continuous to 0",
             [](Recipe& r, Item) -> Field { return choice(r.skeleton->falloff); }),
-        key("skeleton.tin", yes_no, "", {},
+        key("skeleton.tin", yes_no, "", {"true", "false"},
             R"(([network] and [surface]) or (from_points and (no [surface] or surface.method = "tin")))",
             "write the TIN of rivers and points: tin.2dm, tin.ply",
             [](Recipe& r, Item) -> Field { return &r.skeleton->tin; }),
-        key("surface.method", word, "",
-            {{"equilibrium", Method::equilibrium},
-             {"dilate", Method::dilate},
-             {"diffuse", Method::diffuse},
-             {"tin", Method::tin},
-             {"regress", Method::regress}},
-            "[network] or from_points",
+        key("surface.method", word, "", {"equilibrium", "dilate", "diffuse", "tin", "regress"},
+            "[network] or (from_points)",
             "how the terrain is made: by landscape evolution around the rivers, by dilation from the valleys, by "
             "diffusion between rivers, ridges and points, over a TIN, or by regression through points",
             [](Recipe& r, Item) -> Field { return choice(r.surface->method); }),
-        key("surface.base", word, "", {{"harmonic", Base::harmonic}, {"paper", Base::paper}, {"tin", Base::tin}},
-            "by_dilation",
+        key("surface.base", word, "", {"harmonic", "paper", "tin"}, "by_dilation",
             "heights that slopes rise from: a harmonic surface through the rivers, the nearest valley cell as "
             "published, or the TIN of the rivers",
             [](Recipe& r, Item) -> Field { return choice(r.surface->base); }),
-        key("surface.increment", text, "", {increments, "an expression in x", is_increment}, "by_dilation",
-            "height increment dh of the x-th dilation",
+        key("surface.increment", text, "", {surface::increment_names, "an expression in x", is_increment},
+            "by_dilation", "height increment dh of the x-th dilation",
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.increment; }),
-        key("surface.metric", word, "",
-            {{"cityblock", surface::Metric::cityblock}, {"euclid", surface::Metric::euclid}}, "by_dilation",
+        key("surface.metric", word, "", {"cityblock", "euclid"}, "by_dilation",
             "distance to the valley: over 4 neighbours as published, or Euclidean",
             [](Recipe& r, Item) -> Field { return choice(r.surface->dilate.metric); }),
         key("surface.relief", number, "m", {0, 1e5}, R"([network] and surface.method = "equilibrium" or "dilate")",
             "equilibrium: height from the lowest to the highest cell, 0: see mean_slope; dilate: greatest sum of the "
             "increments, 0: published units times the cell size",
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.relief_m; }),
-        key("surface.allow_negative", yes_no, "", {}, "by_dilation", "keep increments below 0",
+        key("surface.allow_negative", yes_no, "", {"true", "false"}, "by_dilation", "keep increments below 0",
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.allow_negative; }),
         key("surface.mask", file, "", {}, "[network] or (from_points and no [statistics])",
             "raster on the grid: cells with 0 or no data get no height",
@@ -478,13 +429,7 @@ std::span<Row const> recipe_rows() {
             R"((by_equilibrium and surface.uplift_pattern = "tilt" or "blocks" or "folds"))",
             "direction of the rock's grain, of faults and folds, clockwise from north; left out: by the seed",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.strike_deg; }),
-        key("surface.edge", word, "",
-            {{"auto", std::nullopt},
-             {"open", surface::Edge::open},
-             {"closed", surface::Edge::closed},
-             {"coast", surface::Edge::coast},
-             {"mainland", surface::Edge::mainland}},
-            "by_equilibrium",
+        key("surface.edge", word, "", {"auto", "open", "closed", "coast", "mainland"}, "by_equilibrium",
             "boundary condition: the terrain continues (open), all water goes to the rivers (closed), sea (coast), or "
             "sea where the mask or coastlines say so and beyond the grid the terrain continues (mainland); auto: "
             "mainland with coastlines of a river file, coast with other sea, else open",
@@ -495,13 +440,7 @@ std::span<Row const> recipe_rows() {
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.region; }),
         key("surface.uplift", file, "", {}, "by_equilibrium", "raster over the grid, values above 0; only ratios count",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.uplift; }),
-        key("surface.uplift_pattern", word, "",
-            {{"none", std::nullopt},
-             {"tilt", surface::UpliftPattern::tilt},
-             {"domes", surface::UpliftPattern::domes},
-             {"blocks", surface::UpliftPattern::blocks},
-             {"folds", surface::UpliftPattern::folds}},
-            "by_equilibrium",
+        key("surface.uplift_pattern", word, "", {"none", "tilt", "domes", "blocks", "folds"}, "by_equilibrium",
             "how uplift varies over long distances, beside the raster: it grows across the strike (tilt), in domes, in "
             "blocks between faults or in folds along the strike",
             [](Recipe& r, Item) -> Field { return choice(r.surface->equilibrium.uplift_pattern); }),
@@ -536,15 +475,12 @@ std::span<Row const> recipe_rows() {
             "relative residual at which the harmonic base or the steady state is solved; left out: 1e-8, or 1e-10 of "
             "the steady state",
             [](Recipe& r, Item) -> Field { return &r.surface->tolerance; }),
-        key("surface.diffusion", word, "",
-            {{"steady", surface::Diffusion::steady}, {"explicit", surface::Diffusion::explicit_sweeps}}, "by_diffusion",
+        key("surface.diffusion", word, "", {"steady", "explicit"}, "by_diffusion",
             "steady state, or a number of explicit sweeps as published",
             [](Recipe& r, Item) -> Field { return choice(r.surface->diffuse.mode); }),
         key("surface.sweeps", integer, "", {0, 1e9}, R"(by_diffusion and surface.diffusion = "explicit")",
             "number of explicit sweeps", [](Recipe& r, Item) -> Field { return &r.surface->diffuse.iterations; }),
-        key("surface.start", word, "",
-            {{"coarse", surface::DiffusionStart::coarse}, {"zero", surface::DiffusionStart::zero}},
-            R"(by_diffusion and surface.diffusion = "explicit")",
+        key("surface.start", word, "", {"coarse", "zero"}, R"(by_diffusion and surface.diffusion = "explicit")",
             "where sweeps start: from the steady state of a coarser grid, or from 0 as published",
             [](Recipe& r, Item) -> Field { return choice(r.surface->diffuse.start); }),
         key("surface.alpha", number, "", {0, 0.25, left_open}, R"(by_diffusion and surface.diffusion = "explicit")",
@@ -555,8 +491,8 @@ std::span<Row const> recipe_rows() {
         key("surface.noise", number, "m", {0, 1e5}, "by_diffusion",
             "amplitude of noise far from rivers, ridges and points",
             [](Recipe& r, Item) -> Field { return &r.surface->diffuse.noise_m; }),
-        key("surface.interpolation", word, "", {{"linear", Interpolation::linear}, {"natural", Interpolation::natural}},
-            R"(from_points and surface.method = "tin")", "linear in triangles, or natural neighbours",
+        key("surface.interpolation", word, "", {"linear", "natural"}, R"(from_points and surface.method = "tin")",
+            "linear in triangles, or natural neighbours",
             [](Recipe& r, Item) -> Field { return choice(r.surface->interpolation); }),
         key("surface.frequency_x", number, "cycles", {0, 1e4}, R"(from_points and surface.method = "regress")",
             "f_x over the grid's width; 0 leaves its term out",
@@ -564,15 +500,10 @@ std::span<Row const> recipe_rows() {
         key("surface.frequency_y", number, "cycles", {0, 1e4}, R"(from_points and surface.method = "regress")",
             "f_y over the grid's height; 0 leaves its term out",
             [](Recipe& r, Item) -> Field { return &r.surface->regress.frequency_y; }),
-        key("surface.slope_mode", word, "",
-            {{"none", skeleton::SlopeMode::none},
-             {"centre", skeleton::SlopeMode::centre},
-             {"mean", skeleton::SlopeMode::mean}},
-            R"(from_points and surface.method = "regress")",
+        key("surface.slope_mode", word, "", {"none", "centre", "mean"}, R"(from_points and surface.method = "regress")",
             "what statistics.slope constrains: nothing, the slope at the grid's centre, or the mean square slope",
             [](Recipe& r, Item) -> Field { return choice(r.surface->regress.slope); }),
-        key("surface.eighth_term", word, "", {{"x2y2", skeleton::EighthTerm::x2y2}, {"x3y", skeleton::EighthTerm::x3y}},
-            R"(from_points and surface.method = "regress")",
+        key("surface.eighth_term", word, "", {"x2y2", "x3y"}, R"(from_points and surface.method = "regress")",
             "the eighth term, whose exponents are illegible in Zhang, Liu and Li",
             [](Recipe& r, Item) -> Field { return choice(r.surface->regress.eighth); }),
         key("statistics.mean", number, "m", {-1e6, 1e6}, "no [network]", "mean height",
@@ -591,12 +522,7 @@ std::span<Row const> recipe_rows() {
             [](Recipe& r, Item) -> Field { return &r.statistics->slope; }),
         key("statistics.dimension", number, "", {2.01, 2.99}, "no [network]", "fractal dimension",
             [](Recipe& r, Item) -> Field { return &r.statistics->dimension; }),
-        key("statistics.skeleton", word, "",
-            {{"grf", Prior::grf},
-             {"separable", Prior::separable},
-             {"markov3", Prior::markov3},
-             {"points", Prior::points}},
-            "no [network]",
+        key("statistics.skeleton", word, "", {"grf", "separable", "markov3", "points"}, "no [network]",
             "terrain that is matched to the statistics: a random field, or that of the points of [skeleton]",
             [](Recipe& r, Item) -> Field { return choice(r.statistics->skeleton); }),
         key("statistics.reach", number, "cells", {0, 1e5},
@@ -604,20 +530,19 @@ std::span<Row const> recipe_rows() {
             " and has_extremes",
             "R: distance within which heights are pulled towards max and min",
             [](Recipe& r, Item) -> Field { return &r.statistics->reach_cells; }),
-        key("statistics.falloff", word, "",
-            {{"continuous", skeleton::Falloff::continuous}, {"literal", skeleton::Falloff::literal}},
+        key("statistics.falloff", word, "", {"continuous", "literal"},
             R"(no [network] and statistics.skeleton = "separable" or "markov3" and has_extremes)",
             "pull at distance R: continuous to 0, or with a step as published",
             [](Recipe& r, Item) -> Field { return choice(r.statistics->falloff); }),
         key("detail.method", word, "", {{"midpoint", DetailMethod::midpoint}, {"none", DetailMethod::none}},
             "has_surface", "fractal detail between every 2^levels-th cell",
             [](Recipe& r, Item) -> Field { return choice(r.detail->method); }),
-        key("detail.levels", integer, "", {1, 12}, R"(has_surface and detail.method = "midpoint")",
+        key("detail.levels", integer, "", {1, 12}, R"((has_surface) and detail.method = "midpoint")",
             "how often cells are halved", [](Recipe& r, Item) -> Field { return &r.detail->midpoint.levels; }),
-        key("detail.hurst", number, "", {0.05, 0.95}, R"(has_surface and detail.method = "midpoint")",
+        key("detail.hurst", number, "", {0.05, 0.95}, R"((has_surface) and detail.method = "midpoint")",
             "Hurst exponent H = 3 - fractal dimension; left out: estimated, with rivers 0.6",
             [](Recipe& r, Item) -> Field { return &r.detail->midpoint.hurst; }),
-        key("detail.sigma", number, "m", {0, 1e6}, R"(has_surface and detail.method = "midpoint")",
+        key("detail.sigma", number, "m", {0, 1e6}, R"((has_surface) and detail.method = "midpoint")",
             "root mean square difference of heights 2^levels cells apart; left out: estimated, with rivers it must be "
             "given",
             [](Recipe& r, Item) -> Field { return &r.detail->midpoint.sigma; }),
@@ -626,16 +551,15 @@ std::span<Row const> recipe_rows() {
              {"12", fractal::Stencil::twelve},
              {"16", fractal::Stencil::sixteen},
              {"exact", fractal::Stencil::exact}},
-            R"(has_surface and detail.method = "midpoint")",
+            R"((has_surface) and detail.method = "midpoint")",
             "number of neighbours that a height is interpolated from; 4 with the published variance; exact: a "
             "fractional Brownian surface through all coarse cells, of which there are up to 2000",
             [](Recipe& r, Item) -> Field { return choice(r.detail->midpoint.stencil); }),
-        key("detail.noise", word, "", {{"normal", fractal::Noise::normal}, {"uniform", fractal::Noise::uniform}},
-            R"(has_surface and detail.method = "midpoint" and detail.stencil = 4, 12 or 16)",
+        key("detail.noise", word, "", {"normal", "uniform"},
+            R"((has_surface) and detail.method = "midpoint" and detail.stencil = 4, 12 or 16)",
             "distribution of the displacements",
             [](Recipe& r, Item) -> Field { return choice(r.detail->midpoint.noise); }),
-        key("detail.adaptation", word, "",
-            {{"global", fractal::Adaptation::global}, {"local", fractal::Adaptation::local}},
+        key("detail.adaptation", word, "", {"global", "local"},
             R"(detail.method = "midpoint" and detail.stencil = 4, 12 or 16 and no [network])",
             "one H and sigma for the grid, or local ones where they differ",
             [](Recipe& r, Item) -> Field { return choice(r.detail->midpoint.adaptation); }),
@@ -660,24 +584,24 @@ std::span<Row const> recipe_rows() {
         key("patch.feather", number, "cells", {0, 1e5}, "has_surface",
             "width of the blend from its slopes to those of the terrain, inside its edge",
             [](Recipe& r, Item i) -> Field { return &r.patches[i].feather_cells; }),
-        key("patch.rivers", word, "", {{"keep", PatchRivers::keep}, {"replace", PatchRivers::replace}},
-            "[network] and [surface]", "whether rivers under it keep their heights",
+        key("patch.rivers", word, "", {"keep", "replace"}, "[network] and [surface]",
+            "whether rivers under it keep their heights",
             [](Recipe& r, Item i) -> Field { return choice(r.patches[i].rivers); }),
         key("output.title", text, "", "text", "", "title of the pictures and the report; \"\": names the seed",
             [](Recipe& r, Item) -> Field { return &r.output.title; }),
-        key("output.units", word, "", {{"m", HeightUnit::metre}, {"ft", HeightUnit::foot}}, "",
+        key("output.units", word, "", {"m", "ft"}, "",
             "unit of heights in dem.tif, networks, contours and TINs: metres or international feet",
             [](Recipe& r, Item) -> Field { return choice(r.output.units); }),
         key("output.contour_interval", number, "", {0, 1e5}, "has_surface",
             "contour interval in output.units; 0: a round number",
             [](Recipe& r, Item) -> Field { return &r.output.contour_interval; }),
-        key("output.catchments", yes_no, "", {}, "[network] and [surface]",
+        key("output.catchments", yes_no, "", {"true", "false"}, "[network] and [surface]",
             "write the catchment of each arc: catchments.gpkg",
             [](Recipe& r, Item) -> Field { return &r.output.catchments; }),
-        key("output.accumulation", yes_no, "", {}, "has_surface",
+        key("output.accumulation", yes_no, "", {"true", "false"}, "has_surface",
             "write contributing areas by cell: area_d8.tif, area_dinf.tif",
             [](Recipe& r, Item) -> Field { return &r.output.accumulation; }),
-        key("output.schema", word, "", schemas, "[network]",
+        key("output.schema", word, "", schema_names, "[network]",
             "also write network_SCHEMA.gpkg in this schema, unless native",
             [](Recipe& r, Item) -> Field { return choice(r.output.schema); })};
     return rows;

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <cstddef>
@@ -29,11 +30,12 @@ using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple
 /// A value as TOML writes it.
 std::string toml_text(Value const& value);
 
-/// An enumeration, or an optional one, by its numbers; -1: none.
+/// An enumeration by the numbers of its enumerators; an optional one is -1 where there is none.
 struct Enumeration {
     void* at;
     int (*get)(void const*);
     void (*set)(void*, int);
+    int least = 0;
 };
 
 template <class E> Enumeration choice(E& field) {
@@ -43,14 +45,14 @@ template <class E> Enumeration choice(E& field) {
 
 template <class E> Enumeration choice(std::optional<E>& field) {
     using Optional = std::optional<E>;
-    return {&field,
-            [](void const* at) {
-                Optional const& held = *static_cast<Optional const*>(at);
-                return held ? static_cast<int>(*held) : -1;
-            },
-            [](void* at, int number) {
-                *static_cast<Optional*>(at) = number < 0 ? Optional() : Optional(static_cast<E>(number));
-            }};
+    auto const get = [](void const* at) {
+        Optional const& held = *static_cast<Optional const*>(at);
+        return held ? static_cast<int>(*held) : -1;
+    };
+    auto const set = [](void* at, int number) {
+        *static_cast<Optional*>(at) = number < 0 ? Optional() : Optional(static_cast<E>(number));
+    };
+    return {&field, get, set, -1};
 }
 
 using Field = std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, std::optional<double>*,
@@ -71,37 +73,30 @@ struct Range {
     std::string text() const;
 };
 
-/// A word and the enumerator it stands for, as a number.
-using Choice = std::pair<std::string, int>;
-
+/// A word of an enumeration. Without an enumerator those of a row stand in the order of the enumeration.
 struct Word {
     char const* text = nullptr;
-    int number = -1;
+    std::optional<int> number = {};
     constexpr Word() = default;
-    constexpr Word(char const* word, std::nullopt_t) : text(word) {}
-    template <class E>
-    constexpr Word(char const* word, E enumerator) : text(word), number(static_cast<int>(enumerator)) {}
+    constexpr Word(char const* word) : text(word) {}
+    constexpr Word(char const* word, std::nullopt_t) : text(word), number(-1) {}
+    template <class E> constexpr Word(char const* word, E of) : text(word), number(static_cast<int>(of)) {}
 };
 
-/// What a value may be.
+/// What a value may be: a number in a range, one of several words, or what a form says.
 struct Allowed {
-    Range range;
-    char const* form = "";                ///< of a text or a list, in words
+    Range range = {};
+    char const* form = "";                ///< in words
     bool (*fits)(Value const&) = nullptr; ///< false, or an error of its own: refused
-    std::array<Word, 10> words;
-    std::vector<Choice> (*listed)() = nullptr; ///< words that another table has
+    std::array<Word, 10> words = {};
+    std::vector<std::string> (*more_words)() = nullptr; ///< those that another table has
 
     constexpr Allowed() = default;
     constexpr Allowed(double least, double most, bool open = false) : range{least, most, open} {}
-    constexpr Allowed(char const* in_words, bool (*test)(Value const&) = nullptr) : form(in_words), fits(test) {}
-    constexpr Allowed(std::initializer_list<Word> of) {
-        std::size_t i = 0;
-        for (Word const& word : of) {
-            words[i++] = word;
-        }
-    }
-    constexpr Allowed(std::vector<Choice> (*of)(), char const* in_words = "", bool (*test)(Value const&) = nullptr)
-        : form(in_words), fits(test), listed(of) {}
+    constexpr Allowed(char const* of_form, bool (*test)(Value const&) = nullptr) : form(of_form), fits(test) {}
+    constexpr Allowed(std::vector<std::string> (*of)(), char const* of_form = "", bool (*test)(Value const&) = nullptr)
+        : form(of_form), fits(test), more_words(of) {}
+    constexpr Allowed(std::initializer_list<Word> of) { std::copy(of.begin(), of.end(), words.begin()); }
 };
 
 /// What few keys have.
@@ -131,32 +126,22 @@ struct Row {
 /// Every key in the order of recipe files, section by section.
 std::span<Row const> recipe_rows();
 
-/// Conditions with a name that `used` may hold instead of their text.
-struct NamedCondition {
-    char const* name;
-    char const* text;
-};
-std::span<NamedCondition const> named_conditions();
+/// Parts of conditions by their names, which `used` and other parts may hold.
+std::span<std::pair<std::string_view, std::string_view> const> named_conditions();
 
 // Keys, as the rows of the table make them.
 
-/// A condition on a recipe: `[network] and (surface.method = "tin" or "diffuse" or no skeleton.points)`. Below
-/// brackets, "and" and "or" join sections that are there, keys that are given (a text is not ""), and keys that are one
-/// of several words, above or below a number.
+/// A condition on a recipe: `[network] and (surface.method = "tin" or "diffuse" or no skeleton.points)`. It speaks of
+/// sections that are there, keys that are given (a text is not ""), and keys that are one of several words, above or
+/// below a whole number; "and" binds closer than "or".
 struct Use {
-    enum class Joins : std::uint8_t { nothing, all, any };
-    std::string text;
-    Joins joins = Joins::nothing;
-    std::vector<Use> parts = {};
-    bool (*test)(Recipe const&) = nullptr; ///< in place of the text
+    std::string text;                      ///< "" holds for every recipe
+    bool (*test)(Recipe const&) = nullptr; ///< instead of the text
 
     bool holds(Recipe const& recipe) const;
     /// What a recipe lacks for it to hold and what it has instead; "" where it holds.
     std::string lacks(Recipe const& recipe) const;
 };
-
-/// Reads a condition; names are replaced by their text.
-Use read_use(std::string_view text);
 
 /// A section of recipe files, [network] with what lies below it, or the keys before the first section.
 struct Section {
@@ -173,8 +158,8 @@ struct Key {
     KeyHelp help;
     Use use;                    ///< when it has an effect
     std::optional<Range> range; ///< of a number
-    std::vector<Choice> choices;
-    std::string folder; ///< of a file: where below inputs/ a copy of it lies, "mask/"
+    std::vector<int> numbers;   ///< by word of help.choices: the enumerator it stands for
+    std::string folder;         ///< of a file: where below inputs/ a copy of it lies, "mask/"
 
     /// Makes the section, or the item after the last, where it is not there.
     /// Throws: BadParameter with the reason alone; the recipe is unchanged then.
