@@ -28,7 +28,5 @@
 #include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
-#include <thalweg/pipeline/recipe/sections/network.hpp>
-#include <thalweg/pipeline/recipe/sections/terrain.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>

@@ -43,6 +43,83 @@ TEST(RecipeKeys, NumbersHaveARange) {
     }
 }
 
+TEST(RecipeKeys, WordsStandInTheOrderOfTheirEnumeration) {
+    struct Case {
+        char const* path;
+        char const* last;
+        bool (*holds)(Recipe const&);
+    };
+    Case const cases[] = {
+        {"network.source", "lines", [](Recipe const& r) { return r.network->source == Source::lines; }},
+        {"network.heights", "ends", [](Recipe const& r) { return r.network->heights == Heights::ends; }},
+        {"network.inland", "coast", [](Recipe const& r) { return r.network->inland == InlandEnds::coast; }},
+        {"network.rosgen", "G", [](Recipe const& r) { return r.network->rosgen == network::Rosgen::g; }},
+        {"network.rosgen", "by_order", [](Recipe const& r) { return !r.network->rosgen; }},
+        {"network.rosgen_slope", "uniform",
+         [](Recipe const& r) { return r.network->rosgen_slope == network::SlopeDraw::uniform; }},
+        {"network.dla.rule", "stick_then_count",
+         [](Recipe const& r) { return r.network->dla.rule == network::VisitRule::stick_then_count; }},
+        {"network.dla.branch", "all", [](Recipe const& r) { return r.network->branch == network::BranchChoice::all; }},
+        {"network.tokunaga.rule", "plane",
+         [](Recipe const& r) { return r.network->tokunaga.rule == network::SideRule::plane; }},
+        {"network.tokunaga.mouth", "west", [](Recipe const& r) { return r.network->tokunaga.mouth == Side::west; }},
+        {"network.forest.shape", "island",
+         [](Recipe const& r) { return r.network->forest.shape == LandShape::island; }},
+        {"network.lines.orientation", "topology",
+         [](Recipe const& r) { return r.network->lines.orientation == network::Orientation::topology; }},
+        {"network.lines.divergences", "error",
+         [](Recipe const& r) { return r.network->lines.divergences == network::Divergences::error; }},
+        {"network.lines.filter", "none",
+         [](Recipe const& r) { return r.network->lines.filter == io::LineFilter::none; }},
+        {"network.lines.coastlines", "none",
+         [](Recipe const& r) { return r.network->lines.coastlines == Coastlines::none; }},
+        {"skeleton.ridges", "segments", [](Recipe const& r) { return r.skeleton->ridges == Ridges::segments; }},
+        {"skeleton.law", "normal", [](Recipe const& r) { return r.skeleton->law == skeleton::HeightLaw::normal; }},
+        {"skeleton.deviation", "printed",
+         [](Recipe const& r) { return r.skeleton->deviation == skeleton::Deviation::printed; }},
+        {"skeleton.falloff", "literal",
+         [](Recipe const& r) { return r.skeleton->falloff == skeleton::Falloff::literal; }},
+        {"surface.method", "regress", [](Recipe const& r) { return r.surface->method == Method::regress; }},
+        {"surface.base", "tin", [](Recipe const& r) { return r.surface->base == Base::tin; }},
+        {"surface.metric", "euclid",
+         [](Recipe const& r) { return r.surface->dilate.metric == surface::Metric::euclid; }},
+        {"surface.edge", "mainland",
+         [](Recipe const& r) { return r.surface->equilibrium.edge == surface::Edge::mainland; }},
+        {"surface.uplift_pattern", "folds",
+         [](Recipe const& r) { return r.surface->equilibrium.uplift_pattern == surface::UpliftPattern::folds; }},
+        {"surface.drain", "fill", [](Recipe const& r) { return r.surface->drain == flow::Conditioning::fill; }},
+        {"surface.drain", "auto", [](Recipe const& r) { return !r.surface->drain; }},
+        {"surface.diffusion", "explicit",
+         [](Recipe const& r) { return r.surface->diffuse.mode == surface::Diffusion::explicit_sweeps; }},
+        {"surface.start", "zero",
+         [](Recipe const& r) { return r.surface->diffuse.start == surface::DiffusionStart::zero; }},
+        {"surface.interpolation", "natural",
+         [](Recipe const& r) { return r.surface->interpolation == Interpolation::natural; }},
+        {"surface.slope_mode", "mean",
+         [](Recipe const& r) { return r.surface->regress.slope == skeleton::SlopeMode::mean; }},
+        {"surface.eighth_term", "x3y",
+         [](Recipe const& r) { return r.surface->regress.eighth == skeleton::EighthTerm::x3y; }},
+        {"statistics.skeleton", "points", [](Recipe const& r) { return r.statistics->skeleton == Prior::points; }},
+        {"statistics.falloff", "literal",
+         [](Recipe const& r) { return r.statistics->falloff == skeleton::Falloff::literal; }},
+        {"detail.method", "none", [](Recipe const& r) { return r.detail->method == DetailMethod::none; }},
+        {"detail.stencil", "exact",
+         [](Recipe const& r) { return r.detail->midpoint.stencil == fractal::Stencil::exact; }},
+        {"detail.noise", "uniform",
+         [](Recipe const& r) { return r.detail->midpoint.noise == fractal::Noise::uniform; }},
+        {"detail.adaptation", "local",
+         [](Recipe const& r) { return r.detail->midpoint.adaptation == fractal::Adaptation::local; }},
+        {"patch.rivers", "replace", [](Recipe const& r) { return r.patches[0].rivers == PatchRivers::replace; }},
+        {"output.units", "ft", [](Recipe const& r) { return r.output.units == HeightUnit::foot; }},
+        {"output.schema", "grass", [](Recipe const& r) { return r.output.schema == io::Schema::grass; }},
+    };
+    Recipe recipe = with_all_sections();
+    for (Case const& one : cases) {
+        find_key(one.path)->put(recipe, std::string(one.last));
+        EXPECT_TRUE(one.holds(recipe)) << one.path;
+    }
+}
+
 TEST(RecipeKeys, AValueThatIsRefusedChangesNothing) {
     Recipe recipe;
     EXPECT_THROW(find_key("statistics.std")->put(recipe, -1.0), BadParameter);

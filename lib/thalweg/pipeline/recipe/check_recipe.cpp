@@ -69,7 +69,10 @@ namespace {
 bool is_default(Key const& key, Value const& value, bool set_by_someone) {
     static Recipe const standard = with_all_sections();
     static std::array<Recipe, 2> const built_in = {default_recipe(), cluster_recipe()};
-    return key.take(standard) == value || std::count(key.earlier.begin(), key.earlier.end(), value) > 0 ||
+    auto const* const number = std::get_if<double>(&value);
+    auto const& earlier = key.row->extra.earlier;
+    bool const was_default = number != nullptr && std::count(earlier.begin(), earlier.end(), *number) > 0;
+    return key.take(standard) == value || was_default ||
            (!set_by_someone && std::any_of(built_in.begin(), built_in.end(),
                                            [&](Recipe const& recipe) { return key.take(recipe) == value; }));
 }
@@ -117,125 +120,93 @@ namespace {
 /// What does not fit together, for people.
 using Faults = std::vector<std::string>;
 
+void add_if(bool is_wrong, Faults& faults, std::string const& words) {
+    if (is_wrong) {
+        faults.push_back(words);
+    }
+}
+
 /// What goes with a land in equilibrium only, and what does not.
 void check_equilibrium(Recipe const& recipe, Faults& faults) {
     NetworkRecipe const& n = *recipe.network;
-    bool const in_equilibrium = recipe.surface && recipe.surface->method == Method::equilibrium;
-    if (!in_equilibrium) {
-        char const* const needs = " needs surface.method = \"equilibrium\"";
-        if (n.heights == Heights::soft || n.heights == Heights::fixed || n.heights == Heights::ends) {
-            faults.push_back(fmt::format("network.heights = \"{}\"{}",
-                                         n.heights == Heights::soft    ? "soft"
-                                         : n.heights == Heights::fixed ? "fixed"
-                                                                       : "ends",
-                                         needs));
-        }
-        if (n.fill_space) {
-            faults.push_back(fmt::format("network.fill_space{}: only equilibrium terrain grows side valleys", needs));
-        }
-        if (n.inland != InlandEnds::carry) {
-            faults.push_back(
-                fmt::format("network.inland = \"{}\"{}", n.inland == InlandEnds::sink ? "sink" : "coast", needs));
-        }
+    if (!in_equilibrium(recipe)) {
+        add_if(n.heights == Heights::soft, faults, R"(network.heights = "soft" needs surface.method = "equilibrium")");
+        add_if(n.heights == Heights::fixed, faults,
+               R"(network.heights = "fixed" needs surface.method = "equilibrium")");
+        add_if(n.heights == Heights::ends, faults, R"(network.heights = "ends" needs surface.method = "equilibrium")");
+        add_if(n.inland == InlandEnds::sink, faults, R"(network.inland = "sink" needs surface.method = "equilibrium")");
+        add_if(n.inland == InlandEnds::coast, faults,
+               R"(network.inland = "coast" needs surface.method = "equilibrium")");
+        add_if(
+            n.fill_space, faults,
+            R"(network.fill_space needs surface.method = "equilibrium": only equilibrium terrain grows side valleys)");
         return;
     }
-    if (n.inland == InlandEnds::coast && n.source != Source::lines) {
-        faults.emplace_back(
-            "network.inland = \"coast\" needs network.source = \"lines\"; rivers that grow from a coast "
-            "are network.source = \"forest\"");
-    }
+    add_if(n.inland == InlandEnds::coast && n.source != Source::lines, faults,
+           "network.inland = \"coast\" needs network.source = \"lines\"; rivers that grow from a coast "
+           "are network.source = \"forest\"");
     EquilibriumRecipe const& e = recipe.surface->equilibrium;
     double const usual_slope_deg = surface::EquilibriumParams{}.mean_slope_deg;
-    if (n.concavity < 0.1 || n.concavity > 0.9) {
-        faults.push_back(fmt::format("network.concavity = {}: equilibrium terrain needs 0.1 to 0.9", n.concavity));
-    }
-    if (e.mean_slope_deg.value_or(usual_slope_deg) != usual_slope_deg && recipe.surface->dilate.relief_m > 0.0) {
-        faults.emplace_back("surface.relief and surface.mean_slope do not go together: one follows from the other");
-    }
-    if (!e.lakes.empty() && e.lake_share > 0.0) {
-        faults.emplace_back(
-            "surface.lakes and surface.lake_share do not go together: lakes come from a file or are chosen at random");
-    }
-    if (recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty())) {
-        faults.emplace_back("[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
-                            "follow from the rivers");
-    }
+    add_if(n.concavity < 0.1 || n.concavity > 0.9, faults,
+           fmt::format("network.concavity = {}: equilibrium terrain needs 0.1 to 0.9", n.concavity));
+    add_if(e.mean_slope_deg.value_or(usual_slope_deg) != usual_slope_deg && recipe.surface->dilate.relief_m > 0.0,
+           faults, "surface.relief and surface.mean_slope do not go together: one follows from the other");
+    add_if(!e.lakes.empty() && e.lake_share > 0.0, faults,
+           "surface.lakes and surface.lake_share do not go together: lakes come from a file or are chosen at random");
+    add_if(recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty()), faults,
+           "[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
+           "follow from the rivers");
 }
 
 void check_forest(Recipe const& recipe, Faults& faults) {
     NetworkRecipe const& n = *recipe.network;
     ForestRecipe const& f = n.forest;
-    if (n.source != Source::forest) {
-        if (!(f.region.empty() && f.outlets.empty())) {
-            faults.emplace_back("network.forest names a file but source is not \"forest\"");
-        }
-        return;
-    }
-    if (f.shape == LandShape::island && !f.region.empty()) {
-        faults.emplace_back("network.forest.shape and region do not go together: the region is the land");
-    }
-    if (n.rotate_deg.value_or(0.0) != 0.0) {
-        faults.emplace_back("network.rotate does not go with source = \"forest\": its rivers fill the land as it lies");
-    }
+    bool const is_forest = n.source == Source::forest;
+    add_if(!is_forest && !(f.region.empty() && f.outlets.empty()), faults,
+           "network.forest names a file but source is not \"forest\"");
+    add_if(is_forest && f.shape == LandShape::island && !f.region.empty(), faults,
+           "network.forest.shape and region do not go together: the region is the land");
+    add_if(is_forest && n.rotate_deg.value_or(0.0) != 0.0, faults,
+           "network.rotate does not go with source = \"forest\": its rivers fill the land as it lies");
 }
 
 void check_network(Recipe const& recipe, Faults& faults) {
     NetworkRecipe const& n = *recipe.network;
-    if (n.source == Source::lines && n.lines.path.empty()) {
-        faults.emplace_back("network.lines.path is missing: source = \"lines\" needs a file");
-    }
-    if (n.source != Source::lines && !n.lines.path.empty()) {
-        faults.emplace_back("network.lines.path is given but source is not \"lines\"");
-    }
-    if (n.source != Source::tokunaga && !(n.tokunaga.strokes.empty() && n.tokunaga.region.empty())) {
-        faults.emplace_back("network.tokunaga names a file but source is not \"tokunaga\"");
-    }
-    if (!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty()) {
-        faults.emplace_back("network.tokunaga.strokes and region do not go together: strokes fill the grid");
-    }
-    if ((n.source == Source::lines || n.source == Source::tokunaga) && n.rotate_deg.value_or(0.0) != 0.0) {
-        faults.emplace_back("network.rotate turns a cluster: it needs source = \"dla\"");
-    }
-    if (n.source != Source::lines && n.heights == Heights::file) {
-        faults.emplace_back(R"(network.heights = "file" needs source = "lines")");
-    }
-    if (recipe.statistics) {
-        faults.emplace_back("[statistics] and [network] do not go together: statistics would move the rivers");
-    }
-    if (recipe.detail && recipe.detail->method == DetailMethod::midpoint && !recipe.detail->midpoint.sigma) {
-        faults.emplace_back("detail.sigma is missing: with rivers it cannot be estimated");
-    }
-    if (recipe.detail && !recipe.surface) {
-        faults.emplace_back("[detail] needs [surface]");
-    }
-    if (recipe.surface && recipe.surface->method == Method::regress) {
-        faults.emplace_back("surface.method = \"regress\" does not keep rivers: use tin or dilate");
-    }
+    add_if(n.source == Source::lines && n.lines.path.empty(), faults,
+           "network.lines.path is missing: source = \"lines\" needs a file");
+    add_if(!n.tokunaga.strokes.empty() && !n.tokunaga.region.empty(), faults,
+           "network.tokunaga.strokes and region do not go together: strokes fill the grid");
+    add_if((n.source == Source::lines || n.source == Source::tokunaga) && n.rotate_deg.value_or(0.0) != 0.0, faults,
+           "network.rotate turns a cluster: it needs source = \"dla\"");
+    add_if(n.source != Source::lines && n.heights == Heights::file, faults,
+           R"(network.heights = "file" needs source = "lines")");
+    add_if(recipe.statistics.has_value(), faults,
+           "[statistics] and [network] do not go together: statistics would move the rivers");
+    add_if(recipe.detail && recipe.detail->method == DetailMethod::midpoint && !recipe.detail->midpoint.sigma, faults,
+           "detail.sigma is missing: with rivers it cannot be estimated");
+    add_if(recipe.detail && !recipe.surface, faults, "[detail] needs [surface]");
+    add_if(recipe.surface && recipe.surface->method == Method::regress, faults,
+           "surface.method = \"regress\" does not keep rivers: use tin or dilate");
     check_forest(recipe, faults);
     check_equilibrium(recipe, faults);
 }
 
 void check_land(Recipe const& recipe, bool has_points, Faults& faults) {
     Method const method = recipe.surface ? recipe.surface->method : Method::tin;
-    if (recipe.statistics && recipe.statistics->skeleton == Prior::points && !has_points) {
-        faults.emplace_back("statistics.skeleton = \"points\" needs skeleton.points or skeleton.scatter");
-    }
-    if (recipe.statistics && recipe.statistics->skeleton != Prior::points && has_points) {
-        faults.emplace_back("[skeleton] gives points: set statistics.skeleton = \"points\"");
-    }
-    if (!recipe.statistics && !has_points) {
-        faults.emplace_back("the recipe describes no terrain: give [network], [statistics], skeleton.points or "
-                            "skeleton.scatter");
-    }
+    add_if(recipe.statistics && recipe.statistics->skeleton == Prior::points && !has_points, faults,
+           "statistics.skeleton = \"points\" needs skeleton.points or skeleton.scatter");
+    add_if(recipe.statistics && recipe.statistics->skeleton != Prior::points && has_points, faults,
+           "[skeleton] gives points: set statistics.skeleton = \"points\"");
+    add_if(!recipe.statistics && !has_points, faults,
+           "the recipe describes no terrain: give [network], [statistics], skeleton.points or "
+           "skeleton.scatter");
     bool const is_drawn =
         !recipe.statistics || recipe.statistics->skeleton == Prior::points || recipe.set_at.contains("surface.method");
-    if (is_drawn && (method == Method::dilate || method == Method::equilibrium) && recipe.surface) {
-        faults.push_back(fmt::format("surface.method = \"{}\" needs [network]: use diffuse, tin or regress",
-                                     method == Method::dilate ? "dilate" : "equilibrium"));
-    }
-    if (recipe.skeleton && recipe.skeleton->ridges != Ridges::none) {
-        faults.emplace_back("skeleton.ridges lie between rivers: they need [network]");
-    }
+    add_if(is_drawn && (method == Method::dilate || method == Method::equilibrium) && recipe.surface, faults,
+           fmt::format("surface.method = \"{}\" needs [network]: use diffuse, tin or regress",
+                       method == Method::dilate ? "dilate" : "equilibrium"));
+    add_if(recipe.skeleton && recipe.skeleton->ridges != Ridges::none, faults,
+           "skeleton.ridges lie between rivers: they need [network]");
 }
 
 bool has_file_of_points(Recipe const& recipe) {
@@ -247,14 +218,9 @@ bool has_random_points(Recipe const& recipe) {
 }
 
 void check_surface(Recipe const& recipe, Faults& faults) {
-    if (recipe.surface && recipe.surface->base == Base::tin && recipe.surface->method != Method::dilate) {
-        faults.emplace_back(R"(surface.base = "tin" goes with surface.method = "dilate")");
-    }
-    if (recipe.surface && recipe.surface->dilate.increment.function) {
-        faults.emplace_back(
-            "surface.increment is a function, which no recipe can hold: write it as an expression in x, "
-            "or call surface::dilate with it");
-    }
+    add_if(recipe.surface && recipe.surface->dilate.increment.function, faults,
+           "surface.increment is a function, which no recipe can hold: write it as an expression in x, "
+           "or call surface::dilate with it");
 }
 
 void check_patches(Recipe const& recipe, Faults& faults) {
@@ -263,21 +229,18 @@ void check_patches(Recipe const& recipe, Faults& faults) {
             faults.push_back(fmt::format("patch {}: source is missing: name the relief to paste", i + 1));
         }
     }
-    if (!recipe.patches.empty() && recipe.network && !recipe.surface) {
-        faults.emplace_back("[[patch]] needs [surface]: there is no surface to paste into");
-    }
+    add_if(!recipe.patches.empty() && recipe.network && !recipe.surface, faults,
+           "[[patch]] needs [surface]: there is no surface to paste into");
 }
 
 void check_frame(Recipe const& recipe, Faults& faults) {
-    if ((recipe.grid.width > 0) != (recipe.grid.height > 0)) {
-        faults.emplace_back("grid.width and grid.height go together: give both or neither");
-    }
+    add_if((recipe.grid.width > 0) != (recipe.grid.height > 0), faults,
+           "grid.width and grid.height go together: give both or neither");
     bool const fills_a_frame =
         recipe.network && recipe.network->source == Source::forest && recipe.network->forest.region.empty();
     bool const is_framed = (recipe.network || has_file_of_points(recipe)) && !fills_a_frame;
-    if (recipe.grid.width == 0 && !is_framed) {
-        faults.emplace_back("grid.width and grid.height are missing: nothing else gives the size of the grid");
-    }
+    add_if(recipe.grid.width == 0 && !is_framed, faults,
+           "grid.width and grid.height are missing: nothing else gives the size of the grid");
 }
 
 /// Keys without an effect that no fault speaks of.
@@ -312,10 +275,9 @@ void check_recipe(Recipe const& recipe) {
     } else {
         check_land(recipe, has_file_of_points(recipe) || has_random_points(recipe), faults);
     }
-    if (has_file_of_points(recipe) && has_random_points(recipe)) {
-        faults.emplace_back("skeleton.points and skeleton.scatter do not go together: points come from a file or are "
-                            "drawn at random");
-    }
+    add_if(has_file_of_points(recipe) && has_random_points(recipe), faults,
+           "skeleton.points and skeleton.scatter do not go together: points come from a file or are "
+           "drawn at random");
     check_surface(recipe, faults);
     check_patches(recipe, faults);
     check_frame(recipe, faults);

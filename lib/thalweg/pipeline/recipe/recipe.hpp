@@ -10,9 +10,22 @@
 #include <vector>
 
 #include <thalweg/core/height_unit.hpp>
+#include <thalweg/flow/condition.hpp>
+#include <thalweg/fractal/midpoint.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/schema.hpp>
-#include <thalweg/pipeline/recipe/sections/network.hpp>
-#include <thalweg/pipeline/recipe/sections/terrain.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
+#include <thalweg/network/growth/forest/grow_forest.hpp>
+#include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
+#include <thalweg/network/import/import_lines.hpp>
+#include <thalweg/skeleton/regress.hpp>
+#include <thalweg/skeleton/scatter.hpp>
+#include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/dilation/dilation.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace thalweg::pipeline {
 
@@ -24,6 +37,204 @@ struct GridRecipe {
     std::string crs;         ///< projected, metres; "": the line file's own or its UTM zone, else EPSG:32631
     std::optional<std::array<double, 2>> origin; ///< [m] west and north edge
     bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
+};
+
+/// The land of a forest that no region is given for.
+enum class LandShape : std::uint8_t { grid, island };
+
+/// Rivers that grow inland from a coast or border until the land is full of them.
+struct ForestRecipe {
+    LandShape shape = LandShape::grid;
+    double ruggedness = 0.5; ///< [0, 1] of an island's coast
+    std::string region;      ///< polygons that are land; "": the shape
+    std::string outlets;     ///< points; or lines or polygons along whose coast outlets lie; "": all of it
+    std::int64_t seeds = 0;  ///< [0, ...] outlets; 0: by their spacing
+    std::int64_t outlet_spacing_cells = 0; ///< [0, ...] along the coast or border; 0: six times that of rivers
+    std::int64_t spacing_cells = 10;       ///< [8, 200] between rivers that do not meet
+    network::ForestParams growth;          ///< its step and seed follow from the recipe
+};
+
+/// What coastlines among the lines of a file are to the land.
+enum class Coastlines : std::uint8_t {
+    sea, ///< its coast
+    none ///< nothing
+};
+
+/// The keys of section [network] for drawn lines.
+struct LinesRecipe {
+    std::string path;
+    std::string layer;
+    std::string source_crs; ///< of a file that has none
+    std::string type_field = "rosgen";
+    std::string rank_field;
+    std::string id_field;   ///< of a line, and
+    std::string down_field; ///< of the line downstream; both or none
+    double snap_m = 0.0;    ///< [m] 0 takes 1e-6 of the box's diagonal
+    network::Orientation orientation = network::Orientation::automatic;
+    std::string dem; ///< heights that lines are oriented by; "" for none
+    network::Divergences divergences = network::Divergences::main;
+    io::LineFilter filter = io::LineFilter::natural;
+    Coastlines coastlines = Coastlines::sea;
+    double keep = 0.99; ///< [0, 1] least share of the given length that must be in the network
+};
+
+enum class Side : std::uint8_t { north, east, south, west };
+
+/// The keys of section [tokunaga] of a recipe.
+struct TokunagaRecipe {
+    int generator = 2; ///< [1, 50] lambda, also of strokes without their own
+    int order = 6;     ///< [1, 12] Strahler order at the mouth; strokes: MaxDepth, that of one as long as the grid
+    network::SideRule rule = network::SideRule::tokunaga;
+    Side mouth = Side::south;   ///< of the grid, in the middle of which the river leaves
+    std::string region;         ///< polygon the network fills; "": the grid
+    std::string strokes;        ///< directed lines, each of which grows a network; "" grows one in the region
+    std::string layer;          ///< of the strokes' file; "" takes the only line layer
+    double spacing_cells = 3.0; ///< [cells] >= 0: links closer than this to others are left out
+};
+
+enum class Source : std::uint8_t { dla, tokunaga, forest, lines };
+
+enum class Heights : std::uint8_t {
+    automatic,
+    straight,
+    straight_repaired,
+    along_stream,
+    rosgen,
+    graded,
+    file,
+    soft,  ///< those of the file, or straight_repaired, as upper bounds of a land in equilibrium
+    fixed, ///< likewise, kept
+    ends   ///< likewise those of sources and outlets, kept; graded between
+};
+
+/// What becomes of rivers that end inside the grid.
+enum class InlandEnds : std::uint8_t { carry, sink, coast };
+
+/// The keys of section [network] of a recipe.
+struct NetworkRecipe {
+    Source source = Source::dla;
+    std::optional<double> prune_cells; ///< [cells] default 20 for dla and forest, else 0
+    Heights heights = Heights::automatic;
+    double slope = 0.087;                  ///< [m/m] > 0
+    double heights_tolerance_m = 1.0;      ///< [m] >= 0 by which a DEM may miss heights of a file without a warning
+    double concavity = 0.38;               ///< [0, 1] theta of graded heights
+    std::optional<network::Rosgen> rosgen; ///< type of arcs without one; none: by Strahler order
+    network::SlopeDraw rosgen_slope = network::SlopeDraw::middle;
+    std::optional<double> rotate_deg; ///< [degrees] counterclockwise; none: at random where rivers are grown for a land
+                                      ///< in equilibrium, else 0
+    std::optional<double> meander;    ///< [0, 2] of nature's amplitude; none: 1 where rivers are grown likewise, else 0
+    InlandEnds inland = InlandEnds::carry;
+    bool fill_space = false;          ///< the land's own side valleys become arcs
+    std::int64_t support_cells = 200; ///< [cells] that drain through where a side valley begins
+    double coast_m = 0.0;             ///< [m] >= 0: nearer to the outlet along the stream rivers are braided
+    network::DlaParams dla;
+    network::BranchChoice branch = network::BranchChoice::largest;
+    LinesRecipe lines;
+    TokunagaRecipe tokunaga;
+    ForestRecipe forest;
+};
+
+/// What a land in equilibrium is like, beside surface.relief and network.concavity.
+struct EquilibriumRecipe {
+    std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
+    double hillslope_m = 15.0;            ///< [m] this and what follows as surface::EquilibriumParams
+    double debris_area_km2 = 0.045;
+    double floor_width = 0.0425; ///< [0, 1] 0.0425: floors 18 m wide where 1 km² drains, in proportion
+    double roughness = 0.22;
+    double longest_wave_m = 10'800.0;
+    double grain = 5.0;
+    std::optional<double> strike_deg;
+    std::optional<surface::Edge> edge; ///< none: mainland by coastlines, coast by other sea, else open
+    std::optional<double> region;      ///< none: 3 for grown rivers, 1 for those of a file
+    std::string uplift;                ///< raster on the grid; "" for none
+    std::optional<surface::UpliftPattern> uplift_pattern; ///< none: uplift is the same everywhere, but for the raster
+    double uplift_contrast = 4.0;
+    double uplift_wave_m = 12'000.0;
+    std::string erodibility; ///< raster on the grid, or polygons with a field of that name; "" for none
+    std::string lakes;       ///< polygons; "" for none
+    double lake_share = 0.0; ///< [0, 1] of the reaches with enough water, that run through a lake
+};
+
+enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress };
+
+enum class Base : std::uint8_t { harmonic, paper, tin };
+
+enum class Interpolation : std::uint8_t { linear, natural };
+
+/// The keys of section [surface] of a recipe.
+struct SurfaceRecipe {
+    Method method = Method::equilibrium;
+    EquilibriumRecipe equilibrium;
+    Base base = Base::harmonic;
+    surface::DilateParams dilate;
+    surface::DiffuseParams diffuse;
+    std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
+    Interpolation interpolation = Interpolation::linear; ///< of a TIN
+    std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
+    skeleton::RegressParams regress;
+    std::optional<flow::Conditioning> drain; ///< none: carve where there are rivers, else flow::Conditioning::none
+};
+
+/// What ridges lie midway between: points along the rivers, or the rivers themselves.
+enum class Ridges : std::uint8_t { none, voronoi, segments };
+
+/// What else the surface must honour.
+struct SkeletonRecipe {
+    Ridges ridges = Ridges::none;
+    double ridge_gain = 0.3;             ///< [m/m] >= 0, lambda: rise above the rivers by distance from them
+    double ridge_farthest_m = 0.0;       ///< [m] >= 0, d_max: distance beyond which they rise no more; 0: none
+    double ridge_noise_m = 0.0;          ///< [m] >= 0, amplitude of noise along them
+    double ridge_wavelength_m = 1000.0;  ///< [m] > 0, of its longest waves
+    double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
+    std::string points;                  ///< file of points with heights; "" for none
+    std::int64_t scatter = 0;            ///< points at random; 0 for none
+    double spacing_cells = 0.0;          ///< [cells] least distance of points at random
+    skeleton::HeightLaw law = skeleton::HeightLaw::uniform;
+    skeleton::Deviation deviation = skeleton::Deviation::exact; ///< of points at random
+    skeleton::Falloff falloff = skeleton::Falloff::literal;     ///< of their pull to the extremes
+    bool tin = false;                                           ///< write the skeleton's TIN
+};
+
+/// The land that the statistics are brought to.
+enum class Prior : std::uint8_t { grf, separable, markov3, points };
+
+/// Targets for the terrain as a whole; others stay free.
+struct StatisticsRecipe {
+    std::optional<double> mean;                  ///< [m]
+    std::optional<double> std;                   ///< [m] > 0
+    std::optional<std::array<double, 3>> max;    ///< height [m], column, row
+    std::optional<std::array<double, 3>> min;    ///< likewise
+    std::optional<std::array<double, 2>> length; ///< [cells] > 0, along rows and along columns
+    std::optional<double> slope;                 ///< [rad] (0, pi/2) arctan of metres a cell
+    std::optional<double> dimension;             ///< (2, 3)
+    Prior skeleton = Prior::grf;
+    double reach_cells = 6.0; ///< [cells] >= 0, R of equations 4 and 10; 0 pulls nothing
+    skeleton::Falloff falloff = skeleton::Falloff::continuous;
+};
+
+enum class DetailMethod : std::uint8_t { none, midpoint };
+
+/// The keys of section [detail] of a recipe.
+struct DetailRecipe {
+    DetailMethod method = DetailMethod::midpoint;
+    fractal::MidpointParams midpoint;
+};
+
+/// What becomes of rivers under a patch.
+enum class PatchRivers : std::uint8_t { keep, replace };
+
+/// Real relief pasted into the land.
+struct PatchRecipe {
+    std::string source = {}; ///< DEM
+    std::optional<std::array<double, 2>> at =
+        {}; ///< [m] where its centre comes to lie; none: where it is, or the middle
+    std::optional<std::array<double, 4>> window = {}; ///< [cells] of the source: column, row, width, height
+    std::string mask = {};      ///< polygons, or a raster on the grid: what is pasted; "": all that is covered
+    double rotate_deg = 0.0;    ///< [degrees] counterclockwise
+    double scale = 1.0;         ///< > 0, in plan
+    double gain = 1.0;          ///< of its heights
+    double feather_cells = 0.0; ///< [cells] over which its slopes take over from the land's
+    PatchRivers rivers = PatchRivers::keep;
 };
 
 /// The keys of section [output] of a recipe.

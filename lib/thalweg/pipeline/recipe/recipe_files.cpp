@@ -23,6 +23,15 @@ io::Source file_in(Recipe const& recipe, std::string const& name) {
     return {recipe.folder.empty() || stands_alone ? name : recipe.folder + "/" + name, io::Access::recipe};
 }
 
+namespace {
+
+std::string layer_of(Key const& key, Recipe const& recipe, Item item) {
+    char const* const path = key.row->extra.layer;
+    return path == nullptr ? "" : std::get<std::string>(*find_key(path)->take(recipe, item));
+}
+
+} // namespace
+
 std::vector<NamedFile> files_of(Recipe const& recipe) {
     std::vector<NamedFile> files;
     for (Section const& section : all_sections()) {
@@ -32,7 +41,7 @@ std::vector<NamedFile> files_of(Recipe const& recipe) {
                 bool const is_named = key.part == &section && key.help.is_file;
                 auto const value = is_named ? key.take(recipe, item) : std::optional<Value>();
                 if (value && !std::get<std::string>(*value).empty()) {
-                    files.push_back({&key, item, std::get<std::string>(*value), key.layer(recipe, item)});
+                    files.push_back({&key, item, std::get<std::string>(*value), layer_of(key, recipe, item)});
                 }
             }
         }

@@ -2,232 +2,224 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <algorithm>
+#include <sstream>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
+#include <toml++/toml.h>
 
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/recipe/internal/key_rows.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {
 
-std::optional<Value> value_in(Recipe const& recipe, std::string const& path) {
-    Key const* const key = find_key(path);
-    return key == nullptr ? std::nullopt : key->take(recipe);
+/// The shortest text that reads back as the same number, and as one with a fraction.
+std::string text_of(double x) {
+    std::string text = fmt::format("{}", x);
+    return text.find_first_not_of("-0123456789") == std::string::npos ? text + ".0" : text;
 }
 
-/// A value without the quotes of TOML.
-std::string bare_text(Value const& value) {
-    auto const* const word = std::get_if<std::string>(&value);
-    return word != nullptr ? *word : toml_text(value);
+std::string text_of(std::string const& s) {
+    std::ostringstream out;
+    out << toml::value<std::string>(s);
+    return out.str();
 }
 
-std::string in_quotes(std::string const& word) {
-    return word == "true" || word == "false" ? word : '"' + word + '"';
+template <std::size_t n> std::string text_of(std::array<double, n> const& list) {
+    std::string out;
+    for (double const x : list) {
+        out += (out.empty() ? "" : ", ") + text_of(x);
+    }
+    return "[ " + out + " ]";
 }
 
-bool has_section(Recipe const& recipe, std::string const& name) {
-    Section const* const section = find_section(name);
-    return section != nullptr && section->count(recipe) > 0;
-}
-
-bool is_given(Recipe const& recipe, std::string const& path) {
-    auto const value = value_in(recipe, path);
-    return value && !bare_text(*value).empty();
-}
-
-/// A simple condition: what holds, and what the recipe has where it does not.
-Use simple(std::string text, std::function<bool(Recipe const&)> holds,
-           std::function<std::string(Recipe const&)> const& here) {
-    Use use;
-    use.lacks = [text, holds, here](Recipe const& recipe) {
-        return holds(recipe) ? std::string() : text + here(recipe);
-    };
-    use.text = std::move(text);
-    use.holds = std::move(holds);
-    return use;
-}
-
-std::string nothing(Recipe const&) {
-    return "";
-}
-
-std::string bracketed(Use const& use, Use::Kind kind) {
-    return use.kind == kind ? "(" + use.text + ")" : use.text;
+template <class T> std::string text_of(T whole_or_yes_no) {
+    return fmt::format("{}", whole_or_yes_no);
 }
 
 } // namespace
 
-Use always() {
-    return simple(
-        "", [](Recipe const&) { return true; }, nothing);
+std::string toml_text(Value const& value) {
+    return std::visit([](auto const& v) { return text_of(v); }, value);
 }
 
-Use with(std::string const& section) {
-    return simple(
-        fmt::format("[{}]", section), [section](Recipe const& r) { return has_section(r, section); }, nothing);
-}
-
-Use without(std::string const& section) {
-    return simple(
-        fmt::format("no [{}]", section), [section](Recipe const& r) { return !has_section(r, section); }, nothing);
-}
-
-Use is(std::string const& path, std::vector<std::string> const& words) {
-    std::vector<std::string> listed;
-    std::transform(words.begin(), words.end(), std::back_inserter(listed), in_quotes);
-    return simple(
-        fmt::format("{} = {}", path, fmt::join(listed, " or ")),
-        [path, words](Recipe const& r) {
-            auto const value = value_in(r, path);
-            return value && std::find(words.begin(), words.end(), bare_text(*value)) != words.end();
-        },
-        [path](Recipe const& r) {
-            auto const value = value_in(r, path);
-            return value ? fmt::format(" (here it is {})", in_quotes(bare_text(*value))) : std::string();
-        });
-}
-
-Use above(std::string const& path, double limit) {
-    return simple(
-        fmt::format("{} > {}", path, limit),
-        [path, limit](Recipe const& r) {
-            auto const value = value_in(r, path);
-            if (auto const* const n = value ? std::get_if<std::int64_t>(&*value) : nullptr) {
-                return static_cast<double>(*n) > limit;
-            }
-            auto const* const x = value ? std::get_if<double>(&*value) : nullptr;
-            return x != nullptr && *x > limit;
-        },
-        nothing);
-}
-
-Use given(std::string const& path) {
-    return simple(
-        path, [path](Recipe const& r) { return is_given(r, path); }, nothing);
-}
-
-Use not_given(std::string const& path) {
-    return simple(
-        "no " + path, [path](Recipe const& r) { return !is_given(r, path); }, nothing);
-}
-
-Use when(std::string text, std::function<bool(Recipe const&)> holds) {
-    return simple(std::move(text), std::move(holds), nothing);
-}
-
-Use operator&&(Use const& a, Use const& b) {
-    if (a.text.empty() || b.text.empty()) {
-        return a.text.empty() ? b : a;
+std::string Range::text() const {
+    if (most >= endless) {
+        return fmt::format("{} {}", open ? ">" : ">=", least);
     }
-    Use use;
-    use.kind = Use::Kind::both;
-    use.text = bracketed(a, Use::Kind::either) + " and " + bracketed(b, Use::Kind::either);
-    use.holds = [a, b](Recipe const& r) { return a.holds(r) && b.holds(r); };
-    use.lacks = [a, b](Recipe const& r) {
-        std::string const first = a.lacks(r);
-        std::string const second = b.lacks(r);
-        return first + (first.empty() || second.empty() ? "" : " and ") + second;
-    };
-    return use;
-}
-
-Use operator||(Use const& a, Use const& b) {
-    Use use;
-    use.kind = Use::Kind::either;
-    use.text = bracketed(a, Use::Kind::both) + " or " + bracketed(b, Use::Kind::both);
-    use.holds = [a, b](Recipe const& r) { return a.holds(r) || b.holds(r); };
-    use.lacks = [a, b](Recipe const& r) {
-        return a.holds(r) || b.holds(r) ? std::string() : a.lacks(r) + ", or " + b.lacks(r);
-    };
-    return use;
+    return fmt::format("{}{}, {}]", open ? "(" : "[", least, most);
 }
 
 namespace {
 
-/// Where a recipe holds the struct of a section.
-template <class S> struct Holder {
-    std::function<std::size_t(Recipe const&)> count;
-    std::function<void(Recipe&)> begin;
-    std::function<S&(Recipe&, std::size_t)> in;
-    std::function<S const&(Recipe const&, std::size_t)> of;
-    bool is_array = false;
+/// Throws BadParameter: what is wanted, not the value.
+[[noreturn]] void refuse_value(std::string const& wanted, Value const& v) {
+    throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
+}
+
+template <class T> T const& required(std::string const& wanted, Value const& v) {
+    T const* const held = std::get_if<T>(&v);
+    if (held == nullptr) {
+        refuse_value(wanted, v);
+    }
+    return *held;
+}
+
+/// What a word is in a recipe: of a key of integers or words "16" is an integer.
+Value value_of_word(Key const& key, std::string const& word) {
+    bool const is_integer =
+        key.row->kind == KeyKind::integer_or_word && word.find_first_not_of("0123456789") == std::string::npos;
+    return is_integer ? Value(std::int64_t{std::stoi(word)}) : Value(word);
+}
+
+/// The enumerator that a value stands for, as a number.
+int number_for(Key const& key, Value const& v) {
+    bool const is_text = std::holds_alternative<std::string>(v);
+    if (key.row->kind == KeyKind::word && !is_text) {
+        refuse_value("a text in quotes", v);
+    }
+    std::vector<std::string> const& words = key.help.choices;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        if (value_of_word(key, words[i]) == v) {
+            return key.numbers[i];
+        }
+    }
+    throw BadParameter(fmt::format("{} is not one of its values.{} ({})", toml_text(v),
+                                   is_text ? did_you_mean(std::get<std::string>(v), words) : "",
+                                   fmt::join(words, ", ")));
+}
+
+/// Puts a value into the field of its key. Throws BadParameter for one that the key may not have.
+struct Store {
+    Key const& key;
+    Value const& value;
+
+    void operator()(bool* field) const { *field = required<bool>("true or false", value); }
+    void operator()(double* field) const { *field = number(); }
+    void operator()(std::optional<double>* field) const { *field = number(); }
+    void operator()(Enumeration const& field) const { field.set(field.at, number_for(key, value)); }
+    void operator()(std::string* field) const {
+        std::string const& s = required<std::string>("a text in quotes", value);
+        refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos,
+                                "the text is too long or holds a null byte");
+        require_fit();
+        *field = s;
+    }
+    template <class Integer> void operator()(Integer* field) const {
+        std::int64_t const x = required<std::int64_t>("an integer", value);
+        require_in_range(static_cast<double>(x));
+        *field = static_cast<Integer>(x);
+    }
+    template <class List> void operator()(std::optional<List>* field) const {
+        require_fit();
+        *field = std::get<List>(value);
+    }
+
+private:
+    double number() const {
+        auto const* const whole = std::get_if<std::int64_t>(&value);
+        double const x = whole != nullptr ? static_cast<double>(*whole) : required<double>("a number", value);
+        require_in_range(x);
+        return x;
+    }
+    void require_in_range(double x) const {
+        Range const& range = key.row->allowed.range;
+        refuse_if<BadParameter>(!range.holds(x), "{} is outside its range {}", x, range.text());
+    }
+    void require_fit() const {
+        Allowed const& allowed = key.row->allowed;
+        if (allowed.fits != nullptr && !allowed.fits(value)) {
+            refuse_value(allowed.form, value);
+        }
+    }
 };
 
-void nothing_to_begin(Recipe&) {}
+/// Takes it out; nothing where it is left out.
+struct Show {
+    Key const& key;
+
+    template <class T> std::optional<Value> operator()(T const* field) const {
+        if constexpr (std::is_integral_v<T> && !std::is_same_v<T, bool>) {
+            return static_cast<std::int64_t>(*field);
+        } else {
+            return *field;
+        }
+    }
+    template <class T> std::optional<Value> operator()(std::optional<T> const* field) const {
+        return *field ? std::optional<Value>(**field) : std::nullopt;
+    }
+    std::optional<Value> operator()(Enumeration const& field) const {
+        auto const at = std::find(key.numbers.begin(), key.numbers.end(), field.get(field.at)) - key.numbers.begin();
+        auto const& words = key.help.choices;
+        auto const place = static_cast<std::size_t>(at);
+        return place == words.size() ? std::nullopt : std::optional<Value>(value_of_word(key, words[place]));
+    }
+};
 
 std::size_t always_one(Recipe const&) {
     return 1;
 }
 
-Holder<Recipe> the_recipe() {
-    return {always_one, nothing_to_begin, [](Recipe& r, std::size_t) -> Recipe& { return r; },
-            [](Recipe const& r, std::size_t) -> Recipe const& { return r; }};
-}
+void nothing_to_begin(Recipe&) {}
 
-template <class S> Holder<S> member(S Recipe::*part) {
-    return {always_one, nothing_to_begin, [part](Recipe& r, std::size_t) -> S& { return r.*part; },
-            [part](Recipe const& r, std::size_t) -> S const& { return r.*part; }};
+template <auto part> std::size_t count_of(Recipe const& recipe) {
+    return (recipe.*part).has_value() ? 1 : 0;
 }
 
 /// A section that is named is a stage that runs, empty or not.
-template <class S> Holder<S> member(std::optional<S> Recipe::*part) {
-    return {[part](Recipe const& r) -> std::size_t { return (r.*part).has_value() ? 1 : 0; },
-            [part](Recipe& r) {
-                if (!(r.*part)) {
-                    (r.*part).emplace();
-                }
-            },
-            [part](Recipe& r, std::size_t) -> S& { return *(r.*part); },
-            [part](Recipe const& r, std::size_t) -> S const& { return *(r.*part); }};
-}
-
-template <class S> Holder<S> member(std::vector<S> Recipe::*part) {
-    return {[part](Recipe const& r) { return (r.*part).size(); }, [part](Recipe& r) { (r.*part).emplace_back(); },
-            [part](Recipe& r, std::size_t item) -> S& { return (r.*part)[item]; },
-            [part](Recipe const& r, std::size_t item) -> S const& { return (r.*part)[item]; }, true};
-}
-
-/// A section with its keys, before they know where it lies.
-struct Chapter {
-    Section section;
-    std::vector<Key> keys;
-};
-
-template <class S> Chapter chapter(char const* name, Holder<S> const& holder, Rows<S> const& rows) {
-    Chapter made{{name, holder.is_array, holder.count, holder.begin}, {}};
-    for (KeyOf<S> const& row : rows) {
-        Key& key = made.keys.emplace_back();
-        key.help = row.help;
-        key.help.path = fmt::format("{}{}{}", name, *name == '\0' ? "" : ".", row.help.path);
-        key.help.used_by = row.use.text;
-        key.use = row.use;
-        key.earlier = row.earlier;
-        key.folder = row.folder;
-        key.range = row.range;
-        key.check = row.check;
-        key.store = [in = holder.in, store = row.store](Recipe& r, std::size_t item, Value const& v) {
-            store(&in(r, item), v);
-        };
-        key.show = [of = holder.of, show = row.show](Recipe const& r, std::size_t item) { return show(&of(r, item)); };
-        key.layer = [of = holder.of, layer = row.layer](Recipe const& r, std::size_t item) {
-            return layer ? layer(&of(r, item)) : std::string();
-        };
+template <auto part> void begin_one(Recipe& recipe) {
+    if (!(recipe.*part)) {
+        (recipe.*part).emplace();
     }
-    return made;
 }
 
-std::vector<Chapter> make_chapters() {
-    return {chapter("", the_recipe(), seed_keys()),
-            chapter("grid", member(&Recipe::grid), grid_keys()),
-            chapter("network", member(&Recipe::network), network_keys()),
-            chapter("skeleton", member(&Recipe::skeleton), skeleton_keys()),
-            chapter("surface", member(&Recipe::surface), surface_keys()),
-            chapter("statistics", member(&Recipe::statistics), statistics_keys()),
-            chapter("detail", member(&Recipe::detail), detail_keys()),
-            chapter("patch", member(&Recipe::patches), patch_keys()),
-            chapter("output", member(&Recipe::output), output_keys())};
+constexpr std::array<Section, 9> sections = {
+    {{"", always_one, nothing_to_begin},
+     {"grid", always_one, nothing_to_begin},
+     {"network", count_of<&Recipe::network>, begin_one<&Recipe::network>},
+     {"skeleton", count_of<&Recipe::skeleton>, begin_one<&Recipe::skeleton>},
+     {"surface", count_of<&Recipe::surface>, begin_one<&Recipe::surface>},
+     {"statistics", count_of<&Recipe::statistics>, begin_one<&Recipe::statistics>},
+     {"detail", count_of<&Recipe::detail>, begin_one<&Recipe::detail>},
+     {"patch", [](Recipe const& r) { return r.patches.size(); }, [](Recipe& r) { r.patches.emplace_back(); }, true},
+     {"output", always_one, nothing_to_begin}}};
+
+/// By KeyKind.
+constexpr std::array<char const*, 10> type_names{"yes/no",       "integer", "number", "two numbers", "three numbers",
+                                                 "four numbers", "text",    "text",   "text",        "integer or text"};
+
+/// Lists the words of a key and what they stand for.
+void list_words(Key& key, Field const& field) {
+    Allowed const& allowed = key.row->allowed;
+    auto const* const enumeration = std::get_if<Enumeration>(&field);
+    int const least = enumeration == nullptr ? 0 : enumeration->least;
+    auto const add = [&](std::string const& word, std::optional<int> number) {
+        key.numbers.push_back(number.value_or(least + static_cast<int>(key.numbers.size())));
+        key.help.choices.push_back(word);
+    };
+    for (std::string const& word : allowed.more_words == nullptr ? std::vector<std::string>() : allowed.more_words()) {
+        add(word, std::nullopt);
+    }
+    for (Word const& word : allowed.words) {
+        if (word.text != nullptr) {
+            add(word.text, word.number);
+        }
+    }
+}
+
+/// What is allowed, for people.
+std::string range_text(Key const& key) {
+    if (key.range) {
+        return key.range->text();
+    }
+    std::vector<std::string> ways = key.help.choices;
+    std::string const form = key.help.is_file ? "file name" : key.row->allowed.form;
+    if (!form.empty()) {
+        ways.push_back(form);
+    }
+    return fmt::format("{}", fmt::join(ways, " | "));
 }
 
 std::string standard_text(Value const& value) {
@@ -235,54 +227,70 @@ std::string standard_text(Value const& value) {
     return number != nullptr ? fmt::format("{}", *number) : toml_text(value);
 }
 
-struct Table {
-    std::vector<Section> sections;
-    std::vector<Key> keys;
-};
-
-Table make_table() {
-    Table table;
-    std::vector<Chapter> const chapters = make_chapters();
-    Recipe standard;
-    for (Chapter const& one : chapters) {
-        table.sections.push_back(one.section);
-        one.section.begin(standard);
-    }
-    for (std::size_t i = 0; i < chapters.size(); ++i) {
-        for (Key key : chapters[i].keys) {
-            key.part = &table.sections[i];
-            auto const value = key.take(standard);
-            if (key.help.standard.empty() && value) {
-                key.help.standard = standard_text(*value);
-            }
-            table.keys.push_back(std::move(key));
+/// With parts of conditions in place of their names.
+std::string written_out(std::string text) {
+    for (auto const& [name, condition] : named_conditions()) {
+        for (std::size_t at = text.find(name); at != std::string::npos; at = text.find(name)) {
+            text.replace(at, name.size(), condition);
         }
     }
-    return table;
+    return text;
 }
 
-Table const& the_table() {
-    static Table const table = make_table();
-    return table;
+Key make_key(Row const& row, Recipe& standard) {
+    std::string_view const path = row.path;
+    Key key;
+    key.row = &row;
+    key.part = find_section(path.substr(0, path.find('.') == std::string_view::npos ? 0 : path.find('.')));
+    key.use = {written_out(row.used), row.extra.holds};
+    key.help.path = path;
+    key.help.type = type_names.at(static_cast<std::size_t>(row.kind));
+    key.help.unit = row.unit;
+    key.help.meaning = row.meaning;
+    key.help.used_by = key.use.text;
+    key.help.is_file = row.kind == KeyKind::file;
+    key.folder = row.extra.folder != nullptr ? row.extra.folder : key.name() + "/";
+    if (row.kind == KeyKind::integer || row.kind == KeyKind::number) {
+        key.range = row.allowed.range;
+    }
+    list_words(key, row.field(standard, 0));
+    key.help.range = range_text(key);
+    auto const value = key.take(standard);
+    key.help.standard = *row.extra.standard == '\0' && value ? standard_text(*value) : row.extra.standard;
+    return key;
+}
+
+std::vector<Key> make_keys() {
+    Recipe standard = with_all_sections();
+    std::vector<Key> keys;
+    for (Row const& row : recipe_rows()) {
+        keys.push_back(make_key(row, standard));
+    }
+    return keys;
 }
 
 } // namespace
 
-void Key::put(Recipe& recipe, Value const& value, std::optional<std::size_t> item) const {
-    check(value);
+void Key::put(Recipe& recipe, Value const& value, std::optional<Item> item) const {
+    Recipe trial = with_all_sections();
+    std::visit(Store{*this, value}, row->field(trial, 0));
     std::size_t const count = part->count(recipe);
     if (count == 0 || item == count) {
         part->begin(recipe);
     }
-    store(recipe, item.value_or(part->count(recipe) - 1), value);
+    std::visit(Store{*this, value}, row->field(recipe, item.value_or(part->count(recipe) - 1)));
 }
 
-std::optional<Value> Key::take(Recipe const& recipe, std::optional<std::size_t> item) const {
+std::optional<Value> Key::take(Recipe const& recipe, std::optional<Item> item) const {
     std::size_t const count = part->count(recipe);
-    return count == 0 ? std::nullopt : show(recipe, item.value_or(count - 1));
+    if (count == 0) {
+        return std::nullopt;
+    }
+    auto const value = std::visit(Show{*this}, row->field(const_cast<Recipe&>(recipe), item.value_or(count - 1)));
+    return row->extra.left_out_at_zero && value == Value(std::int64_t{0}) ? std::nullopt : value;
 }
 
-std::string Key::place(std::size_t item) const {
+std::string Key::place(Item item) const {
     return part->is_array ? fmt::format("{}.{}.{}", part->name, item + 1, name()) : help.path;
 }
 
@@ -297,27 +305,28 @@ std::string Key::name() const {
 
 Recipe with_all_sections() {
     Recipe recipe;
-    for (Section const& section : all_sections()) {
+    for (Section const& section : sections) {
         section.begin(recipe);
     }
     return recipe;
 }
 
-std::vector<Section> const& all_sections() {
-    return the_table().sections;
+std::span<Section const> all_sections() {
+    return sections;
 }
 
 std::vector<Key> const& all_keys() {
-    return the_table().keys;
+    static std::vector<Key> const keys = make_keys();
+    return keys;
 }
 
-Section const* find_section(std::string const& name) {
-    auto const& sections = all_sections();
-    auto const at = std::find_if(sections.begin(), sections.end(), [&](Section const& s) { return s.name == name; });
-    return at == sections.end() ? nullptr : &*at;
+Section const* find_section(std::string_view name) {
+    auto const* const at =
+        std::find_if(sections.begin(), sections.end(), [&](Section const& s) { return s.name == name; });
+    return at == sections.end() ? nullptr : at;
 }
 
-Key const* find_key(std::string const& path) {
+Key const* find_key(std::string_view path) {
     auto const& keys = all_keys();
     auto const at = std::find_if(keys.begin(), keys.end(), [&](Key const& k) { return k.help.path == path; });
     return at == keys.end() ? nullptr : &*at;

@@ -17,21 +17,6 @@
 namespace thalweg::pipeline {
 namespace {
 
-// What stands at one place of a TOML text.
-struct TomlEntry {
-    enum class Kind : std::uint8_t {
-        value,
-        table,  // its entries follow, one deeper
-        tables, // an array of them: its items follow, one deeper
-        item    // one of these: its entries follow, one deeper
-    };
-    Kind kind = Kind::value;
-    std::string path; // "network.dla.particles"
-    std::size_t depth = 0;
-    std::int64_t line = 0;      // from 1
-    std::optional<Value> value; // none where it is of no type that a key has
-};
-
 /// What follows a string that begins at a place: "basic", 'literal', or of several lines with three of either.
 std::size_t end_of_string(std::string_view text, std::size_t begin) {
     char const quote = text[begin];
@@ -202,50 +187,21 @@ void require_modest(std::string const& toml, std::string const& name) {
     }
 }
 
-void append(toml::table const& table, std::string const& prefix, std::size_t depth, std::vector<TomlEntry>& entries) {
-    using Kind = TomlEntry::Kind;
-    for (auto const& [word, node] : table) {
-        std::string const path = prefix + std::string(word.str());
-        std::int64_t const line = node.source().begin.line;
-        if (auto const* inner = node.as_table()) {
-            entries.push_back({Kind::table, path, depth, line, std::nullopt});
-            append(*inner, path + ".", depth + 1, entries);
-            continue;
-        }
-        auto const* list = node.as_array();
-        if (list == nullptr || !list->is_homogeneous<toml::table>()) {
-            entries.push_back({Kind::value, path, depth, line, value_of(node)});
-            continue;
-        }
-        entries.push_back({Kind::tables, path, depth, line, std::nullopt});
-        for (toml::node const& one : *list) {
-            entries.push_back({Kind::item, path, depth + 1, line, std::nullopt});
-            append(*one.as_table(), path + ".", depth + 2, entries);
-        }
-    }
-}
-
 // A word of a file as a message shows it: its beginning, where it is long.
 std::string cut(std::string_view s) {
     return s.size() <= 80 ? std::string(s) : std::string(s.substr(0, 77)) + "...";
 }
 
-// The entries of a TOML text, those of a table in the order of their words. name: for messages. Throws: BadParameter
-// when it is no TOML, or larger or deeper than a recipe may be.
-std::vector<TomlEntry> toml_entries(std::string const& toml, std::string const& name) {
+// Throws: BadParameter when the text is no TOML, or larger or deeper than a recipe may be.
+toml::table parse_modest(std::string const& toml, std::string const& name) {
     require_modest(toml, name);
-    toml::table table;
     try {
-        table = toml::parse(toml, name);
+        return toml::parse(toml, name);
     } catch (toml::parse_error const& fault) {
-        bool const is_large = is_too_large(fault);
         throw BadParameter(fmt::format("pipeline.read_recipe: {}: line {}, column {}: {}", name,
                                        fault.source().begin.line, fault.source().begin.column,
-                                       is_large ? too_large : cut(fault.description())));
+                                       is_too_large(fault) ? too_large : cut(fault.description())));
     }
-    std::vector<TomlEntry> entries;
-    append(table, "", 0, entries);
-    return entries;
 }
 
 // What a text means as a value of TOML; the text itself where it is none. Throws: BadParameter when it is an integer
@@ -275,20 +231,13 @@ Section const* section_of(std::string const& path) {
     return has_keys(path) ? find_section(path.substr(0, path.find('.'))) : nullptr;
 }
 
-/// Puts the entries of a file into a recipe and collects what is wrong with them.
+/// Puts what a file holds into a recipe and collects what is wrong with it.
 class Reader {
 public:
     explicit Reader(std::string name) : name_(std::move(name)) {}
 
-    Recipe read(std::vector<TomlEntry> const& entries) {
-        for (std::size_t i = 0; i < entries.size() && faults_.size() < most_faults;) {
-            bool const is_known = read(entries[i]);
-            std::size_t const depth = entries[i].depth;
-            ++i;
-            while (!is_known && i < entries.size() && entries[i].depth > depth) {
-                ++i;
-            }
-        }
+    Recipe read(toml::table const& table) {
+        read(table, "");
         if (!faults_.empty()) {
             throw BadParameter(
                 fmt::format("pipeline.read_recipe: {}: {}", name_, fmt::join(faults_, fmt::format("\n{}: ", name_))));
@@ -297,46 +246,57 @@ public:
     }
 
 private:
-    /// Gives whether what lies in it can be read.
-    bool read(TomlEntry const& entry) {
-        using Kind = TomlEntry::Kind;
-        Section const* const section = section_of(entry.path);
-        bool const is_array = section != nullptr && section->is_array && section->name == entry.path;
-        if (entry.kind == Kind::tables && is_array) {
-            return true; // each item begins one
+    /// Its depth is bounded, see require_modest.
+    void read(toml::table const& table, std::string const& prefix) {
+        for (auto const& [word, node] : table) {
+            std::string const path = prefix + std::string(word.str());
+            Section const* const section = section_of(path);
+            auto const* const list = node.as_array();
+            bool const is_array = section != nullptr && section->is_array && section->name == path;
+            if (faults_.size() >= most_faults) {
+                return;
+            }
+            if (is_array && list != nullptr && list->is_homogeneous<toml::table>()) {
+                for (toml::node const& one : *list) {
+                    begin(*section, *one.as_table(), path);
+                }
+            } else if (auto const* const inner = node.as_table(); inner == nullptr) {
+                put(path, node);
+            } else if (section != nullptr) {
+                begin(*section, *inner, path);
+            } else {
+                refuse(node, unknown_key(cut(path)));
+            }
         }
-        if (entry.kind == Kind::value || entry.kind == Kind::tables) {
-            put(entry);
-            return false;
-        }
-        if (section == nullptr) {
-            refuse(entry, unknown_key(cut(entry.path)));
-            return false;
-        }
-        section->begin(recipe_);
-        return true;
     }
 
-    void put(TomlEntry const& entry) {
-        Key const* const key = find_key(entry.path);
+    void begin(Section const& section, toml::table const& table, std::string const& path) {
+        section.begin(recipe_);
+        read(table, path + ".");
+    }
+
+    void put(std::string const& path, toml::node const& node) {
+        Key const* const key = find_key(path);
         if (key == nullptr) {
-            refuse(entry, unknown_key(cut(entry.path)));
+            refuse(node, unknown_key(cut(path)));
             return;
         }
         try {
-            if (!entry.value) {
-                throw BadParameter(fmt::format("its value has the wrong type; required: {}", key->help.type));
-            }
-            key->put(recipe_, *entry.value);
-            recipe_.set_at[key->place(key->part->count(recipe_) - 1)] = fmt::format("{}, line {}", name_, entry.line);
+            auto const value = value_of(node);
+            refuse_if<BadParameter>(!value, "its value has the wrong type; required: {}", key->help.type);
+            key->put(recipe_, *value);
+            recipe_.set_at[key->place(key->part->count(recipe_) - 1)] =
+                fmt::format("{}, line {}", name_, line_of(node));
         } catch (BadParameter const& fault) {
-            refuse(entry, fmt::format("{}: {}", entry.path, fault.what()));
+            refuse(node, fmt::format("{}: {}", path, fault.what()));
         }
     }
 
-    void refuse(TomlEntry const& entry, std::string const& words) {
-        faults_.push_back(fmt::format("line {}: {}", entry.line, words));
+    void refuse(toml::node const& node, std::string const& words) {
+        faults_.push_back(fmt::format("line {}: {}", line_of(node), words));
     }
+
+    static std::int64_t line_of(toml::node const& node) { return node.source().begin.line; }
 
     std::string name_;
     Recipe recipe_;
@@ -346,7 +306,7 @@ private:
 } // namespace
 
 Recipe read_recipe(std::string const& toml, std::string const& name) {
-    return Reader(name).read(toml_entries(toml, name));
+    return Reader(name).read(parse_modest(toml, name));
 }
 
 namespace {
