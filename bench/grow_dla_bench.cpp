@@ -8,7 +8,7 @@
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 
 // An item is a particle; memory and tables made by the growth count. Arguments: particles, 100 S, M. The yardstick has
-// the same birth circle, return from afar and occupancy test; only its steps are unit steps.
+// the same launch circle, return from afar and occupancy test; only its steps are unit steps.
 
 namespace {
 

@@ -67,7 +67,7 @@ void complain(std::string const& text) {
 }
 
 /// Libraries report lack of memory only in text; the input is then not at fault.
-int code_of_refusal(std::string const& words) {
+int exit_code_for(std::string const& words) {
     for (char const* const of_memory : {"ut of memory", "annot allocate", "bad_alloc"}) {
         if (words.find(of_memory) != std::string::npos) {
             return Exit::failed;
@@ -87,9 +87,9 @@ int call(Command const& command, Terminal& terminal) {
     } catch (Cancelled const&) {
         return end("interrupted; nothing was written", exit_of_signal());
     } catch (BadParameter const& e) {
-        return end(e.what(), code_of_refusal(e.what()));
+        return end(e.what(), exit_code_for(e.what()));
     } catch (BadInput const& e) {
-        return end(e.what(), code_of_refusal(e.what()));
+        return end(e.what(), exit_code_for(e.what()));
     } catch (std::bad_alloc const&) {
         terminal.wipe();
         write_to_stderr(out_of_memory);
@@ -116,7 +116,7 @@ void tell_times(Session const& session, Terminal& terminal, double seconds) {
 }
 
 /// A run whose output could not be written has failed.
-int end_of_results(int code) {
+int exit_code_after_output(int code) {
     std::string const fault = fault_of_stdout();
     if (fault.empty() || (code != Exit::done && code != Exit::check_failed)) {
         return code;
@@ -281,14 +281,14 @@ int run(int argc, char** argv) {
 
 /// GDAL aborts if there is no memory for an error message. It has already reported that on standard error.
 extern "C" {
-static void end_of_abort(int /*number*/) {
+static void handle_abort(int /*number*/) {
     constexpr char text[] = "error: a library could not go on, which happens when memory is short\n";
     [[maybe_unused]] auto const written = write(STDERR_FILENO, text, sizeof text - 1);
     _exit(thalweg::tools::Exit::failed);
 }
 
 /// Handles a library that writes to memory it was refused; any other fault keeps its signal.
-[[maybe_unused]] static void end_of_fault(int number) {
+[[maybe_unused]] static void handle_fault(int number) {
     alarm(2);                                   // the fault may be inside malloc
     constexpr std::size_t most_asked = 1 << 20; // faults immediately, e.g. libgeotiff, which does not check the result
     if (std::malloc(most_asked) == nullptr) {
@@ -311,7 +311,7 @@ void handle_faults() {
     own.ss_size = sizeof stack;
     sigaltstack(&own, nullptr);
     struct sigaction action {};
-    action.sa_handler = end_of_fault;
+    action.sa_handler = handle_fault;
     action.sa_flags = SA_ONSTACK;
     sigaction(SIGSEGV, &action, nullptr);
 }
@@ -323,10 +323,10 @@ void handle_faults() {}
 
 int main(int argc, char** argv) {
     std::set_terminate(end_without_handler);
-    std::signal(SIGABRT, end_of_abort);
+    std::signal(SIGABRT, handle_abort);
     handle_faults();
     try {
-        return end_of_results(run(argc, argv));
+        return exit_code_after_output(run(argc, argv));
     } catch (...) {
         end_without_handler();
     }

@@ -68,7 +68,7 @@ double farthest(Raster<double> const& a, Raster<double> const& b) {
 TEST(Follow, CellsWithoutFreeOnesStay) {
     Grid const grid = test::frame(3, 2);
     Raster<double> const fixed = doubles(lands::by_chance(grid, 1));
-    auto const solution = follow(Raster<std::uint8_t>(grid, fixed_cell), fixed, Raster<double>(grid), {});
+    auto const solution = solve_guided(Raster<std::uint8_t>(grid, fixed_cell), fixed, Raster<double>(grid), {});
     EXPECT_EQ(farthest(solution.value, fixed), 0.0);
 }
 
@@ -80,8 +80,8 @@ TEST(Follow, CarrierWithHarmonicExtensionEqualsTheGradientForm) {
         auto const kind = framed(grid, seed);
         Raster<double> const target = doubles(lands::by_chance(grid, seed + 1));
         Raster<double> const source = doubles(lands::by_chance(grid, seed + 2));
-        auto const extended = follow(kind, target, source, {}, tight());
-        auto const gradients = follow(kind, target, Raster<double>(grid), differences_of(source), tight());
+        auto const extended = solve_guided(kind, target, source, {}, tight());
+        auto const gradients = solve_guided(kind, target, Raster<double>(grid), differences_of(source), tight());
         RC_ASSERT(farthest(extended.value, gradients.value) <= 1e-8);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             RC_ASSERT((kind[i] == free_cell || extended.value[i] == target[i]));
@@ -112,9 +112,9 @@ TEST(Follow, IsLinearAndBlindToTheLevel) {
         }
         Raster<double> f[3];
         for (int k = 0; k < 3; ++k) {
-            f[k] = follow(kind, target[k], source[k], {}, tight()).value;
+            f[k] = solve_guided(kind, target[k], source[k], {}, tight()).value;
         }
-        RC_ASSERT(farthest(follow(kind, target[0], lifted, {}, tight()).value, f[0]) <=
+        RC_ASSERT(farthest(solve_guided(kind, target[0], lifted, {}, tight()).value, f[0]) <=
                   1e-10 * (100.0 + std::fabs(level)));
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             RC_ASSERT(std::fabs(f[0][i] + share * f[1][i] - f[2][i]) <= 1e-8);

@@ -120,7 +120,8 @@ TEST(PasteTin, OnAGridItIsTheFivePointForm) {
         }
         solver::PoissonParams tight;
         tight.tolerance = 1e-12;
-        auto const on_grid = follow(kind, lands::patch_of(target, pins).z, lands::patch_of(source, pins).z, {}, tight);
+        auto const on_grid =
+            solve_guided(kind, lands::patch_of(target, pins).z, lands::patch_of(source, pins).z, {}, tight);
         PastedTin const on_tin = paste_tin(tin, gradients_of(tin, with_heights(tin, source)), fixed);
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
             auto const& v = on_tin.tin.vertices[static_cast<std::size_t>(i)];

@@ -13,7 +13,7 @@
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
-/// The oracle and yardstick of the growth: the same birth circle, return from afar and occupancy test, but every step
+/// The oracle and yardstick of the growth: the same launch circle, return from afar and occupancy test, but every step
 /// of a walker is a unit step.
 namespace unit_step {
 
@@ -63,7 +63,7 @@ public:
         occupied_.push_back(site);
     }
 
-    Site born(thalweg::RandomStream& random) const { return thalweg::network::born(circle_, random); }
+    Site launch_site(thalweg::RandomStream& random) const { return thalweg::network::launch_site(circle_, random); }
 
     /// Walks from a site that is not next to the cluster until it is.
     Site approach(Site site, Steps& steps, thalweg::RandomStream& random) const {
@@ -135,7 +135,7 @@ inline thalweg::network::Cluster grow(thalweg::network::DlaParams const& params)
     while (static_cast<std::int64_t>(cluster.cells.size()) < params.particles) {
         thalweg::RandomStream random(params.seed, 2, static_cast<std::uint64_t>(cluster.walkers++));
         Steps steps(random);
-        for (Site s = lattice.approach(lattice.born(random), steps, random);;) {
+        for (Site s = lattice.approach(lattice.launch_site(random), steps, random);;) {
             double const hold = std::pow(params.sticking, 3 - lattice.state(s));
             bool removed = false;
             bool sticks = false;

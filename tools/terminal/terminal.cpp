@@ -81,10 +81,10 @@ Terminal::~Terminal() {
 
 void Terminal::wipe() {
     std::lock_guard const lock(mutex_);
-    take_bar_away();
+    hide_bar();
 }
 
-void Terminal::take_bar_away() {
+void Terminal::hide_bar() {
     if (bar_shown_) {
         write_to_stderr(to_the_lines_begin);
         bar_shown_ = false;
@@ -94,7 +94,7 @@ void Terminal::take_bar_away() {
 void Terminal::line(std::string_view text) {
     std::lock_guard const lock(mutex_);
     if (talks_) {
-        take_bar_away();
+        hide_bar();
         write_to_stderr(fmt::format("{}\n", shown_line(text, abilities_.colours)));
     }
 }
@@ -157,7 +157,7 @@ int Terminal::progress(double share, char const* what, void* terminal) {
     }
     self.begin_stage(what == nullptr ? "" : what);
     if (share >= 1.0) {
-        self.take_bar_away();
+        self.hide_bar();
     } else {
         self.show(share);
     }

@@ -54,7 +54,7 @@ public:
     static int progress(double share, char const* what, void* terminal);
 
 private:
-    void take_bar_away();
+    void hide_bar();
     void begin_stage(std::string_view what);
     double seconds() const; ///< since construction
     void show(double share);

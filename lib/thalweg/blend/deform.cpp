@@ -104,30 +104,30 @@ Deformed deform(Raster<float> const& target, Mask const& region, std::vector<Han
     if (grips > 0 && is_empty(free)) {
         return deformed;
     }
-    Opening opening = open_target(target, free, held, "blend.deform", run);
-    Raster<double> carrier = opening.target;
+    EditRegion edit_region = edit_region_of(target, free, held, "blend.deform", run);
+    Raster<double> carrier = edit_region.target;
     for (std::int64_t i = 0; i < carrier.cells(); ++i) {
-        if (opening.kind[i] == outside_cell) {
+        if (edit_region.kind[i] == outside_cell) {
             continue;
         }
         Cell const c = carrier.grid().at(i);
-        Cell const there{c.col + opening.corner.col, c.row + opening.corner.row};
+        Cell const there{c.col + edit_region.corner.col, c.row + edit_region.corner.row};
         carrier[i] *= params.scale;
         if (held[there] != 0) {
-            opening.target[i] = pulled[there];
+            edit_region.target[i] = pulled[there];
         }
     }
     solver::PoissonParams solving;
     solving.tolerance = params.tolerance;
-    auto const solution = follow(opening.kind, opening.target, carrier, {}, solving, run);
-    for (std::int64_t i = 0; i < opening.kind.cells(); ++i) {
-        if (opening.kind[i] == free_cell) {
-            Cell const c = opening.kind.grid().at(i);
-            deformed.dem[{c.col + opening.corner.col, c.row + opening.corner.row}] =
+    auto const solution = solve_guided(edit_region.kind, edit_region.target, carrier, {}, solving, run);
+    for (std::int64_t i = 0; i < edit_region.kind.cells(); ++i) {
+        if (edit_region.kind[i] == free_cell) {
+            Cell const c = edit_region.kind.grid().at(i);
+            deformed.dem[{c.col + edit_region.corner.col, c.row + edit_region.corner.row}] =
                 static_cast<float>(solution.value[i]);
         }
     }
-    deformed.cells += opening.cells;
+    deformed.cells += edit_region.cells;
     deformed.iterations = solution.iterations;
     deformed.residual = solution.residual;
     return deformed;

@@ -304,31 +304,31 @@ Mask changes_of(Patch const& patch, PasteParams const& params, Pasted& pasted) {
     return changes;
 }
 
-Raster<double> cut_out(Raster<double> const& z, Opening const& opening) {
-    Raster<double> part(opening.kind.grid());
+Raster<double> cut_out(Raster<double> const& z, EditRegion const& edit_region) {
+    Raster<double> part(edit_region.kind.grid());
     for (std::int64_t row = 0; row < part.height(); ++row) {
         std::ranges::copy(
-            z.row(row + opening.corner.row)
-                .subspan(static_cast<std::size_t>(opening.corner.col), static_cast<std::size_t>(part.width())),
+            z.row(row + edit_region.corner.row)
+                .subspan(static_cast<std::size_t>(edit_region.corner.col), static_cast<std::size_t>(part.width())),
             part.row(row).begin());
     }
     return part;
 }
 
 // The patch's heights; where missing the target's; where missing too, their mean.
-Raster<double> carrier_of(Raster<double> const& source, Opening const& opening) {
+Raster<double> carrier_of(Raster<double> const& source, EditRegion const& edit_region) {
     Raster<double> carrier = source;
     double sum = 0.0;
     double count = 0.0;
     for (std::int64_t i = 0; i < carrier.cells(); ++i) {
-        if (opening.kind[i] == fixed_cell) {
-            sum += opening.target[i];
+        if (edit_region.kind[i] == fixed_cell) {
+            sum += edit_region.target[i];
             count += 1.0;
         }
     }
     for (std::int64_t i = 0; i < carrier.cells(); ++i) {
         if (std::isnan(carrier[i])) {
-            carrier[i] = std::isnan(opening.target[i]) ? sum / count : opening.target[i];
+            carrier[i] = std::isnan(edit_region.target[i]) ? sum / count : edit_region.target[i];
         }
     }
     return carrier;
@@ -337,20 +337,20 @@ Raster<double> carrier_of(Raster<double> const& source, Opening const& opening) 
 /// The differences that the pasted terrain should have.
 class Wanted {
 public:
-    Wanted(Raster<double> const& source, Opening const& opening, PasteParams const& params, Run const& run)
-        : source_(source), opening_(opening), relief_(params.relief), feather_(params.feather_cells) {
+    Wanted(Raster<double> const& source, EditRegion const& edit_region, PasteParams const& params, Run const& run)
+        : source_(source), edit_region_(edit_region), relief_(params.relief), feather_(params.feather_cells) {
         if (feather_ > 0.0) {
-            Mask changes(opening.kind.grid());
+            Mask changes(edit_region.kind.grid());
             for (std::int64_t i = 0; i < changes.cells(); ++i) {
                 // Cells outside have no heights to take differences from.
-                changes[i] = opening.kind[i] == fixed_cell ? 0 : 1;
+                changes[i] = edit_region.kind[i] == fixed_cell ? 0 : 1;
             }
             distance_ = distance_within(changes, run);
         }
     }
 
     double operator()(std::int64_t here, std::int64_t there) const {
-        double const own = opening_.target[there] - opening_.target[here];
+        double const own = edit_region_.target[there] - edit_region_.target[here];
         double const patch = source_[there] - source_[here];
         if (std::isnan(patch)) {
             return std::isnan(own) ? 0.0 : own;
@@ -370,15 +370,15 @@ private:
     }
 
     Raster<double> const& source_;
-    Opening const& opening_;
+    EditRegion const& edit_region_;
     Relief relief_;
     double feather_;
     Raster<float> distance_;
 };
 
-bool has_gap(Raster<double> const& source, Opening const& opening) {
+bool has_gap(Raster<double> const& source, EditRegion const& edit_region) {
     for (std::int64_t i = 0; i < source.cells(); ++i) {
-        if (opening.kind[i] != outside_cell && std::isnan(source[i])) {
+        if (edit_region.kind[i] != outside_cell && std::isnan(source[i])) {
             return true;
         }
     }
@@ -386,11 +386,12 @@ bool has_gap(Raster<double> const& source, Opening const& opening) {
 }
 
 // Empty if the differences are the patch's own, which leaves Laplace's equation.
-Guidance guidance_of(Raster<double> const& source, Opening const& opening, PasteParams const& params, Run const& run) {
-    if (params.relief == Relief::source && params.feather_cells == 0.0 && !has_gap(source, opening)) {
+Guidance guidance_of(Raster<double> const& source, EditRegion const& edit_region, PasteParams const& params,
+                     Run const& run) {
+    if (params.relief == Relief::source && params.feather_cells == 0.0 && !has_gap(source, edit_region)) {
         return {};
     }
-    Wanted const wanted(source, opening, params, run);
+    Wanted const wanted(source, edit_region, params, run);
     Guidance guidance{Raster<double>(source.grid()), Raster<double>(source.grid())};
     std::int64_t const width = source.width();
     parallel_ranges(run, source.height(), 8, [&](std::int64_t begin, std::int64_t end) {
@@ -408,13 +409,13 @@ struct Seam {
     double pairs = 0.0;
 };
 
-Seam seam_of(Raster<double> const& z, Opening const& opening) {
+Seam seam_of(Raster<double> const& z, EditRegion const& edit_region) {
     Seam seam;
     std::int64_t const width = z.width();
     auto const meet = [&](std::int64_t a, std::int64_t b) {
-        bool const is_seam = (opening.kind[a] == free_cell && opening.kind[b] == fixed_cell) ||
-                             (opening.kind[a] == fixed_cell && opening.kind[b] == free_cell);
-        double const own = opening.target[a] - opening.target[b];
+        bool const is_seam = (edit_region.kind[a] == free_cell && edit_region.kind[b] == fixed_cell) ||
+                             (edit_region.kind[a] == fixed_cell && edit_region.kind[b] == free_cell);
+        double const own = edit_region.target[a] - edit_region.target[b];
         if (!is_seam || std::isnan(own)) {
             return;
         }
@@ -439,22 +440,23 @@ Seam seam_of(Raster<double> const& z, Opening const& opening) {
 Pasted paste(Raster<float> const& target, Patch const& patch, PasteParams const& params, Run const& run) {
     check(target, patch, params);
     Pasted pasted;
-    Opening const opening = open_target(target, changes_of(patch, params, pasted), {}, "blend.paste", run);
-    Raster<double> const source = cut_out(patch.z, opening);
-    Guidance const guidance = guidance_of(source, opening, params, run);
+    EditRegion const edit_region = edit_region_of(target, changes_of(patch, params, pasted), {}, "blend.paste", run);
+    Raster<double> const source = cut_out(patch.z, edit_region);
+    Guidance const guidance = guidance_of(source, edit_region, params, run);
     solver::PoissonParams solving;
     solving.tolerance = params.tolerance;
-    auto const solution = follow(opening.kind, opening.target, carrier_of(source, opening), guidance, solving, run);
-    Seam const seam = seam_of(solution.value, opening);
+    auto const solution =
+        solve_guided(edit_region.kind, edit_region.target, carrier_of(source, edit_region), guidance, solving, run);
+    Seam const seam = seam_of(solution.value, edit_region);
     pasted.dem = target;
-    for (std::int64_t i = 0; i < opening.kind.cells(); ++i) {
-        if (opening.kind[i] == free_cell) {
-            Cell const c = opening.kind.grid().at(i);
-            pasted.dem[{c.col + opening.corner.col, c.row + opening.corner.row}] =
+    for (std::int64_t i = 0; i < edit_region.kind.cells(); ++i) {
+        if (edit_region.kind[i] == free_cell) {
+            Cell const c = edit_region.kind.grid().at(i);
+            pasted.dem[{c.col + edit_region.corner.col, c.row + edit_region.corner.row}] =
                 static_cast<float>(solution.value[i]);
         }
     }
-    pasted.cells = opening.cells;
+    pasted.cells = edit_region.cells;
     pasted.seam_max_m = seam.max;
     pasted.seam_rms_m = seam.pairs > 0.0 ? std::sqrt(seam.squares / seam.pairs) : 0.0;
     pasted.iterations = solution.iterations;

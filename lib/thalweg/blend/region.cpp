@@ -58,12 +58,12 @@ Grid frame_of(Grid const& target, Box const& box) {
 }
 
 // Every connected part of the free cells needs a fixed neighbour.
-void require_held(Opening const& opening, Grid const& target, std::string const& stage, Run const& run) {
-    Grid const& grid = opening.kind.grid();
+void require_held(EditRegion const& edit_region, Grid const& target, std::string const& stage, Run const& run) {
+    Grid const& grid = edit_region.kind.grid();
     Mask seen(grid);
     std::vector<std::int64_t> reached;
     for (std::int64_t start = 0; start < grid.cells(); ++start) {
-        if (opening.kind[start] != free_cell || seen[start] != 0) {
+        if (edit_region.kind[start] != free_cell || seen[start] != 0) {
             continue;
         }
         run.check();
@@ -79,8 +79,8 @@ void require_held(Opening const& opening, Grid const& target, std::string const&
                 if (!grid.contains(n)) {
                     continue;
                 }
-                held = held || opening.kind[n] == fixed_cell;
-                if (opening.kind[n] == free_cell && seen[n] == 0) {
+                held = held || edit_region.kind[n] == fixed_cell;
+                if (edit_region.kind[n] == free_cell && seen[n] == 0) {
                     seen[n] = 1;
                     reached.push_back(grid.index(n));
                 }
@@ -94,7 +94,7 @@ void require_held(Opening const& opening, Grid const& target, std::string const&
             "{}: all {} x {} cells of the target would change: leave at least one that keeps its height", stage,
             target.width, target.height);
         Cell const c = grid.at(start);
-        Cell const there{c.col + opening.corner.col, c.row + opening.corner.row};
+        Cell const there{c.col + edit_region.corner.col, c.row + edit_region.corner.row};
         Vec2 const p = target.centre(there);
         throw BadInput(fmt::format("{}: the part of {} cells at column {}, row {} ({:.3f}, {:.3f}) has no neighbour "
                                    "with a height to join: take a part that reaches one",
@@ -104,19 +104,19 @@ void require_held(Opening const& opening, Grid const& target, std::string const&
 
 } // namespace
 
-Opening open_target(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
-                    Run const& run) {
+EditRegion edit_region_of(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
+                          Run const& run) {
     Box const box = box_of(changes, stage);
     Grid const frame = frame_of(target.grid(), box);
-    Opening opening{box.first, Raster<std::uint8_t>(frame), Raster<double>(frame)};
+    EditRegion edit_region{box.first, Raster<std::uint8_t>(frame), Raster<double>(frame)};
     auto const changes_there = [&](Cell c) { return target.grid().contains(c) && changes[c] != 0; };
     for (std::int64_t i = 0; i < frame.cells(); ++i) {
         Cell const c = frame.at(i);
         Cell const there{c.col + box.first.col, c.row + box.first.row};
-        opening.target[i] = target[there];
+        edit_region.target[i] = target[there];
         if (changes[there] != 0) {
-            opening.kind[i] = free_cell;
-            ++opening.cells;
+            edit_region.kind[i] = free_cell;
+            ++edit_region.cells;
             continue;
         }
         bool const is_given = given.cells() > 0 && given[there] != 0;
@@ -127,11 +127,11 @@ Opening open_target(Raster<float> const& target, Mask const& changes, Mask const
         refuse_if<BadInput>(!is_given && std::isinf(target[there]),
                             "{}: the target's height at column {}, row {} is infinite: correct it", stage, there.col,
                             there.row);
-        opening.kind[i] = fixed_cell;
-        ++opening.neighbours;
+        edit_region.kind[i] = fixed_cell;
+        ++edit_region.neighbours;
     }
-    require_held(opening, target.grid(), stage, run);
-    return opening;
+    require_held(edit_region, target.grid(), stage, run);
+    return edit_region;
 }
 
 namespace {
@@ -198,9 +198,9 @@ void set_source(solver::GridProblem& problem, Raster<double> const& carrier, Gui
 
 } // namespace
 
-solver::GridSolution follow(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
-                            Raster<double> const& carrier, Guidance const& guidance,
-                            solver::PoissonParams const& params, Run const& run) {
+solver::GridSolution solve_guided(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
+                                  Raster<double> const& carrier, Guidance const& guidance,
+                                  solver::PoissonParams const& params, Run const& run) {
     solver::GridProblem problem{kind, Raster<double>(kind.grid()), {}};
     set_values(problem, fixed, carrier, run);
     if (guidance.east.cells() > 0) {

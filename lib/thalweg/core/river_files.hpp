@@ -94,17 +94,17 @@ struct RiverLines {
 
 /// A network file as read, before any check.
 struct NetworkFile {
-    static constexpr double untold = std::numeric_limits<double>::quiet_NaN();
+    static constexpr double not_in_file = std::numeric_limits<double>::quiet_NaN();
     /// Optional columns of a node, which thalweg derives itself; NaN or "": not in the file.
     struct NodeColumns {
         std::string kind = {};
-        double deg_in = untold;
-        double deg_out = untold;
-        double basin_id = untold;
-        double strahler = untold;
-        double z_m = untold;
-        double dist_out_m = untold;
-        double area_m2 = untold;
+        double deg_in = not_in_file;
+        double deg_out = not_in_file;
+        double basin_id = not_in_file;
+        double strahler = not_in_file;
+        double z_m = not_in_file;
+        double dist_out_m = not_in_file;
+        double area_m2 = not_in_file;
     };
     /// A node of a file.
     struct FileNode {
@@ -114,16 +114,16 @@ struct NetworkFile {
     };
     /// Optional columns of an arc, which thalweg derives itself; NaN: not in the file.
     struct ArcColumns {
-        double n_up = untold;
-        double topo_ord = untold;
-        double hack = untold;
-        double length_m = untold;
-        double length_3d_m = untold;
-        double straight_m = untold;
-        double z_up_m = untold;
-        double z_down_m = untold;
-        double dist_out_m = untold;
-        double slope = untold;
+        double n_up = not_in_file;
+        double topo_ord = not_in_file;
+        double hack = not_in_file;
+        double length_m = not_in_file;
+        double length_3d_m = not_in_file;
+        double straight_m = not_in_file;
+        double z_up_m = not_in_file;
+        double z_down_m = not_in_file;
+        double dist_out_m = not_in_file;
+        double slope = not_in_file;
     };
     /// An arc of a file.
     struct FileArc {

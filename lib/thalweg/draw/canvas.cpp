@@ -40,7 +40,7 @@ cairo_status_t append(void* bytes, unsigned char const* data, unsigned int lengt
     return CAIRO_STATUS_SUCCESS;
 }
 
-void demand(cairo_status_t status) {
+void require(cairo_status_t status) {
     if (status != CAIRO_STATUS_SUCCESS) {
         throw IoError(fmt::format("draw.paint: Cairo says '{}'; choose a smaller picture or free memory",
                                   cairo_status_to_string(status)));
@@ -256,7 +256,7 @@ Picture paint(double width, double height, Format format, std::function<void(Cai
         cairo_pdf_surface_set_metadata(surface.get(), CAIRO_PDF_METADATA_CREATE_DATE, "2000-01-01T00:00:00Z");
         break;
     }
-    demand(cairo_surface_status(surface.get()));
+    require(cairo_surface_status(surface.get()));
     std::unique_ptr<cairo_t, EndCairo> const sheet(cairo_create(surface.get()));
     // No hinting: letters must be the same at every size and on every screen.
     std::unique_ptr<cairo_font_options_t, EndFontOptions> const fonts(cairo_font_options_create());
@@ -267,12 +267,12 @@ Picture paint(double width, double height, Format format, std::function<void(Cai
     cairo_set_line_join(sheet.get(), CAIRO_LINE_JOIN_ROUND);
     fill_box(sheet.get(), {0.0, 0.0, width, height}, paper);
     fill(sheet.get());
-    demand(cairo_status(sheet.get()));
+    require(cairo_status(sheet.get()));
     if (format == Format::png) {
-        demand(cairo_surface_write_to_png_stream(surface.get(), append, &picture.bytes));
+        require(cairo_surface_write_to_png_stream(surface.get(), append, &picture.bytes));
     }
     cairo_surface_finish(surface.get());
-    demand(cairo_surface_status(surface.get()));
+    require(cairo_surface_status(surface.get()));
     if (format == Format::svg) {
         picture.bytes = renumber_ids(picture.bytes);
     }

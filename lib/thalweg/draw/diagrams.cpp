@@ -211,7 +211,7 @@ namespace {
 constexpr Colour line_colour{0.45, 0.28, 0.14};
 constexpr Colour ground{0.72, 0.56, 0.38, 0.22};
 
-void demand_curve(std::vector<Vec2> const& curve, double integral) {
+void require_curve(std::vector<Vec2> const& curve, double integral) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
         if (!(curve[i].x >= 0.0 && curve[i].x <= 1.0) || !std::isfinite(curve[i].y)) {
             throw BadInput(fmt::format(
@@ -243,7 +243,7 @@ void draw_mean(Cairo* sheet, Plot const& plot, double low, double high, double i
 Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryParams const& params) {
     require_in("draw.hypsometry", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.hypsometry", "height_px", params.height_px, Range::between(200, 8000), "pixels");
-    demand_curve(curve, integral);
+    require_curve(curve, integral);
     double const width = params.width_px;
     double const height = params.height_px;
     double const unit = 14.0 * std::max(0.5, std::min(width / 1000.0, height / 640.0));

@@ -429,14 +429,14 @@ void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, 
     }
 }
 
-void demand_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
+void require_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         refuse_if<BadInput>(!is_finite(line[i]), "draw.map: {} {}, vertex {} has no finite coordinates; mend the line",
                             what, number_of_line, i);
     }
 }
 
-void demand_sheet(MapSheet const& sheet, MapParams const& params) {
+void require_sheet(MapSheet const& sheet, MapParams const& params) {
     require_in("draw.map", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.map", "contour_interval_m", params.contour_interval_m, Range::at_least(0.0));
     Grid const& grid = sheet.dem.grid();
@@ -449,11 +449,11 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
                         "draw.map: the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM",
                         sheet.hillshade.width(), sheet.hillshade.height(), grid.width, grid.height);
     for (std::size_t i = 0; i < sheet.contours.size(); ++i) {
-        demand_finite(sheet.contours[i].second, "contour", i);
+        require_finite(sheet.contours[i].second, "contour", i);
     }
     if (has_ridges(sheet)) {
         for (std::size_t i = 0; i < sheet.ridges->lines.size(); ++i) {
-            demand_finite(in_plan(sheet.ridges->lines[i].line), "ridge", i + 1);
+            require_finite(in_plan(sheet.ridges->lines[i].line), "ridge", i + 1);
         }
     }
     if (sheet.network == nullptr) {
@@ -468,7 +468,7 @@ void demand_sheet(MapSheet const& sheet, MapParams const& params) {
                         "draw.map: a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
                         sheet.areas_m2.size());
     for (ArcId a = 0; a < arcs; ++a) {
-        demand_finite(sheet.network->plan.arc(a).line, "arc", a + 1);
+        require_finite(sheet.network->plan.arc(a).line, "arc", a + 1);
     }
 }
 
@@ -604,7 +604,7 @@ void draw_frame(Cairo* canvas, Layout const& layout) {
 } // namespace
 
 Picture map(MapSheet const& sheet, MapParams const& params) {
-    demand_sheet(sheet, params);
+    require_sheet(sheet, params);
     Layout layout = lay_out(sheet, params);
     double const density = params.format == Format::png ? 1.0 : 2.0; // vector output can be scaled
     Relief const relief = tinted_relief(sheet.dem, sheet.hillshade, density * layout.ground.width);

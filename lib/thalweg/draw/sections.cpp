@@ -345,7 +345,7 @@ void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_
     }
 }
 
-void demand_sections(ElevatedNetwork const* network, NetworkOrders const* orders, SectionsParams const& params) {
+void require_sections(ElevatedNetwork const* network, NetworkOrders const* orders, SectionsParams const& params) {
     require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.sections", "count", params.count, Range::between(1, 9));
     if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->plan.arc_count())) {
@@ -423,7 +423,7 @@ void name_axes(Cairo* cairo, PanelSheet const& sheet, bool across) {
 }
 
 /// Writes the text common to all panels, below the key.
-void say_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
+void write_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
     Box const& key = sheet.key;
     double const high =
         std::min(key.height, key.width * static_cast<double>(grid.height) / static_cast<double>(grid.width));
@@ -438,7 +438,7 @@ void say_scales(Cairo* cairo, PanelSheet const& sheet, Grid const& grid) {
 
 Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, NetworkOrders const* orders,
                  SectionsParams const& params) {
-    demand_sections(network, orders, params);
+    require_sections(network, orders, params);
     std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);
     bool const across = cuts.front().kind == Section::Kind::river;
     MainStem const stem = across ? main_stem(network->plan, *orders) : MainStem{};
@@ -451,7 +451,7 @@ Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, Netwo
         draw_panels(cairo, sheet, cuts);
         name_axes(cairo, sheet, across);
         draw_key(cairo, sheet.key, dem.grid(), stem, cuts, sheet.unit);
-        say_scales(cairo, sheet, dem.grid());
+        write_scales(cairo, sheet, dem.grid());
     });
 }
 

@@ -333,7 +333,7 @@ constexpr int orders_shown = 3; // smaller streams would only hide the net
 constexpr Colour skirt_line{0.55, 0.55, 0.57};
 constexpr Colour river_line{0.08, 0.36, 0.72};
 
-void demand_scene(WireframeScene const& scene, WireframeParams const& params) {
+void require_scene(WireframeScene const& scene, WireframeParams const& params) {
     require_in("draw.wireframe", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     constexpr char const* stage = "draw.wireframe";
     require_in(stage, "azimuth_deg", params.azimuth_deg, Range::between(-36000.0, 36000.0));
@@ -574,7 +574,7 @@ double azimuth_up_valley(WireframeScene const& scene) {
 }
 
 Picture wireframe(WireframeScene const& scene, WireframeParams const& params) {
-    demand_scene(scene, params);
+    require_scene(scene, params);
     Model const model = model_of(scene.dem, params);
     Rivers const rivers = rivers_on(scene, model.knots);
     Sheet const sheet = sheet_for(model.box, params);

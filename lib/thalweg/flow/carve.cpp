@@ -184,7 +184,7 @@ private:
             }
             std::size_t const mark = changes_.size();
             raise_to(lake, from);
-            if (std::int64_t const end = way_out(pit_of(lake), bound - filled); end != nowhere) {
+            if (std::int64_t const end = find_breach(pit_of(lake), bound - filled); end != nowhere) {
                 best = from;
                 bound = filled + cost_[end];
             }
@@ -203,7 +203,7 @@ private:
         std::size_t const mark = changes_.size();
         if (auto const from = depth < deepest ? cheapest_cut(lake, full) : std::nullopt) {
             double moved = raise_to(lake, *from);
-            moved += cut_back_from(way_out(pit_of(lake), full));
+            moved += cut_back_from(find_breach(pit_of(lake), full));
             flood_again(lake.cells);
             for (Lake const& rest : lakes_among(lake.cells)) {
                 moved += drain(rest, depth + 1);
@@ -240,7 +240,7 @@ private:
 
     /// Finds the least-cost path from a pit to a cell that drains, if it costs less than the bound.
     /// \return the last cell to be cut
-    std::int64_t way_out(std::int64_t pit, double bound) {
+    std::int64_t find_breach(std::int64_t pit, double bound) {
         ++stamp_;
         Lowest<double> queue;
         seen_[pit] = stamp_;

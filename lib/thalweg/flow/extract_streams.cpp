@@ -52,7 +52,7 @@ struct Steps {
 };
 
 /// Adds the cells that drain into outlets outside any arc to the first arc that ends there, as areas_d8 does.
-void give_outlets(StreamNetwork const& plan, ContributingAreas& areas) {
+void add_outlet_areas(StreamNetwork const& plan, ContributingAreas& areas) {
     for (NodeId const outlet : plan.outlets()) {
         double const brought = std::accumulate(plan.in(outlet).begin(), plan.in(outlet).end(), 0.0,
                                                [&](double sum, ArcId a) { return sum + areas.ds_area_m2[a]; });
@@ -109,7 +109,7 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
         streams.areas.ds_area_m2.push_back(area_m2(last));
     }
     streams.network.plan = std::move(plan);
-    give_outlets(streams.network.plan, streams.areas);
+    add_outlet_areas(streams.network.plan, streams.areas);
     return streams;
 }
 

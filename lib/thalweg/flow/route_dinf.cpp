@@ -117,13 +117,13 @@ Raster<float> bearings(Raster<float> const& level, Raster<Direction> const& dire
 }
 
 /// The two receivers of a cell, as index offsets, and the share of the second.
-struct Parting {
+struct FlowSplit {
     std::int64_t first;
     std::int64_t second;
     double share;
 };
 
-Parting parting(float bearing, std::array<std::int64_t, 8> const& offsets) {
+FlowSplit flow_split(float bearing, std::array<std::int64_t, 8> const& offsets) {
     auto const k = static_cast<std::size_t>(bearing);
     return {offsets[k], offsets[(k + 1) % offsets.size()], static_cast<double>(bearing) - static_cast<double>(k)};
 }
@@ -140,7 +140,7 @@ Raster<double> accumulate(Raster<float> const& bearing, Run const& run) {
         area[i] = 1.0;
         ++left;
         if (bearing[i] >= 0.0F) {
-            Parting const p = parting(bearing[i], offsets);
+            FlowSplit const p = flow_split(bearing[i], offsets);
             ++awaited[i + p.first];
             if (p.share > 0.0) {
                 ++awaited[i + p.second];
@@ -171,7 +171,7 @@ Raster<double> accumulate(Raster<float> const& bearing, Run const& run) {
             if (bearing[at] < 0.0F) {
                 continue;
             }
-            Parting const p = parting(bearing[at], offsets);
+            FlowSplit const p = flow_split(bearing[at], offsets);
             double const second = p.share * area[at];
             arrive(at + p.first, area[at] - second);
             if (p.share > 0.0) {

@@ -189,7 +189,7 @@ double largest_error(std::vector<Goal> const& goals, FieldStatistics const& is, 
 }
 
 // The largest remaining difference in longest steps; infinite: a statistic is undefined.
-double longest_way(std::vector<Goal> const& goals, FieldStatistics const& is) {
+double most_remaining_steps(std::vector<Goal> const& goals, FieldStatistics const& is) {
     double longest = 0.0;
     for (Goal const& goal : goals) {
         double const steps = std::fabs(missing(goal, is)) / goal.longest_step;
@@ -555,7 +555,7 @@ Nearest approach(Land land, FieldStatistics is, std::vector<Goal> const& goals, 
     Nearest nearest;
     double reach = 1.0;
     for (int iteration = 0;; ++iteration) {
-        double const way = longest_way(goals, is);
+        double const way = most_remaining_steps(goals, is);
         double const error = largest_error(goals, is, deviation);
         if (iteration == 0 || error <= params.tolerance || way < nearest.way) {
             keep(nearest, land, is, way, error, bounds.limiter);

@@ -22,7 +22,7 @@ constexpr std::uint64_t noise_stage = 0x6e6f697365616c31; // "noiseal1"
 constexpr double sum_of_gains = 1.875;                    // of four octaves
 constexpr double widest_shift = 256.0;                    // [wavelengths] period of libnoise's noise
 
-void demand(NoiseAlongParams const& params) {
+void require(NoiseAlongParams const& params) {
     require_in("skeleton.noise_along", "amplitude_m", params.amplitude_m, Range::at_least(0.0));
     require_in("skeleton.noise_along", "wavelength_m", params.wavelength_m, Range::above(0.0));
 }
@@ -45,7 +45,7 @@ Vec2 scaled(PlaceOnLine const& place, std::size_t number, Vec2 origin, double wa
 
 std::vector<double> noise_along(std::vector<PlaceOnLine> const& places, Vec2 origin, NoiseAlongParams const& params,
                                 Run const& run) {
-    demand(params);
+    require(params);
     run.check();
     auto const words = random_block(params.seed, noise_stage);
     // libnoise truncates its seed to 16 bits, and its noise is 0 at whole coordinates.
@@ -86,7 +86,7 @@ void raise(Raster<float>& z, std::int64_t cell, double height) {
     }
 }
 
-void demand_height(Vec3 const& p, std::string const& what) {
+void require_height(Vec3 const& p, std::string const& what) {
     constexpr double highest = std::numeric_limits<float>::max();
     refuse_if<BadInput>(
         !(std::fabs(p.z) <= highest),
@@ -101,7 +101,7 @@ std::vector<Cell> cells_of(std::vector<Vec3> const& line, Grid const& grid, std:
     }
     std::vector<Cell> cells = cells_of_vertices(plan, grid, what);
     for (Vec3 const& p : line) {
-        demand_height(p, what);
+        require_height(p, what);
     }
     return cells;
 }

@@ -19,7 +19,7 @@ namespace {
 
 constexpr std::int64_t cells_a_range = 65536;
 
-void demand(Skeleton const& skeleton, MidpointInverseParams const& params) {
+void require(Skeleton const& skeleton, MidpointInverseParams const& params) {
     require_in("skeleton.midpoint_inverse", "longest_cells", params.longest_cells, Range::at_least(0.0).or_infinite());
     for (std::int64_t i = 0; i < skeleton.z.cells(); ++i) {
         if (std::isinf(skeleton.z[i])) {
@@ -85,7 +85,7 @@ void copy_shared(Raster<float> const& from, Raster<float>& to) {
 } // namespace
 
 Skeleton midpoint_inverse(Skeleton const& skeleton, MidpointInverseParams const& params, Run const& run) {
-    demand(skeleton, params);
+    require(skeleton, params);
     Grid const& grid = skeleton.z.grid();
     std::int64_t whole = 1; // side of the square minus one
     while (whole < std::max(grid.width, grid.height) - 1) {

@@ -126,7 +126,7 @@ private:
     double half_y_;
 };
 
-void demand(FeaturePoints const& points, Grid const& grid, RegressParams const& p, std::size_t terms) {
+void require(FeaturePoints const& points, Grid const& grid, RegressParams const& p, std::size_t terms) {
     auto const refuse = [](std::string const& what) { throw BadParameter("skeleton.regress: " + what); };
     if (grid.cells() <= 0 || !(grid.cell_m > 0.0)) {
         refuse("the grid has no cells");
@@ -207,7 +207,7 @@ Regression regress(FeaturePoints const& points, Grid const& grid, RegressParams 
             columns.push_back(term);
         }
     }
-    demand(points, grid, params, columns.size());
+    require(points, grid, params, columns.size());
 
     solver::Matrix a(points.points.size(), columns.size());
     std::vector<double> b(points.points.size());

@@ -243,7 +243,7 @@ RidgeLines chain_ridges(std::vector<RidgePiece> pieces) {
     return Chains(std::move(pieces)).take();
 }
 
-void demand(RidgesParams const& params, Grid const& grid) {
+void require(RidgesParams const& params, Grid const& grid) {
     for (auto const& [name, value] : {std::pair{"gain", params.gain},
                                       {"farthest_m", params.farthest_m},
                                       {"spacing_m", params.spacing_m},
@@ -256,7 +256,7 @@ void demand(RidgesParams const& params, Grid const& grid) {
                             grid.cell_m);
 }
 
-void demand(ElevatedNetwork const& network, std::vector<std::int64_t> const& labels) {
+void require(ElevatedNetwork const& network, std::vector<std::int64_t> const& labels) {
     std::size_t const arcs = network.plan.arc_count();
     refuse_if<BadInput>(labels.size() != arcs || network.arc_z.size() != arcs,
                         "skeleton.ridges: {} labels and heights of {} arcs for a network of {}; give one for each arc",
@@ -350,8 +350,8 @@ double or_else(double asked, double chosen) {
 
 RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> const& stream_of_arc, Grid const& grid,
                   RidgesParams const& params, Run const& run) {
-    demand(params, grid);
-    demand(network, stream_of_arc);
+    require(params, grid);
+    require(network, stream_of_arc);
     LabelledRivers rivers;
     for (std::size_t const a : downstream_first(network.plan)) {
         rivers.lines.push_back({network.plan.arc(a).line, stream_of_arc[a]});

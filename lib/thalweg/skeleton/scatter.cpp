@@ -203,7 +203,7 @@ void spread(Crowd& crowd, Ground const& ground, PlacePointsParams const& params,
     }
 }
 
-void demand_room(Grid const& grid, PlacePointsParams const& params) {
+void require_room(Grid const& grid, PlacePointsParams const& params) {
     // Points may lie on the border itself: the spacing requires slightly less than the grid's area.
     double const ground = (static_cast<double>(grid.width) + params.spacing_cells) *
                           (static_cast<double>(grid.height) + params.spacing_cells);
@@ -232,7 +232,7 @@ void thin_out(std::vector<Vec2>& places, std::size_t wanted, std::uint64_t seed)
 // whole grid could hold the points. Source: Zhang, Liu and Li, equations 6, 7 and 11; dart throwing, above a density of
 // 0.62 on a whole grid Bridson 2007 (denser).
 PlacedPoints place_points(Grid const& grid, Mask const& free, PlacePointsParams const& params, Run const& run) {
-    demand_room(grid, params);
+    require_room(grid, params);
     Ground const ground{grid, free};
     std::int64_t const cells = ground.cells();
     PlacedPoints placed;
@@ -315,7 +315,7 @@ std::vector<double> heights(std::size_t count, ScatterParams const& params) {
     return z;
 }
 
-void demand(Grid const& grid, ScatterParams const& p, double spacing_m) {
+void require(Grid const& grid, ScatterParams const& p, double spacing_m) {
     auto const refuse = [](std::string const& what) { throw BadParameter("skeleton.scatter: " + what); };
     if (grid.cells() <= 0 || !(grid.cell_m > 0.0)) {
         refuse("the grid has no cells");
@@ -362,7 +362,7 @@ void attract(Vec3& point, Vec3 const& extreme, double reach_m, Falloff falloff) 
 
 Scattered scatter(Grid const& grid, ScatterParams const& params, Run const& run) {
     double const spacing_m = params.spacing_cells * grid.cell_m;
-    demand(grid, params, spacing_m);
+    require(grid, params, spacing_m);
     std::vector<Vec3> extremes;
     PlacePointsParams placing{params.seed, params.count, params.spacing_cells};
     for (auto const& extreme : {params.highest, params.lowest}) {
@@ -401,7 +401,7 @@ namespace {
 constexpr std::uint64_t share_stage = 0x7363617474657235; // "scatter5"
 constexpr double nearest_allowed_cells = 2.0;
 
-void demand(Valley const& valley, Mask const& inside, ScatterBetweenParams const& p) {
+void require(Valley const& valley, Mask const& inside, ScatterBetweenParams const& p) {
     constexpr char const* stage = "skeleton.scatter_between";
     require_in(stage, "count", p.count, Range::at_least(0));
     require_in(stage, "spacing", p.spacing_cells, Range::at_least(0.0), "cells");
@@ -481,7 +481,7 @@ double share_of(std::uint64_t place, ScatterBetweenParams const& params) {
 
 Scattered scatter_between(Valley const& valley, Mask const& inside, ScatterBetweenParams const& params,
                           Run const& run) {
-    demand(valley, inside, params);
+    require(valley, inside, params);
     Grid const& grid = valley.z.grid();
     Raster<std::int64_t> const nearest = nearest_cells(rivers_of(valley), run);
     double const clear = std::max(params.spacing_cells, nearest_allowed_cells);

@@ -35,8 +35,8 @@ TEST(Error, ATextWithoutAModuleIsTheMessage) {
 TEST(Error, TheFunctionIsKeptApart) {
     EXPECT_EQ(parts("network.prune: L is 3: too short").where, "network.prune");
     EXPECT_EQ(parts("network.prune: L is 3: too short").what, "L is 3: too short");
-    EXPECT_EQ(parts("io.Undisturbed: ").where, "io.Undisturbed");
-    EXPECT_EQ(parts("io.Undisturbed: ").what, "");
+    EXPECT_EQ(parts("io.UnchangedFile: ").where, "io.UnchangedFile");
+    EXPECT_EQ(parts("io.UnchangedFile: ").what, "");
 }
 
 TEST(Error, AFileNamedLikeAFunctionStays) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/mend_network.hpp>
+#include <thalweg/pipeline/commands/internal/repair_network.hpp>
 
 #include <algorithm>
 #include <string>
@@ -13,16 +13,16 @@ namespace mend_network_test {
 
 using namespace thalweg;
 using measure::check_topology;
-using pipeline::mend_network;
-using pipeline::MendedNetwork;
+using pipeline::repair_network;
+using pipeline::RepairedNetwork;
 
 namespace {
 
-MendedNetwork mend(NetworkFile const& file) {
-    return mend_network(file, check_topology(file));
+RepairedNetwork mend(NetworkFile const& file) {
+    return repair_network(file, check_topology(file));
 }
 
-std::vector<std::string> kinds_of(MendedNetwork const& mended) {
+std::vector<std::string> kinds_of(RepairedNetwork const& mended) {
     std::vector<std::string> kinds;
     for (Finding const& f : mended.mended) {
         kinds.push_back(f.kind);
@@ -46,7 +46,7 @@ std::vector<std::vector<std::tuple<double, double, double>>> lines_of(NetworkFil
 } // namespace
 
 TEST(MendNetwork, NothingIsLeftOfNothing) {
-    MendedNetwork const mended = mend({});
+    RepairedNetwork const mended = mend({});
     EXPECT_FALSE(mended.done);
     EXPECT_EQ(kinds_of(mended), std::vector<std::string>{"not_mended"});
 }
@@ -54,7 +54,7 @@ TEST(MendNetwork, NothingIsLeftOfNothing) {
 TEST(MendNetwork, WhatHasNoFaultStays) {
     for (std::uint64_t seed = 0; seed < 10; ++seed) {
         NetworkFile const file = faults::clean(seed);
-        MendedNetwork const mended = mend(file);
+        RepairedNetwork const mended = mend(file);
         ASSERT_TRUE(mended.done);
         EXPECT_TRUE(mended.mended.empty()) << mended.mended.front().text;
         EXPECT_EQ(lines_of(measure::as_file(mended.network, mended.orders)), lines_of(file));
@@ -69,7 +69,7 @@ TEST(MendNetwork, EveryFaultThatCanBeMendedIs) {
             if (f.plant(file, random_word(seed, fault) % file.arcs.size()).empty()) {
                 continue;
             }
-            MendedNetwork const mended = mend(file);
+            RepairedNetwork const mended = mend(file);
             std::string const why = mended.mended.empty() ? "nothing" : mended.mended.back().text;
             ASSERT_TRUE(mended.done) << f.kind << ", " << f.what << ", seed " << seed << ": " << why;
             EXPECT_FALSE(mended.mended.empty()) << f.kind << ", " << f.what << ": nothing is said";
@@ -86,7 +86,7 @@ TEST(MendNetwork, NumbersAloneChangeNoLine) {
     file.arcs[3].strahler = 99;
     file.arcs[4].ds_arc = 99;
     file.arcs[5].to_node = 1;
-    MendedNetwork const mended = mend(file);
+    RepairedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"mended", "mended", "mended"}));
     EXPECT_EQ(lines_of(measure::as_file(mended.network, mended.orders)), before);
@@ -101,7 +101,7 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
         file.arcs[a].braided = a == 7;
     }
     std::reverse(file.arcs[7].line.begin(), file.arcs[7].line.end());
-    MendedNetwork const mended = mend(file);
+    RepairedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended"}));
     ASSERT_EQ(mended.network.plan.arc_count(), file.arcs.size());
@@ -124,7 +124,7 @@ TEST(MendNetwork, WithoutHeightsAllAreZero) {
         node.at.z = faults::no_number;
     }
     file.says.heights = false;
-    MendedNetwork const mended = mend(file);
+    RepairedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), std::vector<std::string>{"level"});
     EXPECT_EQ(std::count(mended.network.node_z.begin(), mended.network.node_z.end(), 0.0),
@@ -135,7 +135,7 @@ TEST(MendNetwork, AHeightIsFilledBetweenItsNeighbours) {
     NetworkFile file;
     file.nodes = {{1, {0, 0, 8}}, {2, {4, 0, 0}}};
     file.arcs = {{1, 1, 2, 0, 1, 1, 1, {{0, 0, 8}, {1, 0, 6}, {2, 0, faults::no_number}, {3, 1, 2}, {4, 0, 0}}}};
-    MendedNetwork const mended = mend(file);
+    RepairedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(mended.network.arc_z.front(), (std::vector<double>{8, 6, 4, 2, 0}));
 }

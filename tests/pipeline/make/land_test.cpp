@@ -135,10 +135,10 @@ TEST(Land, ClustersStopAtTheirRadius) {
     std::string const radius = "radius = 40\n";
     Made const free = made(rivers);
     Made const bound = made(rivers + radius);
-    EXPECT_FALSE(free.planform.story.wide);
-    EXPECT_EQ(free.planform.story.particles, 3000);
-    EXPECT_TRUE(bound.planform.story.wide);
-    EXPECT_LT(bound.planform.story.particles, 3000);
+    EXPECT_FALSE(free.planform.statistics.wide);
+    EXPECT_EQ(free.planform.statistics.particles, 3000);
+    EXPECT_TRUE(bound.planform.statistics.wide);
+    EXPECT_LT(bound.planform.statistics.particles, 3000);
 }
 
 TEST(Land, IncrementsThatJumpAreWarnedOf) {

@@ -62,11 +62,11 @@ TEST(ReliefRows, NoiseIsNotLand) {
     EXPECT_FALSE(row_of(rows, "peaks").ok());
     EXPECT_TRUE(row_of(rows, "pits_over_peaks").ok()); // judges nothing
     EXPECT_GT(*row_of(rows, "pits_over_peaks").value, 0.8);
-    std::string const told = unlike_land(rows, false);
+    std::string const told = unusual_relief(rows, false);
     EXPECT_NE(told.find("gradient_correlation_720 "), std::string::npos) << told;
     EXPECT_NE(told.find("form_distance "), std::string::npos) << told;
     EXPECT_EQ(told.find("peaks"), std::string::npos) << told;
-    EXPECT_EQ(unlike_land(relief_rows(relief_of_sample("jacksboro_utm16.tif")), false), "");
+    EXPECT_EQ(unusual_relief(relief_rows(relief_of_sample("jacksboro_utm16.tif")), false), "");
 }
 
 // What cannot be known is null, not a number and not a fault.

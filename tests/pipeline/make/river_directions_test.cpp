@@ -332,7 +332,7 @@ TEST(RiverDirections, AFileDrawnFromTheMouthIsTurned) {
     ScratchFolder const folder;
     folder.write("rivers.geojson", test::geojson(from_the_mouth));
     Logged const logged = make_lines(folder);
-    StreamNetwork const& network = logged.made.planform.file.adopted;
+    StreamNetwork const& network = logged.made.planform.file.imported;
     ASSERT_EQ(network.outlets().size(), 1U);
     EXPECT_EQ(network.node(network.outlets()[0]).at, (Vec2{500000, 5000000}));
     ASSERT_TRUE(logged.made.assessment.given);
@@ -377,7 +377,7 @@ TEST(RiverDirections, WhatIsUncertainADemDecides) {
     Logged const with = make_lines(folder, "dem = \"dem.asc\"\n");
     EXPECT_TRUE(with.about("is uncertain").empty());
     std::vector<Vec2> outlets;
-    StreamNetwork const& network = with.made.planform.file.adopted;
+    StreamNetwork const& network = with.made.planform.file.imported;
     for (NodeId const n : network.outlets()) {
         outlets.push_back(network.node(n).at);
     }

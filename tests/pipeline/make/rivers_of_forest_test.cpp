@@ -106,7 +106,7 @@ TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
     Made const t = made(small_grid + forest + dilated);
     expect_lawful(t);
     EXPECT_TRUE(t.terrain.land.values().empty());
-    EXPECT_TRUE(t.planform.story.full);
+    EXPECT_TRUE(t.planform.statistics.full);
     EXPECT_GT(t.terrain.rivers.network.plan.outlets().size(), 5U);
 }
 

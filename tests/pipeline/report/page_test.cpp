@@ -198,7 +198,7 @@ TEST(Page, LongListsAreCut) {
     Made terrain = small_terrain(Land::with);
     terrain.terrain.surface->increments.assign(5000, 2.0);
     terrain.assessment.findings.assign(61, {"uphill", 1, {}, 0.0, "arc 1 runs uphill"});
-    terrain.planform.story.repairs.clear();
+    terrain.planform.statistics.repairs.clear();
     terrain.terrain.notes.clear();
     json const data = data_of(page(terrain));
     json const& points = data["curve"]["points"];

@@ -23,7 +23,7 @@ using namespace thalweg::surface;
 namespace {
 
 /// Rivers at random in the frame of a closed land.
-LandLevel any_level() {
+TerrainLevel any_level() {
     auto const width = *rc::gen::inRange<std::int64_t>(1, 25).as("width");
     auto const height = *rc::gen::inRange<std::int64_t>(1, 25).as("height");
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
@@ -31,30 +31,30 @@ LandLevel any_level() {
     auto const end = static_cast<std::int64_t>(random_word(seed, 1) % static_cast<std::uint64_t>(grid.cells()));
     Channels const rivers =
         channel_trees::grown(grid, {0, end}, {}, grid.cells() / 3 + 1, channel_trees::Room::crowd, seed);
-    LandLevel level;
+    TerrainLevel level;
     level.width = width + 2;
     level.height = height + 2;
     EquilibriumParams closed;
     closed.edge = Edge::closed;
-    level.rivers = widened(rivers, {}, closed).rivers;
+    level.rivers = padded(rivers, {}, closed).rivers;
     return level;
 }
 
 /// Rough land around such rivers, with some banks among it.
-LandLevel any_land() {
-    LandLevel level = any_level();
+TerrainLevel any_land() {
+    TerrainLevel level = any_level();
     auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("land");
     auto const cells = static_cast<std::size_t>(level.cells());
-    level.cover.assign(cells, Cover::outside);
+    level.type.assign(cells, CellType::outside);
     level.z.assign(cells, std::numeric_limits<float>::infinity());
     level.cap.assign(cells, 0.0F);
     each_inner(level, [&](std::size_t i) {
-        level.cover[i] = random_word(seed, 1, i) % 10 == 0 ? Cover::bank : Cover::land;
+        level.type[i] = random_word(seed, 1, i) % 10 == 0 ? CellType::bank : CellType::land;
         level.z[i] = static_cast<float>(random_word(seed, 2, i) % 1000) * 0.01F;
         level.cap[i] = 0.1F + static_cast<float>(random_word(seed, 3, i) % 10) * 0.05F;
     });
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
-        level.cover[level.rivers.cell[n]] = Cover::river;
+        level.type[level.rivers.cell[n]] = CellType::river;
     }
     return level;
 }
@@ -88,7 +88,7 @@ TEST(AreaPower, BendsToALeast) {
 // Without obstacles the nearest river by steps of 1 and sqrt(2) is known for each pair of cells.
 TEST(NearestRiver, IsTheNearestOfAll) {
     EXPECT_TRUE(rc::check("nearest of all", [] {
-        LandLevel const level = any_level();
+        TerrainLevel const level = any_level();
         NearestRiver const near = nearest_river(level);
         for (std::int64_t row = 1; row + 1 < level.height; ++row) {
             for (std::int64_t col = 1; col + 1 < level.width; ++col) {
@@ -113,22 +113,22 @@ TEST(NearestRiver, IsTheNearestOfAll) {
 // Areas are what is counted when each cell's water is followed to its end; no cell stands behind its receiver.
 TEST(OrderCells, CountsWhatDrainsThrough) {
     EXPECT_TRUE(rc::check("counts what drains through", [] {
-        LandLevel level = any_level();
+        TerrainLevel level = any_level();
         auto const cells = static_cast<std::size_t>(level.cells());
-        level.cover.assign(cells, Cover::outside);
-        level.way.assign(cells, no_way);
+        level.type.assign(cells, CellType::outside);
+        level.direction.assign(cells, no_direction);
         for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
             // A forest as good as any; its ends are where water leaves.
-            level.cover[level.rivers.cell[n]] = level.rivers.receiver[n] < 0 ? Cover::edge : Cover::land;
-            level.way[level.rivers.cell[n]] = level.rivers.way[n];
+            level.type[level.rivers.cell[n]] = level.rivers.receiver[n] < 0 ? CellType::boundary : CellType::land;
+            level.direction[level.rivers.cell[n]] = level.rivers.direction[n];
         }
-        order_cells(level);
+        set_stack_order(level);
         std::vector<std::uint32_t> counted(cells);
         auto const offsets = level.offsets();
         for (std::size_t i = 0; i < cells; ++i) {
-            for (std::size_t at = i;; at = moved(at, offsets[static_cast<std::size_t>(level.way[at])])) {
+            for (std::size_t at = i;; at = moved(at, offsets[static_cast<std::size_t>(level.direction[at])])) {
                 ++counted[at];
-                if (level.way[at] == no_way) {
+                if (level.direction[at] == no_direction) {
                     break;
                 }
             }
@@ -138,13 +138,13 @@ TEST(OrderCells, CountsWhatDrainsThrough) {
             RC_ASSERT(level.area[i] == counted[i]);
         }
         for (std::uint32_t const i : level.order) {
-            RC_ASSERT(level.cover[i] == Cover::land);
+            RC_ASSERT(level.type[i] == CellType::land);
             RC_ASSERT(seen.insert(i).second);
-            auto const below = moved(i, offsets[static_cast<std::size_t>(level.way[i])]);
+            auto const below = moved(i, offsets[static_cast<std::size_t>(level.direction[i])]);
             RC_ASSERT(!seen.contains(static_cast<std::uint32_t>(below)));
         }
         RC_ASSERT(static_cast<std::ptrdiff_t>(seen.size()) ==
-                  std::count(level.cover.begin(), level.cover.end(), Cover::land));
+                  std::count(level.type.begin(), level.type.end(), CellType::land));
     }));
 }
 
@@ -152,7 +152,7 @@ TEST(OrderCells, CountsWhatDrainsThrough) {
 // cell lies in each coarse cell that has fine ones, and nowhere else.
 TEST(CoarsenedRivers, AreTrees) {
     EXPECT_TRUE(rc::check("coarse rivers are trees", [] {
-        LandLevel const level = any_level();
+        TerrainLevel const level = any_level();
         std::int64_t const width = (level.width - 1) / 2 + 2;
         std::int64_t const height = (level.height - 1) / 2 + 2;
         RiverCells const coarse = coarsened(level.rivers, level.width, width, height);
@@ -167,7 +167,7 @@ TEST(CoarsenedRivers, AreTrees) {
         RC_ASSERT(cells.size() == coarse.cell.size());
         for (std::size_t n = 0; n < coarse.cell.size(); ++n) {
             RC_ASSERT(coarse.receiver[n] < static_cast<std::int32_t>(n));
-            RC_ASSERT((coarse.receiver[n] < 0) == (coarse.way[n] < 0));
+            RC_ASSERT((coarse.receiver[n] < 0) == (coarse.direction[n] < 0));
         }
     }));
 }
@@ -175,14 +175,14 @@ TEST(CoarsenedRivers, AreTrees) {
 // The heights are what sweeps over all cells come to that lower each as far as any neighbour asks for.
 TEST(SlideLand, IsTheGreatestThatMayStand) {
     ASSERT_TRUE(rc::check("the greatest heights that may stand", [] {
-        LandLevel level = any_land();
-        LandLevel plain = level;
-        slide_land(level);
+        TerrainLevel level = any_land();
+        TerrainLevel plain = level;
+        slide_terrain(level);
         auto const offsets = plain.offsets();
         for (bool more = true; more;) {
             more = false;
             each_inner(plain, [&](std::size_t i) {
-                for (std::size_t k = 0; k < 8 && plain.cover[i] == Cover::land; ++k) {
+                for (std::size_t k = 0; k < 8 && plain.type[i] == CellType::land; ++k) {
                     float const most =
                         plain.z[moved(i, offsets[k])] + 1.5F * plain.cap[i] * plain.side * step_lengths[k];
                     more = more || plain.z[i] > most;
@@ -197,7 +197,7 @@ TEST(SlideLand, IsTheGreatestThatMayStand) {
 // Land rises only, rivers fall only and stay above their receivers; nothing is perched above land any more.
 TEST(Perched, IsLoweredOrHeldUp) {
     ASSERT_TRUE(rc::check("lowered or held up", [] {
-        LandLevel level = any_land();
+        TerrainLevel level = any_land();
         RiverCells const& rivers = level.rivers;
         float const tangent = 0.5F;
         float const step = 0.002F;
@@ -221,7 +221,7 @@ TEST(Perched, IsLoweredOrHeldUp) {
             }
         }
         each_inner(level, [&](std::size_t i) {
-            if (level.cover[i] != Cover::river) {
+            if (level.type[i] != CellType::river) {
                 RC_ASSERT(lowered[i] == before[i]);
                 RC_ASSERT(level.z[i] >= lowered[i]);
             }
@@ -238,7 +238,7 @@ TEST(Perched, IsLoweredOrHeldUp) {
                     auto const i = static_cast<std::size_t>(r * level.width + c);
                     bool const on_ring = std::abs(r - row) == 2 || std::abs(c - col) == 2;
                     lowest_land =
-                        on_ring && level.cover[i] == Cover::land ? std::min(lowest_land, level.z[i]) : lowest_land;
+                        on_ring && level.type[i] == CellType::land ? std::min(lowest_land, level.z[i]) : lowest_land;
                 }
             }
             RC_ASSERT(level.z[rivers.cell[n]] <= lowest_land + tangent * 1.0001F * level.side);
@@ -249,12 +249,12 @@ TEST(Perched, IsLoweredOrHeldUp) {
 namespace {
 
 /// Any land with an open frame.
-LandLevel any_open_land() {
-    LandLevel level = any_land();
+TerrainLevel any_open_land() {
+    TerrainLevel level = any_land();
     auto const width = static_cast<std::size_t>(level.width);
-    for (std::size_t i = 0; i < level.cover.size(); ++i) {
-        bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
-        level.cover[i] = inside ? level.cover[i] : Cover::edge;
+    for (std::size_t i = 0; i < level.type.size(); ++i) {
+        bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.type.size();
+        level.type[i] = inside ? level.type[i] : CellType::boundary;
     }
     return level;
 }
@@ -264,13 +264,13 @@ LandLevel any_open_land() {
 // The land's edge is as high as the nearest river, also when heads have been given up and the others are counted anew.
 TEST(EdgeHeights, AskNoNumbers) {
     ASSERT_TRUE(rc::check("edges keep their heights when rivers are counted anew", [] {
-        LandLevel level = any_open_land();
-        EdgeCells const edge = edge_cells(level, nearest_river(level), Beyond::rivers);
+        TerrainLevel level = any_open_land();
+        BoundaryCells const edge = boundary_cells(level, nearest_river(level), Beyond::rivers);
         RC_ASSERT(edge.ring.cell.size() == static_cast<std::size_t>(2 * (level.width + level.height) - 4));
-        set_edge_heights(level, edge);
+        set_boundary_heights(level, edge);
         Cells<float> const before = level.z;
         level.rivers = {};
-        set_edge_heights(level, edge);
+        set_boundary_heights(level, edge);
         RC_ASSERT(level.z == before);
     }));
 }
@@ -278,11 +278,11 @@ TEST(EdgeHeights, AskNoNumbers) {
 // Valleys beyond the edge lie nowhere higher than rivers would, and above the lowest river or what touches them.
 TEST(EdgeHeights, ValleysLieLowerThanRivers) {
     ASSERT_TRUE(rc::check("valleys lie lower", [] {
-        LandLevel level = any_open_land();
-        set_edge_heights(level, edge_cells(level, nearest_river(level), Beyond::rivers));
+        TerrainLevel level = any_open_land();
+        set_boundary_heights(level, boundary_cells(level, nearest_river(level), Beyond::rivers));
         Cells<float> const as_rivers = level.z;
-        EdgeCells const edge = edge_cells(level, nearest_river(level), Beyond::valleys);
-        set_edge_heights(level, edge);
+        BoundaryCells const edge = boundary_cells(level, nearest_river(level), Beyond::valleys);
+        set_boundary_heights(level, edge);
         float lowest = std::numeric_limits<float>::infinity();
         for (std::uint32_t const river : level.rivers.cell) {
             lowest = std::min(lowest, level.z[river]);

@@ -183,7 +183,7 @@ TEST(RiversOfRegion, GoOnToTheBorderOrToOneAnother) {
     for (std::uint32_t const cell : {16U * 18U + 8U, 8U * 18U + 16U, 1U * 18U + 8U}) {
         inner.cell.push_back(cell);
         inner.receiver.push_back(-1);
-        inner.way.push_back(-1);
+        inner.direction.push_back(-1);
         inner.level.push_back(0);
         inner.number.push_back(static_cast<std::int64_t>(inner.cell.size()) - 1);
     }
@@ -211,17 +211,17 @@ TEST(RiversOfRegion, GoOnToTheBorderOrToOneAnother) {
 }
 
 TEST(OrderCells, AddsInflowsDownstream) {
-    LandLevel level;
+    TerrainLevel level;
     level.width = 6;
     level.height = 3;
-    level.cover.assign(18, Cover::outside);
-    level.way.assign(18, -1);
+    level.type.assign(18, CellType::outside);
+    level.direction.assign(18, -1);
     for (std::size_t i = 7; i < 11; ++i) {
-        level.cover[i] = Cover::land;
-        level.way[i] = i < 10 ? std::int8_t{0} : std::int8_t{-1};
+        level.type[i] = CellType::land;
+        level.direction[i] = i < 10 ? std::int8_t{0} : std::int8_t{-1};
     }
     level.inflow = {{8, 100}};
-    order_cells(level);
+    set_stack_order(level);
     EXPECT_EQ(level.area[7], 1U);
     EXPECT_EQ(level.area[8], 102U);
     EXPECT_EQ(level.area[9], 103U);

@@ -28,7 +28,7 @@ struct SolvedLand {
     Mask land; ///< without cells: all
     std::int64_t margin = 0;
     Channels rivers;
-    LandLevel level;
+    TerrainLevel level;
 
     Window window() const { return {grid, land, margin}; }
 };
@@ -38,13 +38,13 @@ SolvedLand solved_land(std::int64_t width, std::int64_t height, std::int64_t mar
     out.grid = {width, height, 10.0, 0.0, 10.0 * static_cast<double>(height), ""};
     out.margin = margin;
     out.rivers.grid = out.grid;
-    LandLevel& level = out.level;
+    TerrainLevel& level = out.level;
     level.width = width + 2 * margin + 2;
     level.height = height + 2 * margin + 2;
-    level.cover.assign(static_cast<std::size_t>(level.cells()), Cover::outside);
-    level.z.assign(level.cover.size(), std::numeric_limits<float>::infinity());
+    level.type.assign(static_cast<std::size_t>(level.cells()), CellType::outside);
+    level.z.assign(level.type.size(), std::numeric_limits<float>::infinity());
     each_inner(level, [&](std::size_t i) {
-        level.cover[i] = Cover::land;
+        level.type[i] = CellType::land;
         level.z[i] = static_cast<float>(random_word(seed, i) % 1000) * 0.01F;
     });
     std::int64_t const row = height / 2;
@@ -52,25 +52,25 @@ SolvedLand solved_land(std::int64_t width, std::int64_t height, std::int64_t mar
         auto const i = static_cast<std::size_t>((row + margin + 1) * level.width + col + margin + 1);
         out.rivers.cell.push_back(out.grid.index({col, row}));
         out.rivers.receiver.push_back(col - 1);
-        level.cover[i] = Cover::river;
+        level.type[i] = CellType::river;
         level.z[i] = 0.1F * static_cast<float>(col + 1);
         level.rivers.cell.push_back(static_cast<std::uint32_t>(i));
         level.rivers.receiver.push_back(static_cast<std::int32_t>(col) - 1);
-        level.rivers.way.push_back(col == 0 ? no_way : std::int8_t{4}); // to the west
+        level.rivers.direction.push_back(col == 0 ? no_direction : std::int8_t{4}); // to the west
         level.rivers.level.push_back(0);
         level.rivers.number.push_back(col);
     }
     auto const offsets = level.offsets();
     each_inner(level, [&](std::size_t i) {
         bool const beside = std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
-            return level.cover[moved(i, offset)] == Cover::river;
+            return level.type[moved(i, offset)] == CellType::river;
         });
-        if (level.cover[i] == Cover::land && beside) {
-            level.cover[i] = Cover::bank;
+        if (level.type[i] == CellType::land && beside) {
+            level.type[i] = CellType::bank;
         }
     });
-    flood_land(level);
-    order_cells(level);
+    flood_terrain(level);
+    set_stack_order(level);
     return out;
 }
 
@@ -127,7 +127,7 @@ void require_steepest(Raster<float> const& dem, Cell c, flow::Direction directio
 TEST(WrittenLand, OneCell) {
     SolvedLand const land = solved_land(1, 1, 0, 7);
     EquilibriumTerrain const out =
-        written_land(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, Heads::cut, {});
+        extract_terrain(land.level, land.rivers, land.window(), {10.0, -1.0, 0.5}, {}, Heads::cut, {});
     ASSERT_EQ(out.dem.cells(), 1);
     EXPECT_NEAR(out.dem[0], 0.0, 1e-6); // 0.1 of 10 m, less 1 m
     EXPECT_TRUE(out.direction[0] == flow::Direction::leaves);
@@ -139,7 +139,8 @@ TEST(WrittenLand, RaiseGivesTheReliefThatIsAsked) {
     ASSERT_TRUE(rc::check("highest less lowest cell is the relief; the lowest river end stands at 0", [] {
         SolvedLand const land = any_solved_land();
         double const relief_m = *rc::gen::element(1.0, 250.0).as("relief");
-        Raise const raise = raise_for(land.level, land.rivers, land.window(), with_relief(relief_m));
+        HeightConversion const raise =
+            height_conversion_for(land.level, land.rivers, land.window(), with_relief(relief_m));
         double const range = range_by_definition(land);
         RC_ASSERT((range == 0.0 || std::fabs(range * raise.metres - relief_m) < 1e-6 * relief_m));
         double const end = level_height(land, land.grid.at(land.rivers.cell[0]));
@@ -153,9 +154,10 @@ TEST(WrittenLand, DrainsDownItsOwnFloats) {
     ASSERT_TRUE(
         rc::check("rivers go to their receivers, land down the steepest slope, and nothing is a depression", [] {
             SolvedLand const land = any_solved_land();
-            Raise const raise = raise_for(land.level, land.rivers, land.window(), with_relief(100.0));
+            HeightConversion const raise =
+                height_conversion_for(land.level, land.rivers, land.window(), with_relief(100.0));
             EquilibriumTerrain const out =
-                written_land(land.level, land.rivers, land.window(), raise, {}, Heads::cut, {});
+                extract_terrain(land.level, land.rivers, land.window(), raise, {}, Heads::cut, {});
             RC_ASSERT(out.dem.grid() == land.grid);
             RC_ASSERT(std::is_sorted(out.shortened.begin(), out.shortened.end()));
             std::vector<bool> river(static_cast<std::size_t>(land.grid.cells()), false);
@@ -183,7 +185,7 @@ TEST(WrittenLand, TheSeaHasNoHeight) {
     land.land = Mask(land.grid, 1);
     land.land[Cell{5, 4}] = 0;
     EquilibriumTerrain const out =
-        written_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, Heads::cut, {});
+        extract_terrain(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, {}, Heads::cut, {});
     for (std::int64_t i = 0; i < land.grid.cells(); ++i) {
         EXPECT_EQ(std::isnan(out.dem[i]), land.land[i] == 0);
         EXPECT_EQ(out.direction[i] == flow::Direction::no_data, land.land[i] == 0);
@@ -196,7 +198,7 @@ TEST(WrittenLand, FixedHeightsAreKept) {
         land.rivers.z.push_back(3.0F + static_cast<float>(n));
     }
     EquilibriumTerrain const out =
-        written_given_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, RiverHeights::fixed, {});
+        extract_terrain_with_heights(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, RiverHeights::fixed, {});
     for (std::size_t n = 0; n < land.rivers.cell.size(); ++n) {
         EXPECT_EQ(out.dem[land.rivers.cell[n]], land.rivers.z[n]);
     }
@@ -210,7 +212,7 @@ TEST(WrittenLand, SoftHeightsAreUpperBounds) {
         land.rivers.z.push_back(0.5F * static_cast<float>(n));
     }
     EquilibriumTerrain const out =
-        written_given_land(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, RiverHeights::soft, {});
+        extract_terrain_with_heights(land.level, land.rivers, land.window(), {10.0, 0.0, 0.5}, RiverHeights::soft, {});
     double greatest = 0.0;
     for (std::size_t n = 0; n < land.rivers.cell.size(); ++n) {
         float const z = out.dem[land.rivers.cell[n]];

@@ -12,7 +12,7 @@
 namespace thalweg::blend {
 
 /// The part of a target that a stage changes: its smallest bounding box plus a ring of one cell.
-struct Opening {
+struct EditRegion {
     Cell corner;                 ///< cell of the target that is cell (0, 0) of the rasters below
     Raster<std::uint8_t> kind;   ///< solver::CellKind
     Raster<double> target;       ///< [m] heights, NaN where there is no data
@@ -28,8 +28,8 @@ struct Opening {
 /// outside, as is everything beyond the target's edge: no flux there
 /// \throws BadInput when no cell changes, when a fixed one is infinite, or naming a cell and its position when a
 /// changing part has no fixed neighbour
-Opening open_target(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
-                    Run const& run);
+EditRegion edit_region_of(Raster<float> const& target, Mask const& changes, Mask const& given, std::string const& stage,
+                          Run const& run);
 
 /// Wanted differences of heights between neighbours.
 struct Guidance {
@@ -48,9 +48,9 @@ struct Guidance {
 /// \throws Error as solver::solve_poisson
 ///
 /// Source: \cite nenu2015, eqs 14 to 16 on a grid: any diagonal of its cells has the weight 0.
-solver::GridSolution follow(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
-                            Raster<double> const& carrier, Guidance const& guidance,
-                            solver::PoissonParams const& params = {}, Run const& run = {});
+solver::GridSolution solve_guided(Raster<std::uint8_t> const& kind, Raster<double> const& fixed,
+                                  Raster<double> const& carrier, Guidance const& guidance,
+                                  solver::PoissonParams const& params = {}, Run const& run = {});
 
 /// Computes the distance to the outside of a mask, exact up to the rounding of sqrt, in time independent of the
 /// distance.

@@ -29,20 +29,20 @@ constexpr double sqrt2 = 0x1.6a09e667f3bcdp+0;
 constexpr double widest_angle = 1e5;
 
 /// A number as an unevaluated sum: |lo| is at most half a unit in the last place of hi.
-struct Twin {
+struct DoubleDouble {
     double hi;
     double lo;
 };
 
 /// a + b without error (Knuth 1969).
-Twin sum(double a, double b) {
+DoubleDouble sum(double a, double b) {
     double const hi = a + b;
     double const back = hi - a;
     return {hi, (a - (hi - back)) + (b - back)};
 }
 
 /// a b without error (Dekker 1971).
-Twin product(double a, double b) {
+DoubleDouble product(double a, double b) {
     constexpr double splitter = 0x1p27 + 1.0;
     double const a_big = splitter * a;
     double const a_hi = a_big - (a_big - a);
@@ -54,13 +54,13 @@ Twin product(double a, double b) {
     return {hi, ((a_hi * b_hi - hi) + a_hi * b_lo + a_lo * b_hi) + a_lo * b_lo};
 }
 
-Twin operator+(Twin a, Twin b) {
-    Twin const s = sum(a.hi, b.hi);
+DoubleDouble operator+(DoubleDouble a, DoubleDouble b) {
+    DoubleDouble const s = sum(a.hi, b.hi);
     return sum(s.hi, s.lo + (a.lo + b.lo));
 }
 
-Twin operator*(Twin a, Twin b) {
-    Twin const p = product(a.hi, b.hi);
+DoubleDouble operator*(DoubleDouble a, DoubleDouble b) {
+    DoubleDouble const p = product(a.hi, b.hi);
     return sum(p.hi, p.lo + (a.hi * b.lo + a.lo * b.hi));
 }
 
@@ -107,7 +107,7 @@ double scaled(double x, std::int64_t k) {
 }
 
 /// exp(x.hi + x.lo): Taylor series on |r| <= ln(2)/2, the first term left out is below 2^-58.
-double exp_of(Twin x) {
+double exp_of(DoubleDouble x) {
     static constexpr std::array<double, 12> terms = {
         1.0 / 2.0,     1.0 / 6.0,      1.0 / 24.0,      1.0 / 120.0,      1.0 / 720.0,       1.0 / 5040.0,
         1.0 / 40320.0, 1.0 / 362880.0, 1.0 / 3628800.0, 1.0 / 39916800.0, 1.0 / 479001600.0, 1.0 / 6227020800.0};
@@ -118,33 +118,33 @@ double exp_of(Twin x) {
         return 0.0;
     }
     double const k = std::floor(x.hi * inverse_ln2 + 0.5);
-    Twin const r = sum(x.hi - k * ln2_hi, x.lo - k * ln2_lo);
+    DoubleDouble const r = sum(x.hi - k * ln2_hi, x.lo - k * ln2_lo);
     double const curved = r.hi * r.hi * polynomial(terms, r.hi);
     return scaled(1.0 + (r.hi + (curved + r.lo)), static_cast<std::int64_t>(k));
 }
 
 /// ln x for a finite x > 0 to about 2^-68 of its value: ln m = 2 artanh s, s = (m - 1)/(m + 1), |s| < 0.1716.
-Twin log_twin(double x) {
-    static constexpr Twin third = {0x1.5555555555555p-2, 0x1.5555555555555p-56};
-    static constexpr Twin fifth = {0x1.999999999999ap-3, -0x1.999999999999ap-57};
+DoubleDouble log_double_double(double x) {
+    static constexpr DoubleDouble third = {0x1.5555555555555p-2, 0x1.5555555555555p-56};
+    static constexpr DoubleDouble fifth = {0x1.999999999999ap-3, -0x1.999999999999ap-57};
     static constexpr std::array<double, 9> rest = {1.0 / 7.0,  1.0 / 9.0,  1.0 / 11.0, 1.0 / 13.0, 1.0 / 15.0,
                                                    1.0 / 17.0, 1.0 / 19.0, 1.0 / 21.0, 1.0 / 23.0};
     Scaled const part = split(x);
     double const above = part.mantissa - 1.0;
-    Twin const below = sum(part.mantissa, 1.0);
+    DoubleDouble const below = sum(part.mantissa, 1.0);
     double const s_hi = above / below.hi;
-    Twin const back = product(s_hi, below.hi);
+    DoubleDouble const back = product(s_hi, below.hi);
     double const s_lo = (((above - back.hi) - back.lo) - s_hi * below.lo) / below.hi;
-    Twin const s = sum(s_hi, s_lo);
-    Twin const square = s * s;
-    Twin const tail = sum(0.0, square.hi * polynomial(rest, square.hi));
-    Twin const half = s + s * (square * (third + square * (fifth + tail)));
-    Twin const whole = sum(part.exponent * ln2_hi, part.exponent * ln2_lo);
-    return whole + Twin{2.0 * half.hi, 2.0 * half.lo};
+    DoubleDouble const s = sum(s_hi, s_lo);
+    DoubleDouble const square = s * s;
+    DoubleDouble const tail = sum(0.0, square.hi * polynomial(rest, square.hi));
+    DoubleDouble const half = s + s * (square * (third + square * (fifth + tail)));
+    DoubleDouble const whole = sum(part.exponent * ln2_hi, part.exponent * ln2_lo);
+    return whole + DoubleDouble{2.0 * half.hi, 2.0 * half.lo};
 }
 
 /// sin and cos of r.hi + r.lo, |r| <= pi/4: Taylor series, the first term left out is below 2^-58.
-double sin_near_zero(Twin r) {
+double sin_near_zero(DoubleDouble r) {
     static constexpr std::array<double, 8> terms = {-1.0 / 6.0,          1.0 / 120.0,         -1.0 / 5040.0,
                                                     1.0 / 362880.0,      -1.0 / 39916800.0,   1.0 / 6227020800.0,
                                                     -1.0 / 1307674368e3, 1.0 / 355687428096e3};
@@ -152,7 +152,7 @@ double sin_near_zero(Twin r) {
     return r.hi + (r.hi * square * polynomial(terms, square) + r.lo * (1.0 - 0.5 * square));
 }
 
-double cos_near_zero(Twin r) {
+double cos_near_zero(DoubleDouble r) {
     static constexpr std::array<double, 8> terms = {1.0 / 24.0,          -1.0 / 720.0,          1.0 / 40320.0,
                                                     -1.0 / 3628800.0,    1.0 / 479001600.0,     -1.0 / 87178291200.0,
                                                     1.0 / 20922789888e3, -1.0 / 6402373705728e3};
@@ -164,34 +164,34 @@ double cos_near_zero(Twin r) {
 
 /// x = r + quarter pi/2 (modulo 2 pi), |r| <= pi/4 (Cody and Waite 1980, in four pieces).
 struct Turned {
-    Twin rest;
+    DoubleDouble rest;
     int quarter;
 };
 
 Turned turn(double x) {
     double const n = std::floor(x * two_over_pi + 0.5);
-    Twin const first = sum(x - n * half_pi[0], -n * half_pi[1]);
-    Twin const second = sum(first.hi, -n * half_pi[2]);
+    DoubleDouble const first = sum(x - n * half_pi[0], -n * half_pi[1]);
+    DoubleDouble const second = sum(first.hi, -n * half_pi[2]);
     return {sum(second.hi, first.lo + (second.lo - n * half_pi[3])), static_cast<int>(n - 4.0 * std::floor(0.25 * n))};
 }
 
 /// atan q for q in [0, 1], from the nearest tabulated atan(i/8) and the series on |t| <= 1/16.
-Twin atan_of(double q) {
-    static constexpr std::array<Twin, 9> table = {{{0.0, 0.0},
-                                                   {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
-                                                   {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
-                                                   {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
-                                                   {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
-                                                   {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
-                                                   {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
-                                                   {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
-                                                   {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
+DoubleDouble atan_of(double q) {
+    static constexpr std::array<DoubleDouble, 9> table = {{{0.0, 0.0},
+                                                           {0x1.fd5ba9aac2f6ep-4, -0x1.cd37686760c17p-59},
+                                                           {0x1.f5b75f92c80ddp-3, 0x1.8ab6e3cf7afbdp-57},
+                                                           {0x1.6f61941e4def1p-2, -0x1.c63aae6f6e918p-56},
+                                                           {0x1.dac670561bb4fp-2, 0x1.a2b7f222f65e2p-56},
+                                                           {0x1.1e00babdefeb4p-1, -0x1.928df287a668fp-58},
+                                                           {0x1.4978fa3269ee1p-1, 0x1.2419a87f2a458p-56},
+                                                           {0x1.700a7c5784634p-1, -0x1.8c34d25aadef6p-56},
+                                                           {0x1.921fb54442d18p-1, 0x1.1a62633145c07p-55}}};
     static constexpr std::array<double, 7> terms = {-1.0 / 3.0,  1.0 / 5.0,  -1.0 / 7.0, 1.0 / 9.0,
                                                     -1.0 / 11.0, 1.0 / 13.0, -1.0 / 15.0};
     double const step = std::floor(8.0 * q + 0.5);
     double const known = 0.125 * step;
     double const t = (q - known) / (1.0 + q * known);
-    Twin const angle = table[static_cast<std::size_t>(step)];
+    DoubleDouble const angle = table[static_cast<std::size_t>(step)];
     return sum(angle.hi, t + (t * (t * t) * polynomial(terms, t * t) + angle.lo));
 }
 
@@ -205,7 +205,7 @@ double log(double x) {
     if (!(x > 0.0)) {
         return x == 0.0 ? -infinity : not_a_number;
     }
-    return x == infinity ? x : log_twin(x).hi;
+    return x == infinity ? x : log_double_double(x).hi;
 }
 
 double pow(double x, double y) {
@@ -218,7 +218,7 @@ double pow(double x, double y) {
     if (x == 0.0 || x == infinity) {
         return (x > 0.0) == (y > 0.0) ? infinity : 0.0;
     }
-    Twin const logarithm = log_twin(x);
+    DoubleDouble const logarithm = log_double_double(x);
     double const rough = y * logarithm.hi;
     if (rough > 710.0) {
         return infinity;
@@ -226,7 +226,7 @@ double pow(double x, double y) {
     if (rough < -746.0) {
         return 0.0;
     }
-    return exp_of(logarithm * Twin{y, 0.0});
+    return exp_of(logarithm * DoubleDouble{y, 0.0});
 }
 
 double sin(double x) {
@@ -255,17 +255,17 @@ double atan2(double y, double x) {
     double const tall = std::fabs(y);
     double const longer = wide < tall ? tall : wide;
     double const shorter = wide < tall ? wide : tall;
-    Twin angle = {0.0, 0.0};
+    DoubleDouble angle = {0.0, 0.0};
     if (shorter == infinity) {
         angle = atan_of(1.0);
     } else if (longer > 0.0) {
         angle = atan_of(shorter / longer);
     }
     if (wide < tall) {
-        angle = Twin{half_pi_hi, half_pi_lo} + Twin{-angle.hi, -angle.lo};
+        angle = DoubleDouble{half_pi_hi, half_pi_lo} + DoubleDouble{-angle.hi, -angle.lo};
     }
     if (std::signbit(x)) {
-        angle = Twin{2.0 * half_pi_hi, 2.0 * half_pi_lo} + Twin{-angle.hi, -angle.lo};
+        angle = DoubleDouble{2.0 * half_pi_hi, 2.0 * half_pi_lo} + DoubleDouble{-angle.hi, -angle.lo};
     }
     return std::copysign(angle.hi + angle.lo, y);
 }

@@ -48,7 +48,7 @@ std::int64_t peak_memory_bytes() {
     return static_cast<std::int64_t>(usage.ru_maxrss) * 1024;
 }
 
-void* take_large_pages(std::size_t bytes) {
+void* allocate_large_pages(std::size_t bytes) {
     constexpr std::size_t page = std::size_t{2} << 20;
     void* memory = nullptr;
     if (posix_memalign(&memory, page, bytes) != 0) {
@@ -60,7 +60,7 @@ void* take_large_pages(std::size_t bytes) {
     return memory;
 }
 
-void give_large_pages(void* memory) noexcept {
+void free_large_pages(void* memory) noexcept {
     std::free(memory);
 }
 

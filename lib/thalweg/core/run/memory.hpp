@@ -19,10 +19,10 @@ std::int64_t peak_memory_bytes();
 /// Allocates memory aligned to 2 MiB, in pages of that size if the system has them: the first access then costs a
 /// third.
 /// \param bytes size
-/// \return to be released by give_large_pages
+/// \return to be released by free_large_pages
 /// \throws std::bad_alloc when the system refuses
-void* take_large_pages(std::size_t bytes);
-void give_large_pages(void* memory) noexcept;
+void* allocate_large_pages(std::size_t bytes);
+void free_large_pages(void* memory) noexcept;
 
 /// An allocator that uses large pages for large blocks and operator new for small ones.
 template <class T> struct LargePages {
@@ -34,13 +34,13 @@ template <class T> struct LargePages {
 
     T* allocate(std::size_t n) {
         std::size_t const bytes = n * sizeof(T);
-        return static_cast<T*>(bytes < least_bytes ? ::operator new(bytes) : take_large_pages(bytes));
+        return static_cast<T*>(bytes < least_bytes ? ::operator new(bytes) : allocate_large_pages(bytes));
     }
     void deallocate(T* memory, std::size_t n) noexcept {
         if (n * sizeof(T) < least_bytes) {
             ::operator delete(memory);
         } else {
-            give_large_pages(memory);
+            free_large_pages(memory);
         }
     }
     friend bool operator==(LargePages const&, LargePages const&) { return true; }

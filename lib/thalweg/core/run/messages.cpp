@@ -49,7 +49,7 @@ std::pair<std::uint32_t, std::size_t> first_character(std::string_view text) {
 }
 
 /// Whether a character controls a terminal or the order of the text it shows.
-bool acts(std::uint32_t code) {
+bool is_control(std::uint32_t code) {
     return (code < 0x20 && code != '\t') || (code >= 0x7F && code <= 0x9F) || code == 0x61C ||
            (code >= 0x200B && code <= 0x200F) || (code >= 0x2028 && code <= 0x202E) ||
            (code >= 0x2060 && code <= 0x206F) || code == 0xFEFF;
@@ -66,7 +66,7 @@ std::string escaped(std::string_view text) {
         auto const [code, length] = first_character(text);
         if (length == 0) {
             out += escaped_byte(text.front());
-        } else if (acts(code)) {
+        } else if (is_control(code)) {
             out += code < 0x80 ? fmt::format("\\x{:02x}", code) : fmt::format("\\u{{{:04x}}}", code);
         } else {
             out += text.substr(0, length);

@@ -70,7 +70,7 @@ std::string mark_of_host() {
     return fmt::format("thalweg-tmp-{}-", name.data());
 }
 
-bool is_of_the_dead(std::string const& name, std::string const& mark) {
+bool is_of_dead_process(std::string const& name, std::string const& mark) {
     std::size_t const at = name.find(mark);
     if (at == std::string::npos) {
         return false;
@@ -94,12 +94,12 @@ std::string temporary_mark() {
 
 // Removes temporary files and folders that killed processes of this host left in a folder. If one died while it moved
 // old files aside, everything stays: NAME-old beside NAME holds the user's files. Failures are ignored.
-void sweep_leftovers(fs::path const& folder) noexcept {
+void remove_stale_temporaries(fs::path const& folder) noexcept {
     try {
         std::string const mark = mark_of_host();
         std::vector<fs::path> dead;
         for (fs::directory_entry const& entry : fs::directory_iterator(folder.empty() ? fs::path(".") : folder)) {
-            if (is_of_the_dead(entry.path().filename().string(), mark) && !holds_old_files(entry.path())) {
+            if (is_of_dead_process(entry.path().filename().string(), mark) && !holds_old_files(entry.path())) {
                 dead.push_back(entry.path());
             }
         }
@@ -268,9 +268,9 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
             require_removable(place, name);
         }
     }
-    sweep_leftovers(place.parent_path());
+    remove_stale_temporaries(place.parent_path());
     if (existed_) {
-        sweep_leftovers(place);
+        remove_stale_temporaries(place);
     }
     // Inside an existing folder, which may be a mount point whose parent is another file system or not writable.
     std::string const stem = (existed_ ? (place / ".").string() : folder_ + ".") + temporary_mark();
@@ -420,7 +420,7 @@ OutputFile::OutputFile(std::string const& path, Existing existing) : path_(path)
         throw BadInput(fmt::format("io.output_file: there is no folder {} for {}", folder.string(), path));
     }
     require_place();
-    sweep_leftovers(folder);
+    remove_stale_temporaries(folder);
     staging_ = (folder / fmt::format(".{}-{}", temporary_mark(), fs::path(path).filename().string())).string();
     fs::remove(staging_, ignored); // of an earlier process with the same id
 }
@@ -463,7 +463,7 @@ TemporaryFolder::TemporaryFolder(std::string const& name) {
                                   "folder: set TMPDIR to one that does",
                                   set.empty() ? "" : fmt::format(", TMPDIR={},", set)));
     }
-    sweep_leftovers(above);
+    remove_stale_temporaries(above);
     std::string folder = (above / fmt::format("{}-{}-XXXXXX", name, temporary_mark())).string();
     if (mkdtemp(folder.data()) == nullptr) {
         throw IoError(

@@ -42,8 +42,9 @@ bool names_connection(std::string const& path) {
         return false;
     }
     for (std::string_view const system : local) {
-        if (name.starts_with(system)) { // file systems may be nested: /vsizip//vsicurl/...
-            return names_connection(std::string(name.substr(system.size() - 1)));
+        if (name.starts_with(system)) { // others may be nested: /vsizip//vsicurl/..., /vsizip/{/vsicurl/...}
+            std::size_t const inner = name.find_first_not_of("/{", system.size());
+            return inner != name.npos && names_connection("/" + std::string(name.substr(inner)));
         }
     }
     std::error_code ignored;
@@ -98,14 +99,14 @@ Roots& roots() {
 }
 
 /// Drivers kept but not registered.
-struct Aside {
+struct UnregisteredDrivers {
     GDALDriver* postgres = nullptr;
     GDALDriver* netcdf = nullptr;
     std::vector<GDALDriver*> never;
 };
 
-Aside& drivers_aside() {
-    static Aside drivers;
+UnregisteredDrivers& unregistered_drivers() {
+    static UnregisteredDrivers drivers;
     return drivers;
 }
 
@@ -285,11 +286,11 @@ void set_unless_set(char const* option, char const* value) {
 void guard_gdal() {
     for (char const* const name : network_drivers) {
         if (GDALDriver* const driver = take_away(name)) {
-            drivers_aside().never.push_back(driver);
+            unregistered_drivers().never.push_back(driver);
         }
     }
-    drivers_aside().postgres = take_away("PostgreSQL");
-    drivers_aside().netcdf = take_away("netCDF");
+    unregistered_drivers().postgres = take_away("PostgreSQL");
+    unregistered_drivers().netcdf = take_away("netCDF");
     if (char const* const table = CPLFindFile("gdal", "gdalvrt.xsd")) {
         roots().tables = real_path(fs::path(table).parent_path());
     }
@@ -304,15 +305,15 @@ Connection::Connection() {
         set_unless_set("GDAL_HTTP_CONNECTTIMEOUT", "10");
         set_unless_set("GDAL_HTTP_LOW_SPEED_TIME", "10");
         set_unless_set("GDAL_HTTP_LOW_SPEED_LIMIT", "1");
-        if (drivers_aside().postgres != nullptr) {
-            GetGDALDriverManager()->RegisterDriver(drivers_aside().postgres);
+        if (unregistered_drivers().postgres != nullptr) {
+            GetGDALDriverManager()->RegisterDriver(unregistered_drivers().postgres);
         }
     }
 }
 
 Connection::~Connection() {
-    if (--connections == 0 && drivers_aside().postgres != nullptr) {
-        GetGDALDriverManager()->DeregisterDriver(drivers_aside().postgres);
+    if (--connections == 0 && unregistered_drivers().postgres != nullptr) {
+        GetGDALDriverManager()->DeregisterDriver(unregistered_drivers().postgres);
     }
 }
 
@@ -340,20 +341,20 @@ Confined::~Confined() {
 WithNetcdf::WithNetcdf(std::string const& path) {
     std::array<char, 4> head{};
     std::error_code ignored;
-    if (drivers_aside().netcdf == nullptr || !fs::is_regular_file(path, ignored)) {
+    if (unregistered_drivers().netcdf == nullptr || !fs::is_regular_file(path, ignored)) {
         return;
     }
     std::ifstream(path, std::ios::binary).read(head.data(), head.size());
     std::string_view const magic(head.data(), head.size());
     if (magic.starts_with("CDF") || magic == "\x89HDF") {
         added_ = true;
-        GetGDALDriverManager()->RegisterDriver(drivers_aside().netcdf);
+        GetGDALDriverManager()->RegisterDriver(unregistered_drivers().netcdf);
     }
 }
 
 WithNetcdf::~WithNetcdf() {
     if (added_) {
-        GetGDALDriverManager()->DeregisterDriver(drivers_aside().netcdf);
+        GetGDALDriverManager()->DeregisterDriver(unregistered_drivers().netcdf);
     }
 }
 

@@ -76,13 +76,13 @@ bool copied(fs::path const& file, fs::path const& copy) {
 // into the file; it deletes a NAME-wal beside a file in another mode. A GeoPackage without changes in NAME-wal is
 // therefore opened as immutable; one with changes is copied, and the copy is removed with this object. Any other file
 // is opened directly.
-class Undisturbed {
+class UnchangedFile {
 public:
     // Throws BadInput as refuse_pipe; IoError when a necessary copy fails, or the file is being written meanwhile.
-    explicit Undisturbed(fs::path const& file) : path_(file) {
+    explicit UnchangedFile(fs::path const& file) : path_(file) {
         for (char const* const beside : {"", "-journal", "-wal"}) { // SQLite opens these on its own
             std::string const path = file.string() + beside;
-            refuse_pipe(path, "io.Undisturbed: " + path);
+            refuse_pipe(path, "io.UnchangedFile: " + path);
         }
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) {
@@ -103,11 +103,11 @@ public:
                 }
             }
         } catch (fs::filesystem_error const& error) {
-            throw IoError(fmt::format("io.Undisturbed: {} has changes in {}, and no copy of both can be made: {}",
+            throw IoError(fmt::format("io.UnchangedFile: {} has changes in {}, and no copy of both can be made: {}",
                                       file.string(), wal_of(file).filename().string(), error.what()));
         }
         throw IoError(fmt::format(
-            "io.Undisturbed: {} is being written by another program; close it there and try again", file.string()));
+            "io.UnchangedFile: {} is being written by another program; close it there and try again", file.string()));
     }
 
     // The path to open.
@@ -249,7 +249,7 @@ bool is_postgres(std::string const& path) {
 // Resources that a data set needs as long as it is open, in this order.
 struct Held {
     std::unique_ptr<Connection const> connection = {};
-    std::unique_ptr<Undisturbed const> file = {};
+    std::unique_ptr<UnchangedFile const> file = {};
     std::unique_ptr<WithNetcdf const> netcdf = {};
     std::unique_ptr<Confined const> folder = {};
     std::unique_ptr<Confined const> folder_of_copy = {};
@@ -262,7 +262,7 @@ Dataset opened(std::string const& path, unsigned kinds, char const* const* drive
     take_refusal();
     Dataset data(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options),
                  {std::move(held)});
-    throw_refusal(take_refusal(), "io.open_undisturbed: " + shown);
+    throw_refusal(take_refusal(), "io.open_unchanged: " + shown);
     return data;
 }
 
@@ -276,7 +276,7 @@ Dataset open_connection(std::string const& path, unsigned kinds) {
 Dataset open_recipe_file(std::string const& path, unsigned kinds) {
     require_allowed({path, Access::recipe});
     auto held = std::make_shared<Held>();
-    held->file = std::make_unique<Undisturbed const>(path);
+    held->file = std::make_unique<UnchangedFile const>(path);
     held->folder = std::make_unique<Confined const>(path);
     held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
     std::string const name = inside_archive(held->file->path());
@@ -293,7 +293,7 @@ Dataset open_recipe_file(std::string const& path, unsigned kinds) {
 
 } // namespace
 
-Dataset open_undisturbed(Source const& source, unsigned kinds) {
+Dataset open_unchanged(Source const& source, unsigned kinds) {
     std::string const& path = source.path;
     if (source.access == Access::recipe) {
         return open_recipe_file(path, kinds);
@@ -302,7 +302,7 @@ Dataset open_undisturbed(Source const& source, unsigned kinds) {
         return open_connection(path, kinds);
     }
     auto held = std::make_shared<Held>();
-    held->file = std::make_unique<Undisturbed const>(path);
+    held->file = std::make_unique<UnchangedFile const>(path);
     held->netcdf = std::make_unique<WithNetcdf const>(path);
     std::string const name = inside_archive(held->file->path());
     return opened(name, kinds, nullptr, held, path);
@@ -311,7 +311,7 @@ Dataset open_undisturbed(Source const& source, unsigned kinds) {
 bool is_recipe_file(std::string const& path) {
     Driver const driver;
     try {
-        bool const opens = open_undisturbed({path, Access::recipe}, GDAL_OF_RASTER | GDAL_OF_VECTOR) != nullptr;
+        bool const opens = open_unchanged({path, Access::recipe}, GDAL_OF_RASTER | GDAL_OF_VECTOR) != nullptr;
         driver.take();
         return opens;
     } catch (BadInput const&) {
@@ -326,7 +326,7 @@ Dataset open_file(Source const& source, unsigned kinds, std::string const& what)
         throw BadInput(what + " does not exist");
     }
     CPLErrorReset();
-    Dataset dataset = open_undisturbed(source, kinds);
+    Dataset dataset = open_unchanged(source, kinds);
     if (dataset == nullptr) {
         std::string const words = CPLGetLastErrorMsg();
         throw BadInput(fmt::format("{} cannot be read: {}", what, words.empty() ? "its format is not known" : words));

@@ -92,7 +92,7 @@ bool has_layer(Source const& source, std::string const& layer) {
 
 std::vector<std::string> dataset_files(Source const& source) {
     Driver const driver;
-    Dataset const data = open_undisturbed(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+    Dataset const data = open_unchanged(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     if (!data) {
         throw BadInput("io.dataset_files: " + source.path + " is not a vector or raster source");
     }
@@ -189,7 +189,7 @@ std::vector<std::string> conversions_of(Source const& source, std::string const&
         return {};
     }
     Driver const driver;
-    Dataset const data = open_undisturbed(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+    Dataset const data = open_unchanged(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     std::string const ignored = driver.take();
     if (!data) {
         return {};
@@ -223,15 +223,16 @@ std::vector<std::string> conversions_of(Source const& source, std::string const&
 
 namespace {
 
-Dataset copy_raster(GDALDataset& source, std::string const& path, Watch& watch) {
+Dataset copy_raster(GDALDataset& source, std::string const& path, GdalProgress& gdal_progress) {
     CPLStringList options;
     options.SetNameValue("COMPRESS", "DEFLATE");
     options.SetNameValue("BIGTIFF", "IF_SAFER");
-    return Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->CreateCopy(path.c_str(), &source, FALSE,
-                                                                                options.List(), &Watch::step, &watch));
+    return Dataset(GetGDALDriverManager()->GetDriverByName("GTiff")->CreateCopy(
+        path.c_str(), &source, FALSE, options.List(), &GdalProgress::step, &gdal_progress));
 }
 
-Dataset copy_layers(GDALDataset& source, std::string const& layer, std::string const& path, Watch& watch) {
+Dataset copy_layers(GDALDataset& source, std::string const& layer, std::string const& path,
+                    GdalProgress& gdal_progress) {
     CPLStringList words;
     // The columns for ids and geometries must not collide with the source's.
     for (char const* const word : {"-f", "GPKG", "-lco", "FID=thalweg_fid", "-lco", "GEOMETRY_NAME=thalweg_shape"}) {
@@ -242,7 +243,7 @@ Dataset copy_layers(GDALDataset& source, std::string const& layer, std::string c
     }
     std::unique_ptr<GDALVectorTranslateOptions, decltype(&GDALVectorTranslateOptionsFree)> const options(
         GDALVectorTranslateOptionsNew(words.List(), nullptr), &GDALVectorTranslateOptionsFree);
-    GDALVectorTranslateOptionsSetProgress(options.get(), &Watch::step, &watch);
+    GDALVectorTranslateOptionsSetProgress(options.get(), &GdalProgress::step, &gdal_progress);
     GDALDatasetH from = GDALDataset::ToHandle(&source);
     int wrong_use = FALSE;
     return Dataset(
@@ -262,7 +263,7 @@ std::string stem_of(std::string const& source, std::string const& layer) {
 std::string plain_copy(std::string const& source, std::string const& layer, std::string const& folder, Run const& run) {
     Driver const driver;
     CPLConfigOptionSetter const date(date_option, fixed_date, false);
-    Dataset const data = open_undisturbed(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+    Dataset const data = open_unchanged(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     if (!data) {
         throw BadInput(fmt::format("io.plain_copy: {} cannot be read: {}", source, driver.take()));
     }
@@ -270,9 +271,10 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
     bool const is_raster = data->GetRasterCount() > 0 && data->GetLayerCount() == 0;
     std::string const path =
         (std::filesystem::path(folder) / (stem_of(source, layer) + (is_raster ? ".tif" : ".gpkg"))).string();
-    Watch watch(run, "copy");
-    Dataset copy = is_raster ? copy_raster(*data, raster.path(), watch) : copy_layers(*data, layer, path, watch);
-    watch.settle();
+    GdalProgress gdal_progress(run, "copy");
+    Dataset copy =
+        is_raster ? copy_raster(*data, raster.path(), gdal_progress) : copy_layers(*data, layer, path, gdal_progress);
+    gdal_progress.settle();
     bool const done = copy != nullptr;
     copy.reset();
     if (std::string const words = driver.take(); !done || !words.empty()) {

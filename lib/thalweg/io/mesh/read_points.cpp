@@ -310,8 +310,8 @@ FileBox extent_of(std::vector<Vec3> const& points) {
 }
 
 /// Reprojects points from their CRS.
-void bring_points(FeaturePoints& read, OGRSpatialReference const& own, std::string const& wanted,
-                  std::string const& name, Driver const& driver) {
+void reproject_points(FeaturePoints& read, OGRSpatialReference const& own, std::string const& wanted,
+                      std::string const& name, Driver const& driver) {
     IntoMetres const metres(own, wanted, extent_of(read.points), name);
     read.crs = metres.crs();
     auto const done = metres.apply(read.points);
@@ -336,7 +336,7 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     }
     OGRSpatialReference const own = crs_of_layer(layer.GetSpatialRef(), params.source_crs.value_or(""));
     if (own.IsEmpty() == 0) {
-        bring_points(read, own, params.crs, name, driver);
+        reproject_points(read, own, params.crs, name, driver);
         return read;
     }
     if (params.crs.empty()) {
@@ -354,7 +354,7 @@ FeaturePoints read_point_text(ReadPointsParams const& params, std::string const&
     read.points = parse(read_text(params.path.path, most_bytes), params, name, run);
     OGRSpatialReference const own = crs_of_layer(nullptr, params.source_crs.value_or(""));
     if (own.IsEmpty() == 0 && !read.points.empty()) {
-        bring_points(read, own, params.crs, name, driver);
+        reproject_points(read, own, params.crs, name, driver);
         return read;
     }
     if (params.source_crs && params.crs.empty() && are_degrees(read.points)) {

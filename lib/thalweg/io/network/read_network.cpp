@@ -239,8 +239,8 @@ void convert_heights(NetworkFile& file, Layer const& arcs, Wish const& wish, Not
     }
 }
 
-void bring_into_metres(NetworkFile& file, Layer const& arcs, std::optional<Layer> const& nodes, Wish const& wish,
-                       Notes& notes, Run const& run) {
+void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Layer> const& nodes, Wish const& wish,
+                         Notes& notes, Run const& run) {
     OGRSpatialReference const own = crs_of_layer(arcs.layer->GetSpatialRef(), wish.source_crs);
     bool const has_none = own.IsEmpty() != 0;
     if (nodes) {
@@ -321,7 +321,7 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
         notes.add(source.what, "missing_nodes", 0, 0.0, "has no layer nodes");
     }
     convert_heights(file, arcs, wish, notes);
-    bring_into_metres(file, arcs, nodes, wish, notes, run);
+    reproject_to_metres(file, arcs, nodes, wish, notes, run);
     if (schema != Schema::native) {
         if (file.says.downstream) {
             drop_links_out(file, arcs.what, notes);

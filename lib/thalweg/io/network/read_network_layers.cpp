@@ -200,7 +200,7 @@ RiverSource find_rivers(std::string const& path) {
         source.path = is_plain_folder ? source.path : networks.front();
     }
     Driver const driver;
-    Dataset const data = open_undisturbed(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER);
+    Dataset const data = open_unchanged(source.path, GDAL_OF_VECTOR | GDAL_OF_RASTER);
     if (!data) {
         std::string const words = driver.take();
         throw BadInput(is_plain_folder ? fmt::format("io.find_rivers: {} holds no rivers: {}", path, why_not(path))
@@ -259,7 +259,7 @@ NetworkSource open_network(std::string const& path, Driver const& driver) {
     std::string const what = "io.read_network: " + without_passwords(path);
     std::error_code ignored;
     refuse_if<BadInput>(!names_database(path) && !fs::exists(path, ignored), "{} does not exist", what);
-    Dataset dataset = open_undisturbed(path, GDAL_OF_VECTOR);
+    Dataset dataset = open_unchanged(path, GDAL_OF_VECTOR);
     if (dataset == nullptr) {
         std::string const words = driver.take();
         auto const say = [&](std::string_view part) { return words.find(part) != std::string::npos; };

@@ -229,7 +229,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     Driver const driver;
     RiverLines rivers;
     rivers.name = std::filesystem::path(path).filename().string();
-    Dataset const data = open_undisturbed(params.path, GDAL_OF_VECTOR);
+    Dataset const data = open_unchanged(params.path, GDAL_OF_VECTOR);
     if (!data) {
         auto const words = driver.take();
         VSIStatBufL status;

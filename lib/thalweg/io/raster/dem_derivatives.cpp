@@ -87,10 +87,11 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
     options.SetNameValue("LEVEL_INTERVAL", fmt::format("{}", interval_m).c_str());
     options.SetNameValue("ELEV_FIELD", "0");
     options.SetNameValue("NODATA", fmt::format("{}", nodata_height).c_str());
-    Watch watch(run, "contours");
-    CPLErr const error = GDALContourGenerateEx(GDALRasterBand::ToHandle(source->GetRasterBand(1)),
-                                               OGRLayer::ToHandle(layer), options.List(), &Watch::step, &watch);
-    watch.settle();
+    GdalProgress gdal_progress(run, "contours");
+    CPLErr const error =
+        GDALContourGenerateEx(GDALRasterBand::ToHandle(source->GetRasterBand(1)), OGRLayer::ToHandle(layer),
+                              options.List(), &GdalProgress::step, &gdal_progress);
+    gdal_progress.settle();
     driver.check(what);
     refuse_if<IoError>(error != CE_None, "{} failed", what);
     std::vector<ContourLine> lines;

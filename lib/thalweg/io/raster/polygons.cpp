@@ -288,10 +288,10 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
     OGRFieldDefn field("number", OFTInteger);
     layer->CreateField(&field);
     GDALRasterBand& band = *source->GetRasterBand(1);
-    Watch watch(run, "outline");
+    GdalProgress gdal_progress(run, "outline");
     CPLErr const error = GDALPolygonize(GDALRasterBand::ToHandle(&band), GDALRasterBand::ToHandle(band.GetMaskBand()),
-                                        OGRLayer::ToHandle(layer), 0, nullptr, &Watch::step, &watch);
-    watch.settle();
+                                        OGRLayer::ToHandle(layer), 0, nullptr, &GdalProgress::step, &gdal_progress);
+    gdal_progress.settle();
     driver.check(what);
     refuse_if<IoError>(error != CE_None, "{} failed", what);
     Indexed<std::int64_t, std::vector<Polygon>> polygons(count);

@@ -367,16 +367,16 @@ Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::stri
         words.AddString("-t_srs");
         words.AddString(wkt.c_str());
     }
-    Watch watch(run, "warp");
+    GdalProgress gdal_progress(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const options(
         GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
     if (options == nullptr) {
         throw BadInput(fmt::format("{} cannot be warped to cells of {}: {}", what, grid.cell_m, driver.take()));
     }
-    GDALWarpAppOptionsSetProgress(options.get(), &Watch::step, &watch);
+    GDALWarpAppOptionsSetProgress(options.get(), &GdalProgress::step, &gdal_progress);
     GDALDatasetH from = GDALDataset::ToHandle(source.get());
     Dataset const warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));
-    watch.settle();
+    gdal_progress.settle();
     if (warped == nullptr) {
         throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
     }

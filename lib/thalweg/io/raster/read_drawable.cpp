@@ -191,7 +191,7 @@ Warped warp(GDALDataset& source, Target target, std::int64_t most_side, std::str
     Squares const squares = squares_for(source, target, most_side, what, driver);
     CPLStringList arguments = warp_arguments(squares, target);
     Dataset const band_one = first_band_of(source, what, driver);
-    Watch watch(run, "warp");
+    GdalProgress gdal_progress(run, "warp");
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const warp_options(
         GDALWarpAppOptionsNew(arguments.List(), nullptr), &GDALWarpAppOptionsFree);
     if (warp_options == nullptr) { // GDAL misread the arguments
@@ -199,10 +199,10 @@ Warped warp(GDALDataset& source, Target target, std::int64_t most_side, std::str
             fmt::format("{} cannot be warped to be drawn: its cells of {} are too small for its position: {}", what,
                         own_cell, driver.take()));
     }
-    GDALWarpAppOptionsSetProgress(warp_options.get(), &Watch::step, &watch);
+    GDALWarpAppOptionsSetProgress(warp_options.get(), &GdalProgress::step, &gdal_progress);
     GDALDatasetH from = GDALDataset::ToHandle(band_one.get());
     Dataset warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, warp_options.get(), nullptr)));
-    watch.settle();
+    gdal_progress.settle();
     if (warped == nullptr) {
         throw BadInput(fmt::format("{} cannot be warped to be drawn: {}", what, driver.take()));
     }
@@ -397,6 +397,11 @@ Drawable read_drawable(std::string const& path, ReadDrawableParams const& params
     Driver const driver;
     Dataset source = open_file(path, GDAL_OF_RASTER, what);
     require_heights(*source, what);
+    constexpr double most_cells = 1e11; // read row by row, in minutes
+    refuse_if<BadInput>(1.0 * source->GetRasterXSize() * source->GetRasterYSize() > most_cells,
+                        "{} has {} x {} cells, too many to draw; take a part of it (gdal_translate -projwin) or larger "
+                        "cells (gdalwarp -tr)",
+                        what, source->GetRasterXSize(), source->GetRasterYSize());
     Drawable out;
     if (source->GetRasterCount() > 1) {
         out.notes.push_back(fmt::format("drawn from the first of {} bands", source->GetRasterCount()));

@@ -96,10 +96,10 @@ void write_dem(Raster<float> const& dem, std::string const& path, HeightUnit uni
     options.SetNameValue("BLOCKSIZE", "512");
     options.SetNameValue("OVERVIEW_RESAMPLING", "AVERAGE");
     options.SetNameValue("NUM_THREADS", run.threads > 0 ? fmt::format("{}", run.threads).c_str() : "ALL_CPUS");
-    Watch watch(run, "write dem.tif");
-    Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(file.path().c_str(), source.get(), TRUE,
-                                                                              options.List(), &Watch::step, &watch));
-    watch.settle();
+    GdalProgress gdal_progress(run, "write dem.tif");
+    Dataset target(GetGDALDriverManager()->GetDriverByName("COG")->CreateCopy(
+        file.path().c_str(), source.get(), TRUE, options.List(), &GdalProgress::step, &gdal_progress));
+    gdal_progress.settle();
     require(target != nullptr, driver, what);
     target.reset();
     source.reset();

@@ -189,7 +189,7 @@ public:
     }
 
     Certificate certify() {
-        tell_depressions();
+        report_depressions();
         find_lakes();
         follow_rivers();
         trace_sources();
@@ -310,7 +310,7 @@ private:
         return cells;
     }
 
-    void tell_depressions() {
+    void report_depressions() {
         out_.depressions = static_cast<std::int64_t>(drainage_.depressions.size());
         out_.pit_cells = drainage_.pits;
         out_.pit_volume_m3 = drainage_.pit_volume_m3;

@@ -60,9 +60,9 @@ std::array<Sight, 8> sights(GeomorphonParams const& params, double cell_m) {
 }
 
 /// The lines of sight from one row of cells.
-class RowOfLookers {
+class LineOfSightRow {
 public:
-    RowOfLookers(Raster<float> const& dem, GeomorphonParams const& params)
+    LineOfSightRow(Raster<float> const& dem, GeomorphonParams const& params)
         : dem_(dem), first_(params.search_cells), beyond_(dem.width() - params.search_cells), skip_(params.skip_cells),
           up_(dem.width()), down_(up_.size()), rise_(up_.size()), fall_(up_.size()) {}
 
@@ -153,7 +153,7 @@ Geomorphons geomorphons(Raster<float> const& dem, GeomorphonParams const& params
     }
     auto const all = sights(params, dem.grid().cell_m);
     parallel_ranges(run, rows, rows_a_range, [&](std::int64_t begin, std::int64_t end) {
-        RowOfLookers lookers(dem, params);
+        LineOfSightRow lookers(dem, params);
         for (std::int64_t r = begin + params.search_cells; r < end + params.search_cells; ++r) {
             run.check();
             lookers.look(r, all, found.form.row(r));

@@ -142,7 +142,7 @@ double total(std::vector<RowSums> const& rows, CompensatedSum RowSums::*member) 
 }
 
 /// Extremes, counts, mean, slopes and roughness from one pass over the cells.
-Statistics first_figures(std::vector<RowSums> const& rows, std::int64_t cells, double datum) {
+Statistics first_statistics(std::vector<RowSums> const& rows, std::int64_t cells, double datum) {
     Statistics result;
     std::int64_t row_pairs = 0;
     std::int64_t column_pairs = 0;
@@ -196,7 +196,7 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
         add_slopes(dem, r, sums);
         add_rises(dem, r, sums);
     });
-    Statistics result = first_figures(rows, dem.cells(), datum);
+    Statistics result = first_statistics(rows, dem.cells(), datum);
     for_rows([&](std::int64_t r, RowSums& sums) { add_powers(dem, r, result.mean, sums); });
     add_moments(result, rows);
     using solver::Axis;

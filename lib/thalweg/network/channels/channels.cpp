@@ -32,7 +32,7 @@ bool are_neighbours(Cell a, Cell b) {
 }
 
 /// The cells of an arc, downstream, without detours that return to a cell or cross the arc's own diagonal.
-std::vector<Cell> simple_way(std::vector<Cell> const& cells, Grid const& grid) {
+std::vector<Cell> simple_path(std::vector<Cell> const& cells, Grid const& grid) {
     std::vector<Cell> way;
     std::unordered_map<std::int64_t, std::size_t> place; // only looked up, never iterated
     auto const cut_after = [&](std::size_t last) {
@@ -157,7 +157,7 @@ public:
     std::vector<std::vector<Cell>> way; ///< by arc: its cells, downstream
 
     void draw(std::size_t a) {
-        way[a] = simple_way(cells_along(network_.arc(a).line, grid_, fmt::format("arc {}", a + 1)), grid_);
+        way[a] = simple_path(cells_along(network_.arc(a).line, grid_, fmt::format("arc {}", a + 1)), grid_);
         for (std::size_t i = way[a].size(); i-- > 0;) {
             if (drawing.number(way[a][i]) >= 0) {
                 continue;

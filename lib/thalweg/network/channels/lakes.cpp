@@ -244,7 +244,7 @@ public:
         std::int64_t cut = basin.cut;
         std::int64_t const outlet = outlet_of(basin);
         if (outlet != no_cell) {
-            cut += keep_from_rivers(basin, outlet);
+            cut += separate_from_rivers(basin, outlet);
         }
         std::vector<Link> const links = outlet == no_cell ? std::vector<Link>{} : links_to(outlet);
         auto const size = static_cast<std::int64_t>(links.size());
@@ -257,7 +257,7 @@ public:
             return;
         }
         lay(links);
-        std::int64_t const lost = take_off_dry(links, outlet);
+        std::int64_t const lost = remove_dry_rivers(links, outlet);
         lakes.push_back({basin.label, outlet, size});
         if (cut > 0) {
             note("lake_cut", basin, static_cast<double>(cut),
@@ -286,7 +286,7 @@ private:
     bool is_in(std::int64_t channel) const { return lake_[cell[channel]] != 0; }
 
     /// Whether the water of a channel cell enters the lake downstream of it.
-    bool comes_in(std::int64_t channel) const {
+    bool flows_into_lake(std::int64_t channel) const {
         for (std::int64_t i = receiver[channel]; i >= 0; i = receiver[i]) {
             if (is_in(i)) {
                 return true;
@@ -299,7 +299,7 @@ private:
         std::int64_t best = no_cell;
         for (std::int64_t const c : basin.cells) {
             std::int64_t const i = number_[c];
-            if (i < 0 || (receiver[i] >= 0 && is_in(receiver[i])) || comes_in(i)) {
+            if (i < 0 || (receiver[i] >= 0 && is_in(receiver[i])) || flows_into_lake(i)) {
                 continue;
             }
             bool const more = best != no_cell && (above_[i] > above_[best] || (above_[i] == above_[best] && i < best));
@@ -309,7 +309,7 @@ private:
     }
 
     /// Removes lake cells beside rivers that do not flow into the lake, until there are none: water would leave there.
-    std::int64_t keep_from_rivers(Basin const& basin, std::int64_t outlet) {
+    std::int64_t separate_from_rivers(Basin const& basin, std::int64_t outlet) {
         std::int64_t taken = 0;
         for (bool changed = true; changed;) {
             changed = false;
@@ -326,7 +326,7 @@ private:
                     }
                     auto const [known, is_new] = passes.try_emplace(i, false);
                     if (is_new) {
-                        known->second = !comes_in(i);
+                        known->second = !flows_into_lake(i);
                     }
                     leaks = known->second;
                 });
@@ -400,7 +400,7 @@ private:
     /// Removes rivers below the lake that its water no longer reaches: completely if they return to it, otherwise as
     /// far as they touch it.
     /// \return their number
-    std::int64_t take_off_dry(std::vector<Link> const& links, std::int64_t outlet) {
+    std::int64_t remove_dry_rivers(std::vector<Link> const& links, std::int64_t outlet) {
         for (Link const& link : links) {
             lake_[link.cell] = 1;
         }
@@ -410,7 +410,7 @@ private:
         std::int64_t rivers = 0;
         for (std::int64_t i : left_) {
             rivers += is_in(i) ? 0 : 1;
-            bool const returns = comes_in(i);
+            bool const returns = flows_into_lake(i);
             while (i >= 0 && !is_in(i) && donors_[i] == 0 && is_level[i] == 0 && (returns || touches(i))) {
                 is_gone[i] = 1;
                 number_[cell[i]] = -1;

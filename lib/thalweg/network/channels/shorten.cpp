@@ -184,7 +184,7 @@ private:
     }
 
     /// Whether the rivers upstream of an arc, and the cell of its upper node, are removed.
-    bool lost_its_node(std::size_t a) const {
+    bool is_cut_off(std::size_t a) const {
         Grid const& grid = drawn_.channels.grid;
         Cell const first = cells_of_vertices({draft_.arcs[a].arc.line.front()}, grid).front();
         return !network_.in(network_.from(a)).empty() &&
@@ -232,7 +232,7 @@ private:
         auto const own = first_own(a);
         bool const is_dry =
             !cells.empty() && (is_gone_[cells.front()] != 0 || (own != cells.end() && is_gone_[*own] != 0));
-        if (cells.empty() || goes_on || (!is_dry && !lost_its_node(a))) {
+        if (cells.empty() || goes_on || (!is_dry && !is_cut_off(a))) {
             has_water_[a] = goes_on || !cells.empty() ? 1 : 0;
             return;
         }

@@ -120,7 +120,7 @@ struct Grown {
 };
 
 /// A DEM and its flow.
-struct LandWater {
+struct DemFlow {
     Raster<float> const& dem;
     flow::FlowField const& flow;
 };
@@ -128,7 +128,7 @@ struct LandWater {
 /// The cells of valleys, and where their water goes.
 class Valleys {
 public:
-    Valleys(Channels const& channels, LandWater const& water, DrawnLines const& lines, std::int64_t support,
+    Valleys(Channels const& channels, DemFlow const& water, DrawnLines const& lines, std::int64_t support,
             Run const& run)
         : water_(water), grid_(water.dem.grid()), kind_(grid_, nothing) {
         std::vector<std::int64_t> cells;
@@ -193,7 +193,7 @@ public:
 private:
     std::int64_t below(std::int64_t i) const { return water_.flow.receiver(i); }
 
-    LandWater const& water_;
+    DemFlow const& water_;
     Grid grid_;
     Raster<std::uint8_t> kind_;
     std::int64_t cut_ = 0;
@@ -202,7 +202,7 @@ private:
 /// Joins input arcs and grown valleys.
 class Grafting {
 public:
-    Grafting(ElevatedNetwork const& given, LandWater const& water) : given_(given), water_(water) {}
+    Grafting(ElevatedNetwork const& given, DemFlow const& water) : given_(given), water_(water) {}
 
     ElevatedNetwork join(std::vector<Grown> const& grown) {
         out_ = {};
@@ -335,7 +335,7 @@ private:
     }
 
     ElevatedNetwork const& given_;
-    LandWater const& water_;
+    DemFlow const& water_;
     ElevatedNetwork out_;
     NetworkDraft plan_;
     std::map<Key, NodeId> nodes_;
@@ -385,7 +385,7 @@ std::vector<std::size_t> with_upstream(std::vector<Grown> const& grown, std::vec
     return all;
 }
 
-void require_one_grid(Channels const& channels, LandWater const& water) {
+void require_one_grid(Channels const& channels, DemFlow const& water) {
     Grid const& grid = water.dem.grid();
     refuse_if<BadInput>(water.flow.grid() != grid || water.flow.area_cells.grid() != grid || channels.grid != grid,
                         "network.side_valleys: channels, land and water lie on several grids, the land's of {} x {} "
@@ -397,7 +397,7 @@ void require_one_grid(Channels const& channels, LandWater const& water) {
 
 SideValleys side_valleys(ElevatedNetwork const& given, Channels const& channels, Raster<float> const& dem,
                          flow::FlowField const& flow, SideValleysParams const& params, Run const& run) {
-    LandWater const water{dem, flow};
+    DemFlow const water{dem, flow};
     require_in("network.side_valleys", "the support", params.support_cells, Range::at_least(1), "cells");
     require_one_grid(channels, water);
     DrawnLines const lines(given.plan, water.dem.grid());

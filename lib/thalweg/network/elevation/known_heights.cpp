@@ -183,7 +183,7 @@ private:
 
     /// Whether a height adds no information to the one upstream: it is higher; or equal, in the same cell, to which
     /// lines may return from downstream, or off a lake, where the water took another path.
-    bool says_nothing(double z, Cell cell, Known above) const {
+    bool adds_nothing(double z, Cell cell, Known above) const {
         return z > above.z || (z == above.z && (cell == above.cell || !lake_.contains(land_.grid().index(cell))));
     }
 
@@ -199,7 +199,7 @@ private:
             for (std::size_t i = 0; i < z_[a].size(); ++i) {
                 at = farther(at, i == 0 ? 0.0 : distance(line(a)[i - 1], line(a)[i]));
                 bool const is_outlet = i + 1 == z_[a].size() && network_.out(network_.to(a)) == no_arc;
-                if (!is_outlet && says_nothing(z_[a][i], cells_[a][i], at)) {
+                if (!is_outlet && adds_nothing(z_[a][i], cells_[a][i], at)) {
                     z_[a][i] = unknown;
                 }
                 at = std::isnan(z_[a][i]) ? at : Known{z_[a][i], 0.0, cells_[a][i]};

@@ -24,7 +24,7 @@ double next_above(double below) {
 }
 
 // Checks that heights can be assigned: as require_trees, and no arc has length 0.
-void require_raisable(StreamNetwork const& network, std::string_view who) {
+void require_positive_lengths(StreamNetwork const& network, std::string_view who) {
     require_trees(network, who);
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         if (!(network.length_m(a) > 0.0)) {
@@ -36,7 +36,7 @@ void require_raisable(StreamNetwork const& network, std::string_view who) {
 }
 
 // Distances [m] of a line's vertices from its first.
-std::vector<double> way_along(std::vector<Vec2> const& line) {
+std::vector<double> distances_along(std::vector<Vec2> const& line) {
     std::vector<double> way{0.0};
     for (std::size_t i = 1; i < line.size(); ++i) {
         way.push_back(way.back() + distance(line[i - 1], line[i]));
@@ -71,12 +71,12 @@ void require_heights(StreamNetwork const& network, std::vector<double> const& no
 }
 
 // Assigns node heights to a network, with vertices linear by length along arcs. Throws as require_heights.
-ElevatedNetwork raise_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
+ElevatedNetwork elevate_linearly(StreamNetwork const& network, std::vector<double> node_z, std::string_view who) {
     require_heights(network, node_z, who);
     ElevatedNetwork raised{network, std::move(node_z), {}};
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        raised.arc_z.push_back(
-            between(way_along(network.arc(a).line), raised.node_z[network.from(a)], raised.node_z[network.to(a)]));
+        raised.arc_z.push_back(between(distances_along(network.arc(a).line), raised.node_z[network.from(a)],
+                                       raised.node_z[network.to(a)]));
     }
     return raised;
 }
@@ -137,7 +137,7 @@ void report_lift(std::vector<double> const& straight, std::vector<double> const&
 
 Elevated set_heights(StreamNetwork const& network, HeightParams const& params, Run const& run) {
     require_in("network.set_heights", "slope", params.slope, Range::above(0.0), "m/m");
-    require_raisable(network, "network.set_heights");
+    require_positive_lengths(network, "network.set_heights");
     run.check();
 
     Elevated raised;
@@ -153,7 +153,7 @@ Elevated set_heights(StreamNetwork const& network, HeightParams const& params, R
     case HeightMode::along_stream: z = majorant(network, straight, params.slope); break;
     }
 
-    raised.network = raise_linearly(network, std::move(z), "network.set_heights");
+    raised.network = elevate_linearly(network, std::move(z), "network.set_heights");
     return raised;
 }
 
@@ -223,7 +223,7 @@ double mean_power(double a, double b, double theta) {
 
 /// Fall from a line's first vertex to each vertex for k_s = 1.
 std::vector<double> fall_along(std::vector<Vec2> const& line, double us_area, double ds_area, double theta) {
-    std::vector<double> const way = way_along(line);
+    std::vector<double> const way = distances_along(line);
     auto const area = [&](double so_far) {
         double const share = so_far / way.back();
         return us_area * (1.0 - share) + ds_area * share;
@@ -253,7 +253,7 @@ std::vector<double> sum_upstream(StreamNetwork const& network, std::vector<doubl
 Graded set_heights_graded(StreamNetwork const& network, std::vector<double> const& us_area_m2,
                           std::vector<double> const& ds_area_m2, GradedParams const& params, Run const& run) {
     require(params);
-    require_raisable(network, "network.set_heights_graded");
+    require_positive_lengths(network, "network.set_heights_graded");
     require_areas(network, us_area_m2, ds_area_m2);
 
     double const least_m2 = params.least_area_m2;
@@ -304,7 +304,7 @@ double slope_at(Vec2 place, Rosgen type, HeightsByTypeParams const& params) {
 
 ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes const& types,
                                     HeightsByTypeParams const& params, Run const& run) {
-    require_raisable(network, "network.set_heights_by_type");
+    require_positive_lengths(network, "network.set_heights_by_type");
     refuse_if<BadInput>(
         types.type.size() != network.arc_count(),
         "network.set_heights_by_type: {} types for {} arcs; give the types that network.assign_types returns",
@@ -321,7 +321,7 @@ ElevatedNetwork set_heights_by_type(StreamNetwork const& network, RiverTypes con
             z[n] = std::max(below + slope * network.length_m(a), next_above(below));
         }
     }
-    return raise_linearly(network, std::move(z), "network.set_heights_by_type");
+    return elevate_linearly(network, std::move(z), "network.set_heights_by_type");
 }
 
 } // namespace thalweg::network

@@ -247,7 +247,7 @@ private:
     }
 
     /// Whether a test holds for every group with an unknown direction.
-    template <class Test> bool all_unsaid(Test const& test) const {
+    template <class Test> bool holds_for_undirected(Test const& test) const {
         for (std::size_t g = 0; g < is_silent_.size(); ++g) {
             if (is_silent_[g] != 0 && !test(drawings_.groups()[g])) {
                 return false;
@@ -308,13 +308,13 @@ private:
     /// A DEM is used regardless of the drawing.
     void judge_drawing() {
         is_drawn_well_ = params_.dem == nullptr &&
-                         (is_hardly_contradicted() || all_unsaid([](Drawing const& g) { return g.is_downstream(); }));
+                         (is_consistent() || holds_for_undirected([](Drawing const& g) { return g.is_downstream(); }));
         is_drawn_upstream_ = params_.dem == nullptr && !is_drawn_well_ && is_drawn_upstream();
     }
 
     /// Whether lines were consistently drawn downstream, with loops. Of nodes of three lines drawn at random a quarter
     /// is contradicted, of two lines a half; lines drawn upstream fork more often than they meet.
-    bool is_hardly_contradicted() const {
+    bool is_consistent() const {
         constexpr std::size_t enough = 5;
         constexpr std::size_t one_in = 40;
         Drawing sum;
@@ -332,7 +332,7 @@ private:
 
     bool is_drawn_upstream() const {
         std::size_t divergences = 0;
-        bool const all = all_unsaid([&](Drawing const& g) {
+        bool const all = holds_for_undirected([&](Drawing const& g) {
             divergences += g.divergences;
             return g.is_upstream();
         });
@@ -359,7 +359,7 @@ private:
     void direct(RootedGroup& g, ReachGraph const& graph, RootScores& scores) {
         score(g);
         Root const& root = g.roots[best_of(g.score)];
-        scores.ways_to(root.node, ways_);
+        scores.shortest_paths(root.node, ways_);
         Drawing const& drawing = drawings_.of(root.node);
         bool const agrees = share_ >= telling && drawing.is_downstream() && params_.dem == nullptr;
         bool const stays = is_drawn_well_ || confirms_[drawings_.group(root.node)] != 0 ||

@@ -209,7 +209,7 @@ private:
         choose_mains(c);
         open_circles(c);
         keep_mains(c);
-        sort_out_others(c, certain);
+        remove_other_branches(c, certain);
         if (certain == nullptr) {
             doubt(c);
         }
@@ -317,7 +317,7 @@ private:
         }
     }
 
-    void sort_out_others(Component const& c, Evidence const* certain) {
+    void remove_other_branches(Component const& c, Evidence const* certain) {
         std::vector<std::size_t> others;
         std::ranges::copy_if(c.pieces, std::back_inserter(others),
                              [&](std::size_t k) { return !is_out(k) && main_[above(k)] != k; });

@@ -679,7 +679,7 @@ std::vector<Root> RootScores::of(ReachGroup const& group) {
     return roots;
 }
 
-void RootScores::ways_to(std::size_t root, Ways& ways) const {
+void RootScores::shortest_paths(std::size_t root, Ways& ways) const {
     ways.down.resize(p_.nodes.size(), none);
     ways.way_m.resize(p_.nodes.size(), std::numeric_limits<double>::infinity());
     std::vector<std::size_t> reached;

@@ -188,8 +188,8 @@ public:
     }
 
     /// The segments from the end of a river to another group; none: there is no path.
-    std::vector<std::pair<std::size_t, std::size_t>> way_on(Vec3 const& from, std::size_t own, Sets& groups,
-                                                            std::size_t& into) const {
+    std::vector<std::pair<std::size_t, std::size_t>> path_to_other_group(Vec3 const& from, std::size_t own,
+                                                                         Sets& groups, std::size_t& into) const {
         auto const begin = by_end_.find({from.x, from.y});
         if (begin == by_end_.end()) {
             return {};
@@ -298,7 +298,7 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
         for (Rivers::Sink const& sink : found.sinks) {
             run.check();
             std::size_t into = nowhere;
-            for (auto const& [line, segment] : graph.way_on(sink.at, sink.line, found.groups, into)) {
+            for (auto const& [line, segment] : graph.path_to_other_group(sink.at, sink.line, found.groups, into)) {
                 needed_by[line][segment] = rivers.lines[sink.line].number();
             }
             if (into != nowhere) {

@@ -277,7 +277,7 @@ double straightness(Stem const& stem, std::vector<double> const& way_m, std::vec
 }
 
 /// [m] by point from its river's beginning at the current positions: bends have lengthened the rivers.
-std::vector<double> stretched_ways(Stems const& stems, std::vector<Vec2> const& at) {
+std::vector<double> stretched_distances(Stems const& stems, std::vector<Vec2> const& at) {
     std::vector<double> way_m(at.size(), 0.0);
     for (Stem const& stem : stems.stems) {
         for (std::size_t i = stem.begin + 1; i < stem.end; ++i) {
@@ -294,11 +294,11 @@ struct Kind {
     double takes_turns; ///< how often extremes alternate sides
 };
 
-Kind kind_of(Wandering which) {
+Kind kind_of(MeanderKind which) {
     switch (which) {
-    case Wandering::bends: return {stage_river, 0.35, 0.8};
-    case Wandering::reaches: return {stage_reach, 0.7, 0.8};
-    case Wandering::straights: break;
+    case MeanderKind::bends: return {stage_river, 0.35, 0.8};
+    case MeanderKind::reaches: return {stage_reach, 0.7, 0.8};
+    case MeanderKind::straights: break;
     }
     return {stage_straight, 0.7, 1.0};
 }
@@ -386,15 +386,15 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
     return out;
 }
 
-std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain, Wandering which,
-                         std::uint64_t seed) {
-    bool const bends = which == Wandering::bends;
+std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain,
+                                 MeanderKind which, std::uint64_t seed) {
+    bool const bends = which == MeanderKind::bends;
     auto const [stage, least, takes_turns] = kind_of(which);
     std::vector<double> wave_m = wavelengths(stems, weights(stems), cell_m);
     for (double& wave : wave_m) {
         wave = bends ? wave : std::clamp(wave / 4.0, shortest_wave * cell_m, longest_reach * cell_m);
     }
-    std::vector<double> const way_m = which == Wandering::straights ? stretched_ways(stems, at) : stems.way_m;
+    std::vector<double> const way_m = which == MeanderKind::straights ? stretched_distances(stems, at) : stems.way_m;
     std::vector<Vec2> out(at.size());
     for (Stem const& stem : stems.stems) {
         double half_waves = unit(random_word(seed, stage, stem.source, ~0ULL));
@@ -403,7 +403,7 @@ std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double
             double const step = i == stem.begin ? 0.0 : way_m[i] - way_m[i - 1];
             half_waves += 2.0 * step / wave_m[i];
             double const fades = smooth_step((end_m - way_m[i]) / (0.5 * wave_m[i]));
-            double const where = which == Wandering::straights ? straightness(stem, way_m, at, i, cell_m) : 1.0;
+            double const where = which == MeanderKind::straights ? straightness(stem, way_m, at, i, cell_m) : 1.0;
             double const by = where * fades * gain * amplitude * wave_m[i] *
                               noise(half_waves, least, takes_turns, seed, stage, stem.source);
             Vec2 const left = across(stem, way_m, at, i, 0.25 * wave_m[i]);

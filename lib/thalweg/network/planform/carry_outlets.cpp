@@ -374,8 +374,8 @@ private:
 // The least-cost path from a river's end, in the cell start, to a valid end or into a river that it may join; of equal
 // paths the straightest. Source: A*, Hart, Nilsson and Raphael 1968: each step costs at least one and comes at most one
 // cell closer; a joined river counts as the end.
-Way way_out(Vec2 outlet, Cell start, CarryGround const& ground, RiverEnds const& ends,
-            std::function<bool(Confluence const&)> const& may_join) {
+Way least_cost_path(Vec2 outlet, Cell start, CarryGround const& ground, RiverEnds const& ends,
+                    std::function<bool(Confluence const&)> const& may_join) {
     return WaySearch(outlet, start, ground, ends, may_join).find();
 }
 
@@ -468,7 +468,7 @@ public:
         Vec2 const at = network_.node(outlet).at;
         std::int64_t const basin = network_.basin(outlet);
         Way const way =
-            way_out(at, cells_along({at}, ground_.grid()).front(), ground_, ends_, [&](Confluence const& into) {
+            least_cost_path(at, cells_along({at}, ground_.grid()).front(), ground_, ends_, [&](Confluence const& into) {
                 return params_.join && basins_.root(into.basin) != basins_.root(basin);
             });
         Finding note;

@@ -276,11 +276,11 @@ private:
         double const cell = grid_.cell_m;
         move(smoothing(stems_, base_, cell, wanders ? Rounding::river : Rounding::half_a_cell), smoothed_near * cell);
         if (wanders) {
-            move(wander(stems_, base_, cell, params_.gain, Wandering::bends, params_.seed), 0.0);
+            move(meander_shifts(stems_, base_, cell, params_.gain, MeanderKind::bends, params_.seed), 0.0);
             refine();
             move(lean_in(stems_, base_, cell, params_.seed), 0.0);
-            for (Wandering const which : {Wandering::reaches, Wandering::straights}) {
-                move(wander(stems_, base_, cell, params_.gain, which, params_.seed), 0.0);
+            for (MeanderKind const which : {MeanderKind::reaches, MeanderKind::straights}) {
+                move(meander_shifts(stems_, base_, cell, params_.gain, which, params_.seed), 0.0);
             }
         }
         out_.network = through(base_);

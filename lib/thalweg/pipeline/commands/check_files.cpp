@@ -19,7 +19,7 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/commands/internal/mend_network.hpp>
+#include <thalweg/pipeline/commands/internal/repair_network.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -188,8 +188,8 @@ private:
     std::vector<std::string> present_ = {};
 };
 
-void write_copy(MendedNetwork const& mended, NetworkFile const& file, CheckOutput const& output, CheckedFiles& checked,
-                Run const& run) {
+void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOutput const& output,
+                CheckedFiles& checked, Run const& run) {
     io::NetworkTables const tables{mended.network,
                                    mended.orders,
                                    mended.us_area_m2,
@@ -299,8 +299,8 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
 
     for (CheckOutput const& output : fix) {
         Raster<float> const dem = read_dem_in(job.dem, network.crs, "pipeline.check_files: --dem", job.nodata, run);
-        MendedNetwork const mended =
-            mend_network(network, topology, {job.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
+        RepairedNetwork const mended =
+            repair_network(network, topology, {job.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
         checked.mended = mended.mended;
         append(checked.notes, mended.doubts);
         if (mended.done) {

@@ -191,7 +191,7 @@ public:
     bool is_mask() const { return !database_ && write_.format == io::NetworkFormat::mask; }
 
     /// Reports the user's columns that are renamed.
-    void say_shortened(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
+    void report_renamed_columns(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
         if (!database_ && write_.format == io::NetworkFormat::shapefile) {
             for (io::ShortenedName const& one : io::shortened_names(tables, params_.schema)) {
                 findings.push_back({"shortened_field",
@@ -270,7 +270,7 @@ Converted convert(ConvertParams const& params, std::string const& output, io::Ex
     tables.sinks = sinks_in(plan, file);
     io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};
     tables.user = &user;
-    out.say_shortened(tables, converted.findings);
+    out.report_renamed_columns(tables, converted.findings);
     Grid const grid = out.is_mask() ? grid_of(plan, params, dem ? &*dem : nullptr, file.crs) : Grid{};
     converted.written = out.write(tables, grid, run);
     return converted;

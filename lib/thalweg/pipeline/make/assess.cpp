@@ -73,7 +73,7 @@ void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief con
     if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
         return;
     }
-    std::string const outside = unlike_land(relief_rows(relief), plan.recipe.network->source == Source::lines);
+    std::string const outside = unusual_relief(relief_rows(relief), plan.recipe.network->source == Source::lines);
     if (!outside.empty()) {
         run.say("warning: measures of the relief lie outside those of the reference DEMs: " + outside +
                 ". docs/relief_measures.md says what they mean.");
@@ -81,41 +81,42 @@ void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief con
 }
 
 /// Measures a surface, with the rivers on it.
-SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, Diary& diary, Run const& run) {
+SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& stage_log, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
     Raster<float> const& dem = terrain.surface->dem;
     StreamNetwork const& network = terrain.rivers.network.plan;
     SurfaceMeasures found;
-    found.statistics = diary.stage("measure", [&] { return measure::statistics(dem, run); });
+    found.statistics = stage_log.stage("measure", [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
     if (plan.recipe.network && plan.recipe.output.catchments) {
         found.catchments =
-            diary.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
+            stage_log.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
     }
     if (plan.recipe.network) {
         if (plan.recipe.network->inland == InlandEnds::sink) {
             found.sinks = inland_ends(network, dem);
         }
-        found.certificate = diary.stage("certify", [&] {
+        found.certificate = stage_log.stage("certify", [&] {
             return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(plan, terrain), run);
         });
     }
     if (has_ridges(plan.recipe)) {
-        found.surface_ridges = diary.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
+        found.surface_ridges =
+            stage_log.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
         measure::Agreement const& within_a_cell = found.surface_ridges->extracted[1];
-        diary.say(
+        stage_log.say(
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
     }
     if (plan.recipe.output.accumulation) {
-        found.water_areas = diary.stage("areas", [&] {
+        found.water_areas = stage_log.stage("areas", [&] {
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
     }
-    found.laws = diary.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
-    found.relief = diary.stage("relief", [&] { return relief_of_terrain(plan, terrain, *found.statistics, run); });
+    found.laws = stage_log.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
+    found.relief = stage_log.stage("relief", [&] { return relief_of_terrain(plan, terrain, *found.statistics, run); });
     warn_of_texture(plan, terrain, *found.relief, run);
     return found;
 }
@@ -131,8 +132,8 @@ std::vector<Finding> findings_of(std::optional<measure::Certificate> const& cert
 }
 
 /// Checks the network's topology: arcs descend and connect.
-measure::TopologyReport topology_of(Terrain const& terrain, Diary& diary, Run const& run) {
-    return diary.stage("check", [&] {
+measure::TopologyReport topology_of(Terrain const& terrain, StageLog& stage_log, Run const& run) {
+    return stage_log.stage("check", [&] {
         return measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
     });
 }
@@ -174,13 +175,13 @@ bool Assessment::passed() const {
 }
 
 Assessment assess(Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
-    Diary diary(run);
-    Assessment found{terrain.surface ? of_surface(plan, terrain, diary, run)
+    StageLog stage_log(run);
+    Assessment found{terrain.surface ? of_surface(plan, terrain, stage_log, run)
                                      : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
     found.checks = surface_checks(plan, terrain, found);
     found.findings = terrain.findings;
     if (plan.recipe.network) {
-        measure::TopologyReport topology = topology_of(terrain, diary, run);
+        measure::TopologyReport topology = topology_of(terrain, stage_log, run);
         found.checks.insert(found.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.rivers.network)));
         append(found.checks, std::move(topology.checks));
         append(found.findings, std::move(topology.findings));
@@ -202,7 +203,7 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     if (found.given_areas) {
         run.tell("areas", line_of(*found.given_areas));
     }
-    found.timings_s = diary.take();
+    found.timings_s = stage_log.take();
     return found;
 }
 

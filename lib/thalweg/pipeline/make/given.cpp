@@ -125,14 +125,14 @@ std::optional<GivenLength> given_length(Plan const& plan, Planform const& planfo
     GivenLength given;
     given.secondary = file.secondary;
     append(given.secondary,
-           file.sources.missing(file.adopted, terrain.rivers.network.plan, LeftOut::head, "cut at its head"));
-    double of_adopted_m = 0.0; // left out of the adopted network, and of the lines before it
+           file.sources.missing(file.imported, terrain.rivers.network.plan, LeftOut::head, "cut at its head"));
+    double of_imported_m = 0.0; // left out of the adopted network, and of the lines before it
     double of_file_m = 0.0;
     double of_import_m = 0.0;
     for (SecondaryLine const& line : given.secondary) {
         double m = length_in_plan(line.vertices);
         switch (line.cause) {
-        case LeftOut::head: of_adopted_m += m /= file.lengthened; break;
+        case LeftOut::head: of_imported_m += m /= file.lengthened; break;
         case LeftOut::filter:
         case LeftOut::coast:
         case LeftOut::grid: of_file_m += m; break;
@@ -143,11 +143,11 @@ std::optional<GivenLength> given_length(Plan const& plan, Planform const& planfo
         }
         given.left_out_m[static_cast<std::size_t>(line.cause)] += m;
     }
-    double const adopted_m = file.sources.length_m(file.adopted) / file.lengthened;
-    given.kept_m = adopted_m - of_adopted_m;
+    double const imported_m = file.sources.length_m(file.imported) / file.lengthened;
+    given.kept_m = imported_m - of_imported_m;
     given.read_m = file.taken_m + of_file_m;
-    given.closed_m = adopted_m + given.left_out(LeftOut::pruned) + of_import_m - file.taken_m;
-    std::vector<Finding> const& repairs = planform.story.repairs;
+    given.closed_m = imported_m + given.left_out(LeftOut::pruned) + of_import_m - file.taken_m;
+    std::vector<Finding> const& repairs = planform.statistics.repairs;
     given.carried_m = sum_of(repairs, {"carried_outlet", "joined_outlet"});
     given.turned_m = sum_of(repairs, {"reversed"});
     given.connector_m = sum_of(repairs, {"connector"});
@@ -164,8 +164,8 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
         return std::nullopt;
     }
     std::set<std::pair<double, double>> of_file; // without those of outlets that were carried on
-    for (ArcId a = 0; a < planform.file.adopted.arc_count(); ++a) {
-        for (Vec2 const v : planform.file.adopted.arc(a).line) {
+    for (ArcId a = 0; a < planform.file.imported.arc_count(); ++a) {
+        for (Vec2 const v : planform.file.imported.arc(a).line) {
             of_file.insert({v.x, v.y});
         }
     }

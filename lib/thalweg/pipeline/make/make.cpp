@@ -43,7 +43,7 @@ Timings timings_of(Made const& made) {
 }
 
 std::vector<Finding> repairs_of(Made const& made) {
-    std::vector<Finding> all = made.planform.story.repairs;
+    std::vector<Finding> all = made.planform.statistics.repairs;
     append(all, made.terrain.notes);
     return all;
 }

@@ -44,28 +44,28 @@ struct Bent {
 };
 
 /// Bends rivers where the plan wants it; where there is a sea, none leaves the land.
-Bent bent(Plan const& plan, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land, Diary& diary,
-          Run const& run) {
-    if (!bends_rivers(plan)) {
+Bent bent(Plan const& plan, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
+          StageLog& stage_log, Run const& run) {
+    if (!has_meanders(plan)) {
         return {std::move(network), std::move(file)};
     }
     flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
     network::MeanderParams const params{.gain = *plan.recipe.network->meander, .seed = plan.recipe.seed};
-    network::Meandered meandered = diary.stage("meander", [&] {
+    network::Meandered meandered = stage_log.stage("meander", [&] {
         return land.cells() > 0 ? network::meander(network, land, areas.ds_area_m2, params, run)
                                 : network::meander(network, grid, areas.ds_area_m2, params, run);
     });
-    diary.say(fmt::format("{} vertices, at most {:.0f} m aside", meandered.vertices, meandered.max_shift_m));
+    stage_log.say(fmt::format("{} vertices, at most {:.0f} m aside", meandered.vertices, meandered.max_shift_m));
     RiverFile follows = std::move(file);
     double const before_m = follows.sources.length_m(network);
     follows.sources = follows.sources.bent(network, meandered.network);
     follows.lengthened = before_m > 0.0 ? follows.sources.length_m(meandered.network) / before_m : 1.0;
-    follows.adopted = meandered.network;
+    follows.imported = meandered.network;
     return {std::move(meandered.network), std::move(follows)};
 }
 
 /// Warns when outlets were extended far beyond the data.
-void warn_of_long_ways(std::vector<Finding> const& notes, StreamNetwork const& plan, Run const& run) {
+void warn_of_long_extensions(std::vector<Finding> const& notes, StreamNetwork const& plan, Run const& run) {
     constexpr std::int64_t many = 3;
     constexpr double much = 0.1; // of the length of all rivers
     double carried_m = 0.0;
@@ -107,7 +107,7 @@ Carried with_outlets_carried(Plan const& plan, StreamNetwork const& network, Gri
     bool const all = inland != InlandEnds::sink;
     network::CarryParams const params{.join = !keeps_heights};
     auto const take = [&](network::Carried carried) {
-        warn_of_long_ways(carried.notes, result.network, run);
+        warn_of_long_extensions(carried.notes, result.network, run);
         append(result.notes, std::move(carried.notes));
         result.network = std::move(carried.network);
     };
@@ -188,11 +188,11 @@ struct Pruned {
     std::vector<Finding> notes;
 };
 
-Pruned pruned(Plan const& plan, SourceRivers const& source, Diary& diary, Run const& run) {
+Pruned pruned(Plan const& plan, SourceRivers const& source, StageLog& stage_log, Run const& run) {
     NetworkRecipe const& rivers = *plan.recipe.network;
-    network::Pruned kept = diary.stage(
+    network::Pruned kept = stage_log.stage(
         "prune", [&] { return prune(source.network, rivers, *rivers.prune_cells, source.grid.cell_m, run); });
-    diary.say(
+    stage_log.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, kept.network.arc_count(), kept.arcs_before));
     std::vector<Finding> notes;
     if (rivers.source == Source::forest) { // its rivers end where the land does
@@ -200,19 +200,19 @@ Pruned pruned(Plan const& plan, SourceRivers const& source, Diary& diary, Run co
     }
     RiverFile file = source.file;
     append(file.secondary, file.sources.missing(source.network, kept.network, LeftOut::pruned, "pruned"));
-    file.adopted = kept.network;
+    file.imported = kept.network;
     return {std::move(kept.network), std::move(file), kept.arcs_before, std::move(notes)};
 }
 
-NetworkStory story_of(NetworkStory const& source, std::vector<Finding> conversions, Pruned const& kept,
-                      std::vector<Finding> carried) {
-    NetworkStory story = source;
-    story.arcs_traced = kept.arcs_before;
-    story.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
-    append(story.repairs, std::move(conversions));
-    append(story.repairs, kept.notes);
-    append(story.repairs, std::move(carried));
-    return story;
+NetworkStatistics statistics_of(NetworkStatistics const& source, std::vector<Finding> conversions, Pruned const& kept,
+                                std::vector<Finding> carried) {
+    NetworkStatistics statistics = source;
+    statistics.arcs_traced = kept.arcs_before;
+    statistics.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
+    append(statistics.repairs, std::move(conversions));
+    append(statistics.repairs, kept.notes);
+    append(statistics.repairs, std::move(carried));
+    return statistics;
 }
 
 } // namespace
@@ -221,17 +221,19 @@ Planform make_planform(Plan const& plan, Run const& run) {
     if (!plan.recipe.network) {
         return {};
     }
-    Diary diary(run);
-    SourceRivers source = rivers_of_source(plan, diary, run);
+    StageLog stage_log(run);
+    SourceRivers source = rivers_of_source(plan, stage_log, run);
     std::vector<Finding> conversions = report_conversions(plan.recipe, source.grid, run);
-    Pruned kept = pruned(plan, source, diary, run);
+    Pruned kept = pruned(plan, source, stage_log, run);
     Carried carried =
         with_outlets_carried(plan, kept.network, source.grid, source.land, source.file_heights.has_value(), run);
-    refuse_if<BadParameter>(bends_rivers(plan) && source.file_heights,
+    refuse_if<BadParameter>(has_meanders(plan) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
-    NetworkStory story = story_of(source.story, std::move(conversions), kept, std::move(carried.notes));
-    Bent rivers = bent(plan, std::move(carried.network), std::move(kept.file), source.grid, carried.land, diary, run);
+    NetworkStatistics statistics =
+        statistics_of(source.statistics, std::move(conversions), kept, std::move(carried.notes));
+    Bent rivers =
+        bent(plan, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
     Typed typed = type_rivers(std::move(rivers.network), *plan.recipe.network, run);
     return {.grid = source.grid,
             .network = std::move(typed.network),
@@ -239,8 +241,8 @@ Planform make_planform(Plan const& plan, Run const& run) {
             .file_heights = std::move(source.file_heights),
             .land = std::move(carried.land),
             .file = std::move(rivers.file),
-            .story = std::move(story),
-            .timings_s = diary.take()};
+            .statistics = std::move(statistics),
+            .timings_s = stage_log.take()};
 }
 
 } // namespace thalweg::pipeline

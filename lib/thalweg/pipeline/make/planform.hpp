@@ -18,17 +18,17 @@
 namespace thalweg::pipeline {
 
 /// What became of a network grown by Tokunaga's law.
-struct TokunagaStory {
+struct TokunagaStatistics {
     network::StreamCounts tree; ///< of the tree as it was grown; empty for strokes
     std::int64_t placed = 0;    ///< links that found room
     std::int64_t dropped = 0;
 };
 
 /// How a network came about, for the report.
-struct NetworkStory {
+struct NetworkStatistics {
     std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
-    std::optional<TokunagaStory> tokunaga;
+    std::optional<TokunagaStatistics> tokunaga;
     bool wide = false;                 ///< the cluster stopped at its greatest radius
     bool full = false;                 ///< the forest stopped where no particle found room
     bool cut = false;                  ///< the branch reached the grid's margin before the last particle
@@ -42,7 +42,7 @@ struct RiverFile {
     std::vector<SecondaryLine> secondary; ///< lines that are not in the network
     AttributeTable attributes;            ///< of all lines
     LineSources sources;                  ///< the lines in the network
-    StreamNetwork adopted;                ///< the network that was made of them, before outlets are carried
+    StreamNetwork imported;               ///< the network that was made of them, before outlets are carried
     double taken_m = 0.0;                 ///< [m] of the lines from which it was made, copies among them
     double lengthened = 1.0;              ///< by bends: length of the adopted network / that as it was drawn
 };
@@ -55,7 +55,7 @@ struct Planform {
     std::optional<ElevatedNetwork> file_heights; ///< of the imported lines, where the recipe takes the file's heights
     Mask land;                                   ///< 0: sea, which has no heights; without cells: no sea
     RiverFile file;                              ///< from which the rivers were imported
-    NetworkStory story;
+    NetworkStatistics statistics;
     Timings timings_s;
 };
 

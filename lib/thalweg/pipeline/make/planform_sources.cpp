@@ -70,24 +70,24 @@ network::Branch branch_of(network::Cluster const& cluster, Recipe const& recipe)
 }
 
 // One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
-SourceRivers rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_cluster(Plan const& plan, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     NetworkRecipe const& wanted = *recipe.network;
-    NetworkStory story;
+    NetworkStatistics statistics;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
-    network::Cluster const cluster = diary.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
-    story.wide = cluster.stop == network::GrowthStop::radius;
-    diary.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
-                          cluster.radius, story.wide ? ", where it stops" : ""));
-    story.particles = static_cast<std::int64_t>(cluster.cells.size());
-    story.walkers = cluster.walkers;
+    network::Cluster const cluster = stage_log.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
+    statistics.wide = cluster.stop == network::GrowthStop::radius;
+    stage_log.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
+                              cluster.radius, statistics.wide ? ", where it stops" : ""));
+    statistics.particles = static_cast<std::int64_t>(cluster.cells.size());
+    statistics.walkers = cluster.walkers;
 
     network::Branch const branch = branch_of(cluster, recipe);
-    story.cut = branch.cut;
+    statistics.cut = branch.cut;
     double const turn_deg = *wanted.rotate_deg;
     FramedBranch const framed = frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
-    Mask const skeleton = diary.stage("thin", [&] { return network::thin(framed.mask, run); });
-    StreamNetwork network = diary.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
+    Mask const skeleton = stage_log.stage("thin", [&] { return network::thin(framed.mask, run); });
+    StreamNetwork network = stage_log.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
     Grid grid = framed.mask.grid();
     if (turn_deg != 0.0) {
         network::Rotated turned =
@@ -95,7 +95,7 @@ SourceRivers rivers_of_cluster(Plan const& plan, Diary& diary, Run const& run) {
         network = std::move(turned.network);
         grid = turned.grid;
     }
-    return {.network = std::move(network), .grid = grid, .story = std::move(story)};
+    return {.network = std::move(network), .grid = grid, .statistics = std::move(statistics)};
 }
 
 /// The area that a network fills, and its mouth.
@@ -172,28 +172,28 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run
     }
 }
 
-SourceRivers fill_region(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers fill_region(Plan const& plan, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     network::TokunagaTree const& tree = *plan.tree;
     Grid const& grid = *plan.grid;
-    TokunagaStory story;
-    story.tree = network::count_streams(downstream(tree));
+    TokunagaStatistics statistics;
+    statistics.tree = network::count_streams(downstream(tree));
     Region const region = plan.region ? inside(*plan.region, wanted.mouth) : within(grid, wanted.mouth);
     network::EmbedParams params;
     params.seed = plan.recipe.seed;
     params.region = region.ring;
     params.mouth = region.mouth;
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
-    network::EmbeddedTree embedded = diary.stage("embed", [&] { return network::embed_tree(tree, params, run); });
-    story.placed = embedded.placed;
-    story.dropped = embedded.dropped;
-    diary.say(
+    network::EmbeddedTree embedded = stage_log.stage("embed", [&] { return network::embed_tree(tree, params, run); });
+    statistics.placed = embedded.placed;
+    statistics.dropped = embedded.dropped;
+    stage_log.say(
         fmt::format("{} of {} links placed, {:.0f} m apart", embedded.placed, tree.links.size(), embedded.spacing_m));
     judge_room(embedded.placed, embedded.dropped, grid, run);
-    return {.network = std::move(embedded.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
+    return {.network = std::move(embedded.network), .grid = grid, .statistics = {.tokunaga = std::move(statistics)}};
 }
 
-SourceRivers follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers follow_strokes(Plan const& plan, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     Grid const& grid = *plan.grid;
     network::StrokesParams params;
@@ -201,22 +201,22 @@ SourceRivers follow_strokes(Plan const& plan, Diary& diary, Run const& run) {
     params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     network::GrownStrokes grown =
-        diary.stage("grow", [&] { return network::grow_strokes(plan.lines, grid, params, run); });
-    TokunagaStory story;
-    story.placed = grown.placed;
-    story.dropped = grown.dropped;
-    diary.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
+        stage_log.stage("grow", [&] { return network::grow_strokes(plan.lines, grid, params, run); });
+    TokunagaStatistics statistics;
+    statistics.placed = grown.placed;
+    statistics.dropped = grown.dropped;
+    stage_log.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
     judge_room(grown.placed, grown.dropped, grid, run);
-    return {.network = std::move(grown.network), .grid = grid, .story = {.tokunaga = std::move(story)}};
+    return {.network = std::move(grown.network), .grid = grid, .statistics = {.tokunaga = std::move(statistics)}};
 }
 
 // Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
-SourceRivers rivers_of_tree(Plan const& plan, Diary& diary, Run const& run) {
-    return plan.tree ? fill_region(plan, diary, run) : follow_strokes(plan, diary, run);
+SourceRivers rivers_of_tree(Plan const& plan, StageLog& stage_log, Run const& run) {
+    return plan.tree ? fill_region(plan, stage_log, run) : follow_strokes(plan, stage_log, run);
 }
 
 // Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
-SourceRivers rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_forest(Plan const& plan, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     ForestRecipe const& wanted = recipe.network->forest;
     ForestLand const& on = *plan.forest;
@@ -224,18 +224,18 @@ SourceRivers rivers_of_forest(Plan const& plan, Diary& diary, Run const& run) {
     params.step_cells = wanted.spacing_cells / 2;
     params.seed = recipe.seed;
     network::PlantedForest planted =
-        diary.stage("grow", [&] { return network::plant_forest(on.land, on.outlets, params, run); });
-    diary.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
-    NetworkStory story;
-    story.repairs = on.notes;
-    story.repairs.insert(story.repairs.end(), planted.notes.begin(), planted.notes.end());
-    story.particles = planted.particles;
-    story.walkers = planted.walkers;
-    story.full = planted.stop == network::ForestStop::full;
+        stage_log.stage("grow", [&] { return network::plant_forest(on.land, on.outlets, params, run); });
+    stage_log.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
+    NetworkStatistics statistics;
+    statistics.repairs = on.notes;
+    statistics.repairs.insert(statistics.repairs.end(), planted.notes.begin(), planted.notes.end());
+    statistics.particles = planted.particles;
+    statistics.walkers = planted.walkers;
+    statistics.full = planted.stop == network::ForestStop::full;
     return {.network = std::move(planted.network),
             .grid = on.land.grid(),
             .land = on.has_sea ? on.land : Mask{},
-            .story = std::move(story)};
+            .statistics = std::move(statistics)};
 }
 
 /// The features of the file that are not rivers.
@@ -289,7 +289,7 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped
 }
 
 /// The land bounded by a file's coastlines; without cells: there are none.
-Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
+Mask land_of_coastlines(Plan const& plan, StageLog& stage_log, Run const& run) {
     if (!has_coastlines(plan)) {
         return {};
     }
@@ -303,10 +303,10 @@ Mask land_of_coastlines(Plan const& plan, Diary& diary, Run const& run) {
     }
     Grid const& grid = *plan.grid;
     network::LandAndSea divided =
-        diary.stage("sea", [&] { return network::land_and_sea(coast, plan.lines, grid, run); });
-    diary.say(fmt::format("{:.3g} % of the grid, by {} coastlines",
-                          100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
-                          coast.lines.size()));
+        stage_log.stage("sea", [&] { return network::land_and_sea(coast, plan.lines, grid, run); });
+    stage_log.say(fmt::format("{:.3g} % of the grid, by {} coastlines",
+                              100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
+                              coast.lines.size()));
     if (4 * divided.beyond > divided.behind) {
         run.say(fmt::format("warning: rivers lie on both sides of the coastlines of {} ({} cells, and {} on the side "
                             "that became sea); --set network.lines.coastlines=none leaves the coastlines out.",
@@ -322,7 +322,7 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     file.attributes = lines.attributes;
     file.sources = LineSources(imported.network, imported.stretches);
     file.secondary.insert(file.secondary.end(), imported.secondary.begin(), imported.secondary.end());
-    file.adopted = imported.network;
+    file.imported = imported.network;
     for (RiverLine const& line : lines.lines) {
         file.taken_m += length_in_plan(line.vertices);
     }
@@ -330,7 +330,7 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
 }
 
 /// Logs reversed and doubtful directions.
-void say_directions(network::Directions const& directions, bool has_dem, Run const& run) {
+void log_directions(network::Directions const& directions, bool has_dem, Run const& run) {
     if (std::string const turned = turned_in_words(directions); !turned.empty()) {
         run.tell("directions", turned);
     }
@@ -352,26 +352,27 @@ std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Import
 }
 
 // The lines of a file.
-SourceRivers rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& run) {
     LinesRecipe const& wanted = plan.recipe.network->lines;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
                                        .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr};
-    network::Imported imported = diary.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
+    network::Imported imported =
+        stage_log.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
     SourceRivers rivers;
     rivers.grid = *plan.grid;
-    std::vector<Finding>& repairs = rivers.story.repairs;
+    std::vector<Finding>& repairs = rivers.statistics.repairs;
     repairs = left_out(plan.lines);
     repairs.insert(repairs.end(), imported.repairs.begin(), imported.repairs.end());
     rivers.file = file_of(plan.lines, imported);
     std::size_t const secondary = rivers.file.secondary.size();
-    diary.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(), repairs.size(),
-                          secondary == 0 ? "" : fmt::format(", {} secondary", secondary)));
-    say_directions(imported.directions, params.dem != nullptr, run);
+    stage_log.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(), repairs.size(),
+                              secondary == 0 ? "" : fmt::format(", {} secondary", secondary)));
+    log_directions(imported.directions, params.dem != nullptr, run);
     repairs.insert(repairs.end(), imported.directions.doubts.begin(), imported.directions.doubts.end());
     warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, run);
-    rivers.land = land_of_coastlines(plan, diary, run);
+    rivers.land = land_of_coastlines(plan, stage_log, run);
     rivers.file_heights = heights_of_file(plan, imported);
     rivers.network = std::move(imported.network);
     return rivers;
@@ -379,14 +380,14 @@ SourceRivers rivers_of_lines(Plan const& plan, Diary& diary, Run const& run) {
 
 } // namespace
 
-SourceRivers rivers_of_source(Plan const& plan, Diary& diary, Run const& run) {
+SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run) {
     switch (plan.recipe.network->source) {
-    case Source::dla: return rivers_of_cluster(plan, diary, run);
-    case Source::tokunaga: return rivers_of_tree(plan, diary, run);
-    case Source::forest: return rivers_of_forest(plan, diary, run);
+    case Source::dla: return rivers_of_cluster(plan, stage_log, run);
+    case Source::tokunaga: return rivers_of_tree(plan, stage_log, run);
+    case Source::forest: return rivers_of_forest(plan, stage_log, run);
     case Source::lines: break;
     }
-    return rivers_of_lines(plan, diary, run);
+    return rivers_of_lines(plan, stage_log, run);
 }
 
 } // namespace thalweg::pipeline

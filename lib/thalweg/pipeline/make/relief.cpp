@@ -86,7 +86,7 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief) {
     return rows;
 }
 
-std::string unlike_land(std::vector<ReliefRow> const& rows, bool rivers_of_file) {
+std::string unusual_relief(std::vector<ReliefRow> const& rows, bool rivers_of_file) {
     constexpr std::array<std::string_view, 8> of_texture = {"gradient_anisotropy",      "gradient_correlation_360",
                                                             "gradient_correlation_720", "straight_run",
                                                             "slope_area_ratio",         "level_patch",

@@ -60,7 +60,7 @@ std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
 /// \param rows indices
 /// \param rivers_of_file rivers are drawn as in a file, so that their straight parts are not the terrain's
 /// \return "": all are inside
-std::string unlike_land(std::vector<ReliefRow> const& rows, bool rivers_of_file);
+std::string unusual_relief(std::vector<ReliefRow> const& rows, bool rivers_of_file);
 
 /// Formats the relief with the reference DEMs as one JSON object: dem.relief in report.json, and the data of the page's
 /// diagrams.

@@ -46,11 +46,11 @@ Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types) {
     return {std::move(network), std::move(types), std::move(orders), std::move(streams)};
 }
 
-RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
-    Elevated raised = diary.stage("raise", [&] { return elevated(plan, planform, run); });
+RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
+    Elevated raised = stage_log.stage("raise", [&] { return elevated(plan, planform, run); });
     network::Rasterised cells = network::rasterise(raised.network, planform.grid);
     return {std::move(raised.network), std::move(cells.valley),
-            HeightsStory{raised.repair, cells.lowered_cells, cells.max_lowered_m}};
+            HeightsStatistics{raised.repair, cells.lowered_cells, cells.max_lowered_m}};
 }
 
 } // namespace thalweg::pipeline

@@ -25,7 +25,7 @@ struct Rivers {
 Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types);
 
 /// How heights were assigned to rivers.
-struct HeightsStory {
+struct HeightsStatistics {
     network::HeightReport repair = {}; ///< under modes that set heights
     std::int64_t lowered_cells = 0;    ///< shared valley cells lowered so that every flow path descends
     double max_lowered_m = 0.0;

@@ -37,7 +37,8 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
 }
 
 /// Ridges between the streams, where the recipe asks for them.
-RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& grid, Diary& diary, Run const& run) {
+RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& grid, StageLog& stage_log,
+                          Run const& run) {
     if (!has_ridges(plan.recipe)) {
         return {};
     }
@@ -47,16 +48,16 @@ RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& gr
                                                      : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
-    RidgeLines ridges = diary.stage("ridge", [&] {
+    RidgeLines ridges = stage_log.stage("ridge", [&] {
         return skeleton::ridges(rivers.network, network::streams(rivers.network.plan, rivers.orders), grid, params,
                                 run);
     });
-    diary.say(fmt::format("{} ridges", ridges.lines.size()));
+    stage_log.say(fmt::format("{} ridges", ridges.lines.size()));
     return ridges;
 }
 
 /// Random points between the rivers.
-skeleton::Scattered scattered(Plan const& plan, Valley const& valley, Mask const& inside, Diary& diary,
+skeleton::Scattered scattered(Plan const& plan, Valley const& valley, Mask const& inside, StageLog& stage_log,
                               Run const& run) {
     SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
@@ -67,14 +68,14 @@ skeleton::Scattered scattered(Plan const& plan, Valley const& valley, Mask const
     params.farthest_m = wanted.ridge_farthest_m;
     params.law = wanted.law;
     skeleton::Scattered points =
-        diary.stage("scatter", [&] { return skeleton::scatter_between(valley, inside, params, run); });
-    diary.say(fmt::format("{} points", points.points.points.size()));
+        stage_log.stage("scatter", [&] { return skeleton::scatter_between(valley, inside, params, run); });
+    stage_log.say(fmt::format("{} points", points.points.points.size()));
     return points;
 }
 
 /// The triangles of points, rivers and ridges, whose lines are breaklines, where the recipe needs them.
 std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network, RidgeLines const& ridges,
-                                FeaturePoints const& points, Diary& diary, Run const& run) {
+                                FeaturePoints const& points, StageLog& stage_log, Run const& run) {
     if (!needs_tin(plan.recipe)) {
         return std::nullopt;
     }
@@ -85,8 +86,8 @@ std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network
     for (RidgeLine const& ridge : ridges.lines) {
         breaklines.push_back(ridge.line);
     }
-    Tin tin = diary.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
-    diary.say(fmt::format("{} triangles of {} vertices", tin.triangles.size(), tin.vertices.size()));
+    Tin tin = stage_log.stage("tin", [&] { return geometry::triangulate(points.points, breaklines, run).tin; });
+    stage_log.say(fmt::format("{} triangles of {} vertices", tin.triangles.size(), tin.vertices.size()));
     return tin;
 }
 
@@ -154,7 +155,7 @@ surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run)
 }
 
 /// What a surface is diffused from: rivers, ridges, points, and what follows from them beside them.
-Skeleton gathered(Plan const& plan, Ground const& ground, Run const& run) {
+Skeleton gathered_skeleton(Plan const& plan, Ground const& ground, Run const& run) {
     SkeletonRecipe const wanted = plan.recipe.skeleton.value_or(SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
     params.noise.amplitude_m = wanted.ridge_noise_m;
@@ -176,15 +177,15 @@ surface::Dilated surface_of(Raster<float> dem) {
 /// A surface, and how it was solved for where it was.
 struct Filled {
     surface::Dilated surface;
-    std::optional<SolverStory> diffusion = {};
+    std::optional<SolverStatistics> diffusion = {};
 };
 
 Filled diffused(Plan const& plan, Ground const& ground, Run const& run) {
     surface::DiffuseParams params = plan.recipe.surface->diffuse;
     params.seed = plan.recipe.seed;
     params.tolerance = plan.recipe.surface->tolerance.value_or(params.tolerance);
-    surface::Diffused solved = surface::diffuse(gathered(plan, ground, run), ground.inside, params, run);
-    return {surface_of(std::move(solved.dem)), SolverStory{solved.iterations, solved.residual}};
+    surface::Diffused solved = surface::diffuse(gathered_skeleton(plan, ground, run), ground.inside, params, run);
+    return {surface_of(std::move(solved.dem)), SolverStatistics{solved.iterations, solved.residual}};
 }
 
 Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
@@ -212,10 +213,10 @@ std::string about(Plan const& plan, Filled const& filled) {
 }
 
 /// The surface between the rivers.
-Filled filled(Plan const& plan, Ground const& ground, Diary& diary, Run const& run) {
-    Filled result = diary.stage("fill", [&] { return by_method(plan, ground, run); });
+Filled filled(Plan const& plan, Ground const& ground, StageLog& stage_log, Run const& run) {
+    Filled result = stage_log.stage("fill", [&] { return by_method(plan, ground, run); });
     Grid const& grid = ground.valley.z.grid();
-    diary.say(fmt::format("{}x{}, {}", grid.width, grid.height, about(plan, result)));
+    stage_log.say(fmt::format("{}x{}, {}", grid.width, grid.height, about(plan, result)));
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     if (wanted.method == Method::dilate) {
         warn_of_jumps(result.surface, wanted.dilate.increment, run);
@@ -235,20 +236,20 @@ std::vector<Check> relief_checks(Plan const& plan, surface::Dilated const& surfa
 }
 
 /// Adds fractal detail: none in the valleys, all of it some cells away.
-Detailed with_detail_beside_rivers(Plan const& plan, Raster<float> dem, Valley const& valley, Run const& run) {
+DetailedTerrain with_detail_beside_rivers(Plan const& plan, Raster<float> dem, Valley const& valley, Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
-    Detailed const detail = detail_alone(plan, dem.grid(), run);
+    DetailedTerrain const detail = detail_alone(plan, dem.grid(), run);
     Raster<float> result = std::move(dem);
     surface::Expansion const expansion = surface::expand(valley, run);
     for (std::int64_t i = 0; i < result.cells(); ++i) {
         double const share = 1.0 - portable::exp(-static_cast<double>(expansion.level[i]) / near_cells);
         result[i] = static_cast<float>(static_cast<double>(result[i]) + share * static_cast<double>(detail.dem[i]));
     }
-    return {detail.story, std::move(result)};
+    return {detail.statistics, std::move(result)};
 }
 
 /// A surface before patches and drainage, with what it was drawn through.
-struct Undrained {
+struct UndrainedTerrain {
     Rivers rivers = {};
     Valley valley = {};
     surface::Dilated surface = {};
@@ -256,10 +257,10 @@ struct Undrained {
     std::optional<Tin> tin = {};
     Channels channels = {};
     std::int64_t lakes = 0;
-    HeightsStory heights = {};
-    std::optional<EquilibriumStory> equilibrium = {};
-    std::optional<SolverStory> diffusion = {};
-    std::optional<DetailStory> detail = {};
+    HeightsStatistics heights = {};
+    std::optional<EquilibriumStatistics> equilibrium = {};
+    std::optional<SolverStatistics> diffusion = {};
+    std::optional<DetailStatistics> detail = {};
     std::optional<fractal::MatchedDem> projection = {};
     double fine_forms_cells = 0.0;
     Remarks remarks = {};
@@ -267,7 +268,7 @@ struct Undrained {
 
 /// Draws the surface that the plan asks for through the rivers' cells, which keep their heights, and through points; in
 /// equilibrium rivers have their heights from it.
-Undrained draw_around_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
+UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     if (!plan.grid) { // else it was checked before the rivers were grown
         check_detail(recipe, planform.grid.width, planform.grid.height);
@@ -276,30 +277,30 @@ Undrained draw_around_rivers(Plan const& plan, Planform const& planform, Diary& 
         }
     }
     bool const balanced = in_equilibrium(recipe);
-    EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, diary, run) : EquilibriumResult{};
-    RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, diary, run);
+    EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, stage_log, run) : EquilibriumResult{};
+    RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, stage_log, run);
     Rivers rivers = balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types);
     Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
     Remarks remarks = std::move(solved.remarks);
     Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley);
     std::optional<FeaturePoints> own;
-    if (scatters(recipe)) {
-        skeleton::Scattered found = scattered(plan, valley, inside, diary, run);
+    if (scatters_points(recipe)) {
+        skeleton::Scattered found = scattered(plan, valley, inside, stage_log, run);
         remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
         own = std::move(found.points);
     }
     FeaturePoints const& points = own ? *own : plan.points;
-    RidgeLines ridges = ridges_between(plan, rivers, planform.grid, diary, run);
-    std::optional<Tin> tin = triangulated(plan, rivers.network, ridges, points, diary, run);
+    RidgeLines ridges = ridges_between(plan, rivers, planform.grid, stage_log, run);
+    std::optional<Tin> tin = triangulated(plan, rivers.network, ridges, points, stage_log, run);
     bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
     Filled made = balanced ? Filled{surface_of(std::move(solved.dem))}
-                           : filled(plan, {valley, ridges, tin, points, inside, whole}, diary, run);
+                           : filled(plan, {valley, ridges, tin, points, inside, whole}, stage_log, run);
     append(remarks.checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
-    std::optional<DetailStory> detail;
+    std::optional<DetailStatistics> detail;
     if (levels_of(recipe) > 0) {
-        Detailed detailed = with_detail_beside_rivers(plan, std::move(made.surface.dem), valley, run);
+        DetailedTerrain detailed = with_detail_beside_rivers(plan, std::move(made.surface.dem), valley, run);
         made.surface.dem = std::move(detailed.dem);
-        detail = detailed.story;
+        detail = detailed.statistics;
     }
     return {.rivers = std::move(rivers),
             .valley = std::move(valley),
@@ -308,17 +309,17 @@ Undrained draw_around_rivers(Plan const& plan, Planform const& planform, Diary& 
             .tin = std::move(tin),
             .channels = std::move(solved.channels),
             .lakes = solved.lakes,
-            .heights = balanced ? solved.heights : raised.story,
-            .equilibrium = balanced ? std::optional(std::move(solved.story)) : std::nullopt,
+            .heights = balanced ? solved.heights : raised.statistics,
+            .equilibrium = balanced ? std::optional(std::move(solved.statistics)) : std::nullopt,
             .diffusion = made.diffusion,
             .detail = detail,
             .remarks = std::move(remarks)};
 }
 
 /// A surface from numbers and points, with a note on each conversion.
-Undrained draw_alone(Plan const& plan, Diary& diary, Run const& run) {
+UndrainedTerrain draw_alone(Plan const& plan, StageLog& stage_log, Run const& run) {
     std::vector<Finding> notes = report_conversions(plan.recipe, *plan.grid, run);
-    SurfaceAlone alone = draw_without_rivers(plan, diary, run);
+    SurfaceAlone alone = draw_without_rivers(plan, stage_log, run);
     return {.surface = surface_of(std::move(alone.dem)),
             .tin = std::move(alone.tin),
             .diffusion = alone.diffusion,
@@ -351,23 +352,23 @@ MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
 struct Patched {
     Raster<float> dem;
     Valley valley;
-    std::vector<PatchStory> patches;
+    std::vector<PatchStatistics> patches;
 };
 
 /// Pastes the recipe's patches into the surface, in their order; rivers keep their cells' heights unless a patch says
 /// otherwise.
-Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network, Diary& diary,
-                     Run const& run) {
+Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network,
+                     StageLog& stage_log, Run const& run) {
     Patched result{std::move(dem), std::move(valley), {}};
     for (PatchRecipe const& patch : plan.recipe.patches) {
         bool const keeps = patch.rivers == PatchRivers::keep && plan.recipe.network.has_value();
-        MadeBlend made = diary.stage("blend", [&] {
+        MadeBlend made = stage_log.stage("blend", [&] {
             return blend_into(result.dem, keeps ? river_mask(result.valley) : Mask{}, params_of(plan.recipe, patch),
                               run);
         });
         result.dem = std::move(made.pasted.dem);
         result.patches.push_back({made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
-        diary.say(
+        stage_log.say(
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
     }
     if (plan.recipe.network && replaces_rivers(plan.recipe)) {
@@ -379,27 +380,28 @@ Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamN
 /// A surface after hydrological conditioning.
 struct Conditioned {
     Raster<float> dem;
-    std::optional<DrainStory> story;
+    std::optional<ConditioningChanges> statistics;
 };
 
-Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley const& valley, Diary& diary, Run const& run) {
-    if (!conditions(plan.recipe)) {
+Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley const& valley, StageLog& stage_log,
+                        Run const& run) {
+    if (!conditions_dem(plan.recipe)) {
         return {std::move(dem), std::nullopt};
     }
     Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
-    flow::ConditionedDem result = diary.stage("carve", [&] {
+    flow::ConditionedDem result = stage_log.stage("carve", [&] {
         return flow::condition(std::move(dem), plan.recipe.network ? valley : none, {*plan.recipe.surface->drain}, run);
     });
-    diary.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3", result.banks.raised_m3,
-                          result.depressions.raised_m3, result.depressions.cut_m3));
-    return {std::move(result.dem), DrainStory{result.banks, result.depressions}};
+    stage_log.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3",
+                              result.banks.raised_m3, result.depressions.raised_m3, result.depressions.cut_m3));
+    return {std::move(result.dem), ConditioningChanges{result.banks, result.depressions}};
 }
 
-flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network, Diary& diary,
-                            Run const& run) {
+flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network,
+                            StageLog& stage_log, Run const& run) {
     bool const sinks = plan.recipe.network && plan.recipe.network->inland == InlandEnds::sink;
     run.at(0.0, fmt::format("drain {} cells", dem.cells()).c_str());
-    return diary.stage("drain", [&] {
+    return stage_log.stage("drain", [&] {
         return flow::route(
             dem, sinks ? cells_of(inland_ends(network, dem), network, dem.grid()) : std::vector<std::int64_t>{}, run);
     });
@@ -407,8 +409,8 @@ flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNe
 
 /// Rivers that have heights of their own, where the recipe asks for no surface.
 Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run) {
-    Diary diary(run);
-    RaisedRivers raised = raise_rivers(plan, planform, diary, run);
+    StageLog stage_log(run);
+    RaisedRivers raised = raise_rivers(plan, planform, stage_log, run);
     flow::ContributingAreas areas = flow::areas_nearest(planform.network, planform.grid, run);
     Terrain terrain;
     terrain.grid = planform.grid;
@@ -416,8 +418,8 @@ Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run)
     terrain.rivers = rivers_of(std::move(raised.network), planform.types);
     terrain.valley = std::move(raised.valley);
     terrain.areas = std::move(areas);
-    terrain.heights = raised.story;
-    terrain.timings_s = diary.take();
+    terrain.heights = raised.statistics;
+    terrain.timings_s = stage_log.take();
     return terrain;
 }
 
@@ -428,14 +430,15 @@ Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run)
     if (has_rivers && !plan.recipe.surface) {
         return rivers_alone(plan, planform, run);
     }
-    Diary diary(run);
-    Undrained drawn = has_rivers ? draw_around_rivers(plan, planform, diary, run) : draw_alone(plan, diary, run);
+    StageLog stage_log(run);
+    UndrainedTerrain drawn =
+        has_rivers ? draw_around_rivers(plan, planform, stage_log, run) : draw_alone(plan, stage_log, run);
     Patched patched = with_patches(plan, std::move(drawn.surface.dem), std::move(drawn.valley),
-                                   drawn.rivers.network.plan, diary, run);
-    Conditioned drained = conditioned(plan, std::move(patched.dem), patched.valley, diary, run);
-    flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.plan, diary, run);
+                                   drawn.rivers.network.plan, stage_log, run);
+    Conditioned drained = conditioned(plan, std::move(patched.dem), patched.valley, stage_log, run);
+    flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.plan, stage_log, run);
     WithSideValleys made = with_side_valleys(plan, std::move(drawn.rivers), std::move(patched.valley), drawn.channels,
-                                             drained.dem, drainage, diary, run);
+                                             drained.dem, drainage, stage_log, run);
     surface::Dilated surface = std::move(drawn.surface);
     surface.dem = std::move(drained.dem); // with which it was made
     flow::ContributingAreas areas =
@@ -453,17 +456,17 @@ Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run)
             .lakes = drawn.lakes,
             .heights = drawn.heights,
             .equilibrium = std::move(drawn.equilibrium),
-            .side_valleys = made.story,
+            .side_valleys = made.statistics,
             .diffusion = drawn.diffusion,
             .detail = drawn.detail,
             .patches = std::move(patched.patches),
-            .drained = drained.story,
+            .drained = drained.statistics,
             .projection = std::move(drawn.projection),
             .fine_forms_cells = drawn.fine_forms_cells,
             .notes = std::move(drawn.remarks.notes),
             .checks = std::move(drawn.remarks.checks),
             .findings = std::move(drawn.remarks.findings),
-            .timings_s = diary.take()};
+            .timings_s = stage_log.take()};
 }
 
 } // namespace thalweg::pipeline

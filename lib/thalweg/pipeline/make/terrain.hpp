@@ -26,13 +26,13 @@
 namespace thalweg::pipeline {
 
 /// How a solver ended.
-struct SolverStory {
+struct SolverStatistics {
     std::int64_t iterations = 0;
     double residual = 0.0; ///< relative
 };
 
 /// Statistics of a patch.
-struct PatchStory {
+struct PatchStatistics {
     std::int64_t cells = 0;  ///< replaced cells
     std::int64_t kept = 0;   ///< cells under it that rivers keep
     double seam_max_m = 0.0; ///< as blend::Pasted
@@ -40,13 +40,13 @@ struct PatchStory {
 };
 
 /// Volumes changed by hydrological conditioning.
-struct DrainStory {
+struct ConditioningChanges {
     flow::DemChange banks;
     flow::DemChange depressions;
 };
 
 /// How terrain came into equilibrium with its rivers.
-struct EquilibriumStory {
+struct EquilibriumStatistics {
     surface::Edge edge = surface::Edge::open; ///< of the terrain, by recipe, mask or sea
     bool gave_way = false;            ///< true if the file's heights were relaxed because fixed ones needed walls
     std::int64_t channel_cells = 0;   ///< in which rivers run
@@ -60,13 +60,13 @@ struct EquilibriumStory {
 };
 
 /// Arcs made of valleys that the terrain has beside its rivers.
-struct SideValleysStory {
+struct SideValleysStatistics {
     std::int64_t grown = 0;
     std::int64_t left_out = 0;
 };
 
 /// Parameters of fractal detail, as used.
-struct DetailStory {
+struct DetailStatistics {
     double hurst = 0.0;
     double sigma = 0.0; ///< as fractal::MidpointParams
 };
@@ -78,21 +78,21 @@ struct Terrain {
     Rivers rivers; ///< without perched tips, with side valleys where they are asked for; without arcs where the recipe
                    ///< has no [network]
     Valley valley; ///< the cells under them
-    flow::ContributingAreas areas;                 ///< of their arcs: by the drainage, or by the nearest river
-    std::optional<surface::Dilated> surface;       ///< none where the recipe asks for rivers alone
-    std::optional<flow::FlowField> drainage;       ///< of the surface
-    RidgeLines ridges;                             ///< between streams, where they are asked for
-    std::optional<Tin> tin;                        ///< of rivers and points, where the surface is drawn over one
-    Channels channels;                             ///< of rivers with which the surface is in equilibrium
-    std::int64_t lakes = 0;                        ///< in them
-    HeightsStory heights;                          ///< of rivers whose heights do not follow from the surface
-    std::optional<EquilibriumStory> equilibrium;   ///< where the surface is
-    SideValleysStory side_valleys;                 ///< where they are asked for
-    std::optional<SolverStory> diffusion;          ///< how the surface was solved for, where it was diffused
-    std::optional<DetailStory> detail;             ///< where it has fractal detail
-    std::vector<PatchStory> patches;               ///< in the recipe's order
-    std::optional<DrainStory> drained;             ///< where the surface was conditioned hydrologically
-    std::optional<fractal::MatchedDem> projection; ///< how the statistics came out; its dem is moved to surface
+    flow::ContributingAreas areas;                    ///< of their arcs: by the drainage, or by the nearest river
+    std::optional<surface::Dilated> surface;          ///< none where the recipe asks for rivers alone
+    std::optional<flow::FlowField> drainage;          ///< of the surface
+    RidgeLines ridges;                                ///< between streams, where they are asked for
+    std::optional<Tin> tin;                           ///< of rivers and points, where the surface is drawn over one
+    Channels channels;                                ///< of rivers with which the surface is in equilibrium
+    std::int64_t lakes = 0;                           ///< in them
+    HeightsStatistics heights;                        ///< of rivers whose heights do not follow from the surface
+    std::optional<EquilibriumStatistics> equilibrium; ///< where the surface is
+    SideValleysStatistics side_valleys;               ///< where they are asked for
+    std::optional<SolverStatistics> diffusion;        ///< how the surface was solved for, where it was diffused
+    std::optional<DetailStatistics> detail;           ///< where it has fractal detail
+    std::vector<PatchStatistics> patches;             ///< in the recipe's order
+    std::optional<ConditioningChanges> drained;       ///< where the surface was conditioned hydrologically
+    std::optional<fractal::MatchedDem> projection;    ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms come from a Gaussian surface to meet them; 0: none
     std::vector<Finding> notes;    ///< on rivers
     std::vector<Check> checks;     ///< of what the recipe asks of the surface

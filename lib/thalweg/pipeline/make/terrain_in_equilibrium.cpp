@@ -246,16 +246,18 @@ Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfAr
 struct Solved {
     surface::EquilibriumTerrain land;
     surface::EquilibriumParams params;
-    bool gave_way = false; ///< as EquilibriumStory
+    bool gave_way = false; ///< as EquilibriumStatistics
 };
 
 /// Solves for the land. Heights that were taken because the lines have them give way where they would need walls.
-Solved solve(Plan const& plan, Planform const& planform, Channels const& channels, Diary& diary, Run const& run) {
+Solved solve(Plan const& plan, Planform const& planform, Channels const& channels, StageLog& stage_log,
+             Run const& run) {
     surface::EquilibriumFields const fields = equilibrium_fields(plan, planform, channels, run);
     run.at(0.0, fmt::format("fill {} cells", planform.grid.cells()).c_str());
     surface::Edge const edge = edge_of(plan, planform, fields.land);
     auto const solved_with = [&](surface::EquilibriumParams const& params) {
-        return Solved{diary.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }), params};
+        return Solved{stage_log.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }),
+                      params};
     };
     Solved solved = solved_with(params_of(plan, plan.recipe.network->heights, edge));
     if (plan.heights_of_file && too_walled(solved.land, channels)) {
@@ -269,20 +271,20 @@ Solved solve(Plan const& plan, Planform const& planform, Channels const& channel
     return solved;
 }
 
-EquilibriumStory story_of(Solved const& solved, Channels const& channels) {
+EquilibriumStatistics statistics_of(Solved const& solved, Channels const& channels) {
     surface::EquilibriumTerrain const& land = solved.land;
-    EquilibriumStory story;
-    story.edge = solved.params.edge;
-    story.gave_way = solved.gave_way;
-    story.channel_cells = static_cast<std::int64_t>(channels.cell.size());
-    story.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
-    story.walled_cells = static_cast<std::int64_t>(land.walled.size());
-    story.max_lowered_m = land.max_lowered_m;
-    story.p95_lowered_m = land.p95_lowered_m;
-    story.rise = land.rise;
-    story.in_region = land.in_region;
-    story.inflows = land.inflows;
-    return story;
+    EquilibriumStatistics statistics;
+    statistics.edge = solved.params.edge;
+    statistics.gave_way = solved.gave_way;
+    statistics.channel_cells = static_cast<std::int64_t>(channels.cell.size());
+    statistics.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
+    statistics.walled_cells = static_cast<std::int64_t>(land.walled.size());
+    statistics.max_lowered_m = land.max_lowered_m;
+    statistics.p95_lowered_m = land.p95_lowered_m;
+    statistics.rise = land.rise;
+    statistics.in_region = land.in_region;
+    statistics.inflows = land.inflows;
+    return statistics;
 }
 
 /// Warns if a requested region is not possible.
@@ -338,17 +340,17 @@ Valley valley_of(Channels const& channels, Raster<float> const& dem) {
 
 } // namespace
 
-EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, Diary& diary, Run const& run) {
+EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
     Heights const heights = plan.recipe.network->heights;
     std::optional<RaisedRivers> raised;
-    if (!follows_land(plan.recipe)) {
-        raised = raise_rivers(plan, planform, diary, run);
+    if (!heights_follow_terrain(plan.recipe)) {
+        raised = raise_rivers(plan, planform, stage_log, run);
     }
     EquilibriumResult result;
-    result.heights = raised ? raised->story : HeightsStory{};
+    result.heights = raised ? raised->statistics : HeightsStatistics{};
     std::vector<Finding>& notes = result.remarks.notes;
     network::ChannelsOfArcs rivers =
-        diary.stage("channels", [&] { return network::channels(planform.network, planform.grid, {}, run); });
+        stage_log.stage("channels", [&] { return network::channels(planform.network, planform.grid, {}, run); });
     append(notes, rivers.notes);
     if (heights != Heights::graded) {
         rivers.channels.z = asked_heights(raised->network, rivers.channels, heights);
@@ -357,9 +359,9 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     append(notes, flooded.notes);
     result.lakes = flooded.lakes;
     rivers = std::move(flooded.rivers);
-    Solved solved = solve(plan, planform, rivers.channels, diary, run);
+    Solved solved = solve(plan, planform, rivers.channels, stage_log, run);
     surface::EquilibriumTerrain& surface = solved.land;
-    result.story = story_of(solved, rivers.channels);
+    result.statistics = statistics_of(solved, rivers.channels);
     append(result.remarks, target_remarks(surface, solved.params, run));
     bool const given = solved.params.heights != surface::RiverHeights::graded;
     if (given || solved.params.heads == surface::Heads::kept) {
@@ -374,8 +376,8 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
         rivers = std::move(shortened.drawn);
         typed = type_rivers(std::move(shortened.network), *plan.recipe.network, run);
     }
-    diary.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", planform.grid.width, planform.grid.height,
-                          rivers.channels.cell.size()));
+    stage_log.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", planform.grid.width,
+                              planform.grid.height, rivers.channels.cell.size()));
     result.rivers =
         rivers_of(network::elevate_from_dem(typed.network, rivers.channels, surface.dem), std::move(typed.types));
     result.valley = valley_of(rivers.channels, surface.dem);
@@ -385,17 +387,17 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
 }
 
 WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
-                                  Raster<float> const& dem, flow::FlowField const& drainage, Diary& diary,
+                                  Raster<float> const& dem, flow::FlowField const& drainage, StageLog& stage_log,
                                   Run const& run) {
-    if (!fills_space(plan.recipe)) {
+    if (!adds_side_valleys(plan.recipe)) {
         return {std::move(rivers), std::move(valley), {}};
     }
     std::int64_t const support_cells = plan.recipe.network->support_cells;
-    network::SideValleys made = diary.stage("valleys", [&] {
+    network::SideValleys made = stage_log.stage("valleys", [&] {
         return network::side_valleys(rivers.network, channels, dem, drainage, {support_cells}, run);
     });
-    diary.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
-                          static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
+    stage_log.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
+                              static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
     Grid const& grid = dem.grid();
     // Lengths at which each is kept.
     Typed typed =

@@ -136,7 +136,7 @@ skeleton::Scattered points_of(Recipe const& recipe, Grid const& grid, FeaturePoi
 struct LandOfPoints {
     Raster<float> land;
     std::optional<Tin> tin = {};
-    std::optional<SolverStory> diffusion = {};
+    std::optional<SolverStatistics> diffusion = {};
 };
 
 // grid: of the terrain, whose cells may be coarser than the recipe's, of cell_m.
@@ -164,7 +164,7 @@ LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints c
         params.tolerance = wanted.tolerance.value_or(params.tolerance);
         surface::Diffused land =
             surface::diffuse(skeleton::draw_skeleton(no_rivers, {}, points, {}, run).skeleton, params, run);
-        return {std::move(land.dem), {}, SolverStory{land.iterations, land.residual}};
+        return {std::move(land.dem), {}, SolverStatistics{land.iterations, land.residual}};
     }
     Tin tin = geometry::triangulate(points.points, {}, run).tin;
     bool const natural = wanted.interpolation == Interpolation::natural;
@@ -180,7 +180,7 @@ constexpr double allowed_error = 0.01;
 constexpr double allowed_dimension_error = 0.02;
 
 // A terrain matched to the statistics.
-struct Brought {
+struct MatchedTerrain {
     fractal::MatchedDem projection;
     double fine_forms_cells = 0.0; // [cells] as Terrain
 };
@@ -288,13 +288,15 @@ void require_targets(StatisticsRecipe const& wanted, Grid const& grid, Run const
 
 // Matches a terrain to the statistics. One from which they cannot be reached, smoother or rougher between neighbours
 // than the target, takes its fine forms from a Gaussian terrain: as few as possible. given: points whose heights stay.
-Brought brought_to_statistics(Recipe const& recipe, Raster<float> land, FeaturePoints const& given, Run const& run) {
+MatchedTerrain matched_to_statistics(Recipe const& recipe, Raster<float> land, FeaturePoints const& given,
+                                     Run const& run) {
     StatisticsRecipe const& s = *recipe.statistics;
     Grid const grid = land.grid();
     std::vector<fractal::FixedHeight> const kept = heights_to_keep(recipe, given, grid);
     fractal::MatchParams params;
     params.prior = covariance_of(s, 1.0);
-    Brought brought{naming_keys([&] { return fractal::match_statistics(land, targets_of(s), kept, params, run); })};
+    MatchedTerrain brought{
+        naming_keys([&] { return fractal::match_statistics(land, targets_of(s), kept, params, run); })};
     if (!brought.projection.converged && s.skeleton != Prior::grf) {
         land = standardised(std::move(land), s, run);
         Raster<float> const gaussian = standardised(random_land(recipe, Prior::grf, grid, 0, run), s, run);
@@ -323,8 +325,8 @@ std::vector<Check> residual_checks(fractal::MatchedDem const& projection) {
     return checks;
 }
 
-Detailed displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<float> const& coarse, Grid const& grid,
-                   Run const& run) {
+DetailedTerrain displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<float> const& coarse,
+                          Grid const& grid, Run const& run) {
     params.width = grid.width;
     params.height = grid.height;
     params.seed = seed;
@@ -335,13 +337,13 @@ Detailed displaced(fractal::MidpointParams params, std::uint64_t seed, Raster<fl
 }
 
 // Adds the planned detail to coarse terrain.
-Detailed with_detail(Plan const& plan, Raster<float> const& coarse, Grid const& grid, Run const& run) {
+DetailedTerrain with_detail(Plan const& plan, Raster<float> const& coarse, Grid const& grid, Run const& run) {
     return displaced(plan.recipe.detail->midpoint, plan.recipe.seed, coarse, grid, run);
 }
 
 } // namespace
 
-Detailed detail_alone(Plan const& plan, Grid const& grid, Run const& run) {
+DetailedTerrain detail_alone(Plan const& plan, Grid const& grid, Run const& run) {
     fractal::MidpointParams wanted = plan.recipe.detail->midpoint;
     wanted.hurst = wanted.hurst.value_or(3.0 - default_dimension);
     Raster<float> const flat(coarse_grid(grid, levels_of(plan.recipe)), 0.0F);
@@ -369,29 +371,29 @@ Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
 struct Coarse {
     Raster<float> dem;
     std::optional<Tin> tin = {};
-    std::optional<SolverStory> diffusion = {};
+    std::optional<SolverStatistics> diffusion = {};
     std::vector<Check> checks = {};
 };
 
 /// It goes through points or is random.
-Coarse begun(Plan const& plan, Grid const& grid, Diary& diary, Run const& run) {
+Coarse with_coarse_terrain(Plan const& plan, Grid const& grid, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
     if (recipe.statistics && recipe.statistics->skeleton != Prior::points) {
-        Coarse result{
-            diary.stage("land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); })};
-        diary.say(fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
+        Coarse result{stage_log.stage(
+            "land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); })};
+        stage_log.say(fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
         return result;
     }
     skeleton::Scattered const points = points_of(recipe, grid, plan.points, run);
     std::vector<Check> checks;
-    if (scatters(recipe)) {
+    if (scatters_points(recipe)) {
         checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
     }
     LandOfPoints made =
-        diary.stage("land", [&] { return land_of_points(recipe, grid.cell_m, points.points, coarse, run); });
-    diary.say(fmt::format("{} points", points.points.points.size()));
+        stage_log.stage("land", [&] { return land_of_points(recipe, grid.cell_m, points.points, coarse, run); });
+    stage_log.say(fmt::format("{} points", points.points.points.size()));
     return {std::move(made.land), std::move(made.tin), made.diffusion, std::move(checks)};
 }
 
@@ -412,19 +414,19 @@ void append(Remarks& to, Remarks from) {
     append(to.findings, std::move(from.findings));
 }
 
-SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run) {
+SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run const& run) {
     Grid const& grid = *plan.grid;
     if (plan.recipe.statistics) { // before any work
         require_targets(*plan.recipe.statistics, grid, run);
     }
-    Coarse coarse = begun(plan, grid, diary, run);
+    Coarse coarse = with_coarse_terrain(plan, grid, stage_log, run);
     Raster<float> dem = std::move(coarse.dem);
-    std::optional<DetailStory> detail;
+    std::optional<DetailStatistics> detail;
     if (int const levels = levels_of(plan.recipe); levels > 0) {
-        Detailed made = diary.stage("detail", [&] { return with_detail(plan, dem, grid, run); });
-        detail = made.story;
+        DetailedTerrain made = stage_log.stage("detail", [&] { return with_detail(plan, dem, grid, run); });
+        detail = made.statistics;
         dem = std::move(made.dem);
-        diary.say(fmt::format("midpoint displacement, {} levels", levels));
+        stage_log.say(fmt::format("midpoint displacement, {} levels", levels));
     }
     if (!plan.recipe.statistics) {
         return {.dem = left_out(std::move(dem), plan.recipe),
@@ -433,11 +435,11 @@ SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run)
                 .detail = detail,
                 .checks = std::move(coarse.checks)};
     }
-    Brought brought =
-        diary.stage("project", [&] { return brought_to_statistics(plan.recipe, std::move(dem), plan.points, run); });
-    diary.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
-                          100.0 * brought.projection.largest_error, brought.projection.iterations,
-                          brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
+    MatchedTerrain brought = stage_log.stage(
+        "project", [&] { return matched_to_statistics(plan.recipe, std::move(dem), plan.points, run); });
+    stage_log.say(fmt::format("{} statistics within {:.2g} %, {} steps{}", brought.projection.residuals.size(),
+                              100.0 * brought.projection.largest_error, brought.projection.iterations,
+                              brought.fine_forms_cells > 0.0 ? ", fine forms of a Gaussian surface" : ""));
     std::vector<Check> checks = std::move(coarse.checks);
     append(checks, residual_checks(brought.projection));
     Raster<float> matched = std::move(brought.projection.dem);

@@ -37,10 +37,10 @@ std::vector<std::string> stages_of_rivers(Plan const& plan) {
         stages.emplace_back("sea");
     }
     stages.emplace_back("prune");
-    if (bends_rivers(plan)) {
+    if (has_meanders(plan)) {
         stages.emplace_back("meander");
     }
-    if (!follows_land(plan.recipe)) {
+    if (!heights_follow_terrain(plan.recipe)) {
         stages.emplace_back("raise");
     }
     return stages;
@@ -62,7 +62,7 @@ std::vector<std::string> stages_around_rivers(Recipe const& recipe) {
     if (in_equilibrium(recipe)) {
         stages = {"channels", "fill"};
     }
-    if (scatters(recipe)) {
+    if (scatters_points(recipe)) {
         stages.emplace_back("scatter");
     }
     if (has_ridges(recipe)) {
@@ -79,11 +79,11 @@ std::vector<std::string> stages_around_rivers(Recipe const& recipe) {
 
 std::vector<std::string> stages_after(Recipe const& recipe) {
     std::vector<std::string> stages(recipe.patches.size(), "blend");
-    if (conditions(recipe)) {
+    if (conditions_dem(recipe)) {
         stages.emplace_back("carve");
     }
     stages.emplace_back("drain");
-    if (fills_space(recipe)) {
+    if (adds_side_valleys(recipe)) {
         stages.emplace_back("valleys");
     }
     stages.emplace_back("measure");

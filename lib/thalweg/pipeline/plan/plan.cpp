@@ -37,7 +37,7 @@ bool grown_for_land(Plan const& plan) {
 
 } // namespace
 
-void Diary::say(std::string const& words) const {
+void StageLog::say(std::string const& words) const {
     auto const& [name, seconds] = timings_s_.back();
     run_.tell(name, fmt::format("{:<56}{:6.1f} s", words, seconds));
 }
@@ -50,15 +50,15 @@ bool has_coastlines(Plan const& plan) {
                        [](SecondaryLine const& line) { return line.cause == LeftOut::coast; });
 }
 
-bool bends_rivers(Plan const& plan) {
+bool has_meanders(Plan const& plan) {
     return *plan.recipe.network->meander != 0.0 || grown_for_land(plan);
 }
 
-bool follows_land(Recipe const& recipe) {
+bool heights_follow_terrain(Recipe const& recipe) {
     return in_equilibrium(recipe) && recipe.network->heights == Heights::graded;
 }
 
-bool scatters(Recipe const& recipe) {
+bool scatters_points(Recipe const& recipe) {
     return recipe.skeleton && recipe.skeleton->scatter > 0;
 }
 
@@ -72,11 +72,11 @@ bool needs_tin(Recipe const& recipe) {
     return over_tin || (recipe.skeleton && recipe.skeleton->tin);
 }
 
-bool conditions(Recipe const& recipe) {
+bool conditions_dem(Recipe const& recipe) {
     return recipe.surface && *recipe.surface->drain != flow::Conditioning::none;
 }
 
-bool fills_space(Recipe const& recipe) {
+bool adds_side_valleys(Recipe const& recipe) {
     return recipe.network && recipe.network->fill_space;
 }
 
@@ -203,9 +203,9 @@ Recipe on_crs_of_region(Recipe recipe) {
 }
 
 // The land of a recipe with its CRS (the region's polygons, an island, or all of the grid) and its outlets.
-ForestLand forest_land(Recipe const& recipe, Diary& diary, Run const& run) {
+ForestLand forest_land(Recipe const& recipe, StageLog& stage_log, Run const& run) {
     ForestLand found;
-    found.land = diary.stage("shape", [&] { return land_of(recipe, run); });
+    found.land = stage_log.stage("shape", [&] { return land_of(recipe, run); });
     found.outlets = outlets_of(recipe, found.land, found.notes, run);
     found.has_sea = std::ranges::any_of(found.land.values(), [](std::uint8_t v) { return v == 0; });
     return found;
@@ -236,12 +236,13 @@ network::TokunagaParams tree_of(Recipe const& recipe) {
 namespace {
 
 // Plans a tree that fills the grid or a region.
-Plan plan_tree(Recipe recipe, Diary& diary, Run const& run) {
+Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     Plan plan;
-    plan.tree = diary.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
-    diary.say(fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, plan.tree->links.size()));
+    plan.tree = stage_log.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
+    stage_log.say(
+        fmt::format("lambda {}  order {}  {} links", wanted.generator, wanted.order, plan.tree->links.size()));
     if (!wanted.region.empty()) {
         plan.region = io::read_polygons(file_in(recipe, wanted.region), recipe.grid.crs, run);
     }
@@ -253,10 +254,10 @@ Plan plan_tree(Recipe recipe, Diary& diary, Run const& run) {
 }
 
 // Plans a tree along each stroke of a file.
-Plan plan_strokes(Recipe recipe, Diary& diary, Run const& run) {
+Plan plan_strokes(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    RiverLines strokes = diary.stage("read", [&] {
+    RiverLines strokes = stage_log.stage("read", [&] {
         return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
     });
     if (!strokes.findings.empty()) { // a user who draws strokes needs each of them
@@ -267,7 +268,7 @@ Plan plan_strokes(Recipe recipe, Diary& diary, Run const& run) {
                         none.feature, strokes.name, none.where.x, none.where.y));
     }
     recipe.grid.crs = strokes.crs;
-    diary.say(fmt::format("{} strokes from {}", strokes.lines.size(), strokes.name));
+    stage_log.say(fmt::format("{} strokes from {}", strokes.lines.size(), strokes.name));
     Plan plan;
     plan.grid = frame_lines(strokes, recipe.grid);
     plan.lines = std::move(strokes);
@@ -301,10 +302,10 @@ Plan plan_cluster(Recipe recipe) {
     return plan;
 }
 
-Plan plan_forest(Recipe recipe, Diary& diary, Run const& run) {
+Plan plan_forest(Recipe recipe, StageLog& stage_log, Run const& run) {
     Plan plan;
     plan.recipe = on_crs_of_region(std::move(recipe));
-    plan.forest = forest_land(plan.recipe, diary, run);
+    plan.forest = forest_land(plan.recipe, stage_log, run);
     plan.grid = plan.forest->land.grid();
     return plan;
 }
@@ -316,9 +317,9 @@ RiverLines clipped(RiverLines lines, Grid const& grid) {
     return lines;
 }
 
-Plan plan_lines(Recipe recipe, Diary& diary, Run const& run) {
-    RiverLines lines = diary.stage("read", [&] { return read_lines(recipe, run); });
-    diary.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
+Plan plan_lines(Recipe recipe, StageLog& stage_log, Run const& run) {
+    RiverLines lines = stage_log.stage("read", [&] { return read_lines(recipe, run); });
+    stage_log.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
     OnLines settled = settle_on_lines(std::move(recipe), lines, run);
     Plan plan;
     plan.recipe = std::move(settled.recipe);
@@ -365,17 +366,18 @@ Plan plan_points(Recipe recipe, Run const& run) {
 }
 
 /// Plans by the source of rivers and terrain.
-Plan by_source(Recipe const& recipe, Diary& diary, Run const& run) {
+Plan by_source(Recipe const& recipe, StageLog& stage_log, Run const& run) {
     if (!recipe.network) {
         return plan_points(recipe, run);
     }
     switch (recipe.network->source) {
     case Source::dla: return plan_cluster(recipe);
-    case Source::forest: return plan_forest(recipe, diary, run);
-    case Source::lines: return plan_lines(recipe, diary, run);
+    case Source::forest: return plan_forest(recipe, stage_log, run);
+    case Source::lines: return plan_lines(recipe, stage_log, run);
     case Source::tokunaga: break;
     }
-    return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, diary, run) : plan_strokes(recipe, diary, run);
+    return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, stage_log, run)
+                                                    : plan_strokes(recipe, stage_log, run);
 }
 
 /// The default strength of meanders: less on a coast, where short rivers fall to the sea.
@@ -409,7 +411,7 @@ Plan with_surface_settled(Plan plan) {
     SurfaceRecipe& wanted = *plan.recipe.surface;
     EquilibriumRecipe& land = wanted.equilibrium;
     bool const has_rivers = plan.recipe.network.has_value();
-    if (has_rivers && follows_land(plan.recipe) && !land.mean_slope_deg && !(wanted.dilate.relief_m > 0.0)) {
+    if (has_rivers && heights_follow_terrain(plan.recipe) && !land.mean_slope_deg && !(wanted.dilate.relief_m > 0.0)) {
         land.mean_slope_deg = plan.recipe.network->source == Source::lines
                                   ? usual_slope_deg(plan.recipe.grid.cell_m)
                                   : surface::EquilibriumParams{}.mean_slope_deg;
@@ -434,13 +436,13 @@ void require_fit(Plan const& plan) {
 
 Plan resolve(Recipe const& recipe, Run const& run) {
     check_recipe(recipe);
-    Diary diary(run);
-    Plan plan = by_source(recipe, diary, run);
+    StageLog stage_log(run);
+    Plan plan = by_source(recipe, stage_log, run);
     plan = with_rivers_settled(std::move(plan), run);
     plan = with_surface_settled(std::move(plan));
     require_files(plan.recipe);
     require_fit(plan);
-    plan.timings_s = diary.take();
+    plan.timings_s = stage_log.take();
     return plan;
 }
 

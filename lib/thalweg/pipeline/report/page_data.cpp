@@ -295,7 +295,7 @@ private:
 };
 
 /// The target of [statistics] with the name of a residual.
-std::optional<double> asked_for(Made const& t, char const* name) {
+std::optional<double> target_value(Made const& t, char const* name) {
     if (t.terrain.projection) {
         for (fractal::Residual const& r : t.terrain.projection->residuals) {
             if (r.name == name) {
@@ -308,20 +308,20 @@ std::optional<double> asked_for(Made const& t, char const* name) {
 
 void add_land(Made const& t, Figures& figures) {
     measure::Statistics const& s = *t.assessment.statistics;
-    figures.add("mean height", asked_for(t, "mean"), to_millimetres(s.mean), "m");
-    figures.add("standard deviation", asked_for(t, "std"), to_millimetres(s.std), "m");
-    figures.add("lowest height", asked_for(t, "min"), to_millimetres(s.min.z), "m");
-    figures.add("highest height", asked_for(t, "max"), to_millimetres(s.max.z), "m");
+    figures.add("mean height", target_value(t, "mean"), to_millimetres(s.mean), "m");
+    figures.add("standard deviation", target_value(t, "std"), to_millimetres(s.std), "m");
+    figures.add("lowest height", target_value(t, "min"), to_millimetres(s.min.z), "m");
+    figures.add("highest height", target_value(t, "max"), to_millimetres(s.max.z), "m");
     figures.add("relief, highest less lowest", to_millimetres(s.max.z - s.min.z), "m");
     if (!t.terrain.surface->increments.empty() && t.recipe.surface) {
         double const relief = t.recipe.surface->dilate.relief_m;
         figures.add("greatest rise above the valley", relief > 0.0 ? std::optional(relief) : std::nullopt,
                     to_millimetres(t.terrain.surface->rise_m), "m");
     }
-    figures.add("correlation length along rows", asked_for(t, "lx_cells"), s.lx.cells, "cells");
-    figures.add("correlation length along columns", asked_for(t, "ly_cells"), s.ly.cells, "cells");
-    figures.add("fractal dimension", asked_for(t, "dimension"), s.dimension, "");
-    figures.add("mean slope on unit cells", asked_for(t, "slope_rad"), s.slope_rad, "rad");
+    figures.add("correlation length along rows", target_value(t, "lx_cells"), s.lx.cells, "cells");
+    figures.add("correlation length along columns", target_value(t, "ly_cells"), s.ly.cells, "cells");
+    figures.add("fractal dimension", target_value(t, "dimension"), s.dimension, "");
+    figures.add("mean slope on unit cells", target_value(t, "slope_rad"), s.slope_rad, "rad");
     figures.add("mean slope", s.slope_true_deg, "degrees");
     figures.add("hypsometric integral", t.assessment.hypsometry->integral, "");
     figures.add("cells in pits", t.assessment.pits, "");
@@ -334,10 +334,11 @@ void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& f
     auto const land =
         static_cast<double>(t.assessment.statistics ? t.assessment.statistics->cells : t.terrain.grid.cells());
     if (wanted && wanted->source == Source::dla) {
-        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.planform.story.particles, "");
+        figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.planform.statistics.particles,
+                    "");
     }
     if (wanted && wanted->source == Source::forest) {
-        figures.add("particles of the forest", t.planform.story.particles, "");
+        figures.add("particles of the forest", t.planform.statistics.particles, "");
     }
     figures.add("arcs", t.terrain.rivers.network.plan.arc_count(), "");
     figures.add("outlets", t.terrain.rivers.network.plan.outlets().size(), "");

@@ -119,17 +119,17 @@ ordered_json streams_object(network::StreamCounts const& counts) {
 /// Tokunaga's numbers of side branches: of the network as drawn, and of the tree it was grown from.
 ordered_json tokunaga_object(Made const& t) {
     ordered_json out{{"drawn", streams_object(t.terrain.rivers.streams)}};
-    if (t.planform.story.tokunaga &&
+    if (t.planform.statistics.tokunaga &&
         !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
-        out["grown"] = {{"links", t.planform.story.tokunaga->placed + t.planform.story.tokunaga->dropped}};
-    } else if (t.planform.story.tokunaga) {
+        out["grown"] = {{"links", t.planform.statistics.tokunaga->placed + t.planform.statistics.tokunaga->dropped}};
+    } else if (t.planform.statistics.tokunaga) {
         network::TokunagaLaws const laws = network::tokunaga_laws(t.recipe.network->tokunaga.generator);
-        out["grown"] = streams_object(t.planform.story.tokunaga->tree);
+        out["grown"] = streams_object(t.planform.statistics.tokunaga->tree);
         out["asked"] = {{"a", laws.a}, {"c", laws.c}, {"bifurcation", laws.bifurcation}};
     }
-    if (t.planform.story.tokunaga) {
-        out["placed"] = t.planform.story.tokunaga->placed;
-        out["dropped"] = t.planform.story.tokunaga->dropped;
+    if (t.planform.statistics.tokunaga) {
+        out["placed"] = t.planform.statistics.tokunaga->placed;
+        out["dropped"] = t.planform.statistics.tokunaga->dropped;
     }
     return out;
 }
@@ -174,15 +174,15 @@ ordered_json network_object(Made const& t) {
             {"outlets", plan.outlets().size()},
             {"strahler", strahler},
             {"length_m", length},
-            {"traced", t.planform.story.arcs_traced},
-            {"pruned", t.planform.story.arcs_traced - t.planform.story.arcs_kept},
-            {"particles", t.planform.story.particles},
-            {"walkers", t.planform.story.walkers},
-            {"stopped_at", t.planform.story.particles == 0 ? ""
-                           : t.planform.story.full         ? "full"
-                           : t.planform.story.cut          ? "margin"
-                           : t.planform.story.wide         ? "radius"
-                                                           : "particles"},
+            {"traced", t.planform.statistics.arcs_traced},
+            {"pruned", t.planform.statistics.arcs_traced - t.planform.statistics.arcs_kept},
+            {"particles", t.planform.statistics.particles},
+            {"walkers", t.planform.statistics.walkers},
+            {"stopped_at", t.planform.statistics.particles == 0 ? ""
+                           : t.planform.statistics.full         ? "full"
+                           : t.planform.statistics.cut          ? "margin"
+                           : t.planform.statistics.wide         ? "radius"
+                                                                : "particles"},
             {"uphill_before_repair",
              {{"arcs", h.uphill_arcs}, {"length_m", h.uphill_length_m}, {"max_rise_m", h.max_rise_m}}},
             {"lifted", {{"count", h.lifted}, {"max_m", h.max_lift_m}, {"rms_m", h.rms_lift_m}}},
@@ -351,9 +351,9 @@ void add_lines(Made const& t, ordered_json& report) {
 }
 
 /// Adds the statistics of the terrain's construction.
-void add_story(Made const& t, ordered_json& report) {
+void add_statistics(Made const& t, ordered_json& report) {
     if (t.terrain.equilibrium) {
-        EquilibriumStory const& e = *t.terrain.equilibrium;
+        EquilibriumStatistics const& e = *t.terrain.equilibrium;
         report["equilibrium"] = {{"channel_cells", e.channel_cells},
                                  {"lakes", t.terrain.lakes},
                                  {"shortened_cells", e.shortened_cells},
@@ -369,7 +369,7 @@ void add_story(Made const& t, ordered_json& report) {
         report["diffusion"] = {{"iterations", t.terrain.diffusion->iterations},
                                {"residual", t.terrain.diffusion->residual}};
     }
-    for (PatchStory const& p : t.terrain.patches) {
+    for (PatchStatistics const& p : t.terrain.patches) {
         report["patches"].push_back(
             {{"cells", p.cells}, {"kept", p.kept}, {"seam_max_m", p.seam_max_m}, {"seam_rms_m", p.seam_rms_m}});
     }
@@ -394,7 +394,7 @@ std::string write_report(Made const& t, std::vector<std::string> const& files) {
     add_dem(t, report);
     add_drainage(t, report);
     add_lines(t, report);
-    add_story(t, report);
+    add_statistics(t, report);
     report["checks"] = checks_array(t.assessment.checks);
     report["findings"] = findings_array(t.assessment.findings);
     report["repairs"] = findings_array(repairs_of(t));

@@ -112,7 +112,7 @@ Contents contents(GridProblem const& problem, Run const& run) {
     });
 }
 
-void demand_one_frame(GridProblem const& problem, char const* stage) {
+void require_one_frame(GridProblem const& problem, char const* stage) {
     Grid const& grid = problem.kind.grid();
     auto const fits = [&](Grid const& other) { return other.width == grid.width && other.height == grid.height; };
     refuse_if<BadInput>(
@@ -122,7 +122,7 @@ void demand_one_frame(GridProblem const& problem, char const* stage) {
         problem.source.height());
 }
 
-void demand_solvable(GridProblem const& problem, Contents const& all, char const* stage, Run const& run) {
+void require_solvable(GridProblem const& problem, Contents const& all, char const* stage, Run const& run) {
     Grid const& grid = problem.kind.grid();
     if (all.bad < grid.cells()) {
         Cell const c = grid.at(all.bad);
@@ -172,7 +172,7 @@ void start_from(double value, TopLevel const& top, TwoColours<double>& x, Run co
     });
 }
 
-void demand(PoissonParams const& params) {
+void require(PoissonParams const& params) {
     require_in("solver.solve_poisson", "tolerance", params.tolerance, Range::inside(0.0, 1.0));
     require_in("solver.solve_poisson", "most_iterations", params.most_iterations, Range::at_least(0));
 }
@@ -185,10 +185,10 @@ void spread_guess(GridProblem const& problem, ColouredProblem& coloured, Run con
 } // namespace
 
 Contents look_through(GridProblem const& problem, char const* stage, Run const& run) {
-    demand_one_frame(problem, stage);
+    require_one_frame(problem, stage);
     run.check();
     Contents const all = contents(problem, run);
-    demand_solvable(problem, all, stage, run);
+    require_solvable(problem, all, stage, run);
     return all;
 }
 
@@ -265,7 +265,7 @@ double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run c
 }
 
 GridSolution solve_poisson(GridProblem problem, PoissonParams const& params, Run const& run) {
-    demand(params);
+    require(params);
     Contents const contents = look_through(problem, "solver.solve_poisson", run);
     if (run.device == Device::opencl) {
         return solve_poisson_opencl(std::move(problem), contents, params, run);
@@ -294,7 +294,7 @@ namespace {
 constexpr std::int64_t block_rows = 32;
 constexpr int sweeps_a_pass = 4; // recomputing the rows around a block costs less than leaving the cache
 
-void demand(GridProblem const& problem, ExplicitParams const& params) {
+void require(GridProblem const& problem, ExplicitParams const& params) {
     refuse_if<BadParameter>(!(params.alpha > 0.0 && params.alpha <= 0.25),
                             "solver.relax_explicit: alpha is {}; it must be greater than 0 and at most 1/4, for beyond "
                             "it sweeps make the differences between cells grow",
@@ -370,7 +370,7 @@ void sweep(ColouredProblem& problem, ExplicitParams const& params, GridRows cons
 } // namespace
 
 GridSolution relax_explicit(GridProblem problem, ExplicitParams const& params, Run const& run) {
-    demand(problem, params);
+    require(problem, params);
     Contents const contents = look_through(problem, "solver.relax_explicit", run);
     refuse_if<BadInput>(contents.unknown > 0,
                         "solver.relax_explicit: {} free cells have no finite value; each needs one to start from",

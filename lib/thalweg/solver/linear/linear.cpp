@@ -28,7 +28,7 @@ MatrixXd matrix_of(Matrix const& a) {
     return Eigen::Map<MatrixXd const>(a.values.data(), static_cast<Index>(a.rows), static_cast<Index>(a.columns));
 }
 
-void demand(Matrix const& a, std::vector<double> const& b) {
+void require(Matrix const& a, std::vector<double> const& b) {
     refuse_if<BadInput>(a.rows != b.size() || a.columns == 0 || a.values.size() != a.rows * a.columns,
                         "solver.least_squares: {} x {} matrix with {} values for {} right sides", a.rows, a.columns,
                         a.values.size(), b.size());
@@ -96,7 +96,7 @@ std::vector<Index> unbound_columns(std::size_t columns, std::vector<std::size_t>
 } // namespace
 
 Solution least_squares(Matrix const& a, std::vector<double> const& b) {
-    demand(a, b);
+    require(a, b);
     MatrixXd const m = matrix_of(a);
     VectorXd const right = Eigen::Map<VectorXd const>(b.data(), static_cast<Index>(b.size()));
     Eigen::ColPivHouseholderQR<MatrixXd> const qr(m);
@@ -113,7 +113,7 @@ Solution least_squares(Matrix const& a, std::vector<double> const& b) {
 }
 
 Solution least_squares_on_sphere(Matrix const& a, std::vector<double> const& b, Sphere const& sphere) {
-    demand(a, b);
+    require(a, b);
     auto const p = static_cast<Index>(sphere.unknowns.size());
     refuse_if<BadParameter>(!(sphere.tau > 0.0) || p == 0 || sphere.form.rows != sphere.unknowns.size() ||
                                 sphere.form.columns != sphere.unknowns.size(),

@@ -185,7 +185,7 @@ void start_coarse(solver::GridProblem& problem, Run const& run) {
 constexpr int sweeps_after_smoothing = 20;
 constexpr double noise_reach_cells = 4.0;
 
-void demand(DiffuseParams const& params) {
+void require(DiffuseParams const& params) {
     constexpr char const* self = "surface.diffuse";
     require_in(self, "tolerance", params.tolerance, Range::inside(0.0, 1.0));
     refuse_if<BadParameter>(
@@ -252,7 +252,7 @@ Diffused diffuse(Skeleton const& skeleton, DiffuseParams const& params, Run cons
 }
 
 Diffused diffuse(Skeleton const& skeleton, Mask const& inside, DiffuseParams const& params, Run const& run) {
-    demand(params);
+    require(params);
     auto problem = problem_through(skeleton.z, inside, "surface.diffuse", run);
     Raster<std::uint8_t> const kind = problem.kind;
     solver::GridSolution solution = spread(std::move(problem), params, run);

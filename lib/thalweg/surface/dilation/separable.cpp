@@ -36,7 +36,8 @@ struct Carry {
 constexpr std::int64_t rows_between_checks = 512;
 
 template <class T> std::unique_ptr<T[], Free> fresh(std::int64_t count) {
-    return std::unique_ptr<T[], Free>(static_cast<T*>(take_large_pages(static_cast<std::size_t>(count) * sizeof(T))));
+    return std::unique_ptr<T[], Free>(
+        static_cast<T*>(allocate_large_pages(static_cast<std::size_t>(count) * sizeof(T))));
 }
 
 template <class T> void raise_to(std::atomic<T>& most, T value) {
@@ -82,7 +83,7 @@ float bands_down(Valley const& valley, Field<Level> const& field, std::int64_t r
 /// Carries each band's last row into the next as long as cells change, then computes the levels.
 template <class Level>
 std::int64_t join_bands(Field<Level> const& field, std::int64_t rows, Lanes lanes, Run const& run) {
-    auto* const mend = lanes == Lanes::avx2 ? &avx2::mend_row<Level> : &plain::mend_row<Level>;
+    auto* const mend = lanes == Lanes::avx2 ? &avx2::carry_row<Level> : &plain::carry_row<Level>;
     auto* const measure = lanes == Lanes::avx2 ? &avx2::greatest_level<Level> : &plain::greatest_level<Level>;
     std::atomic<std::int64_t> levels = 0;
     parallel_ranges(run, field.width, strip_cols(field.width, run), [&](std::int64_t first, std::int64_t last) {

@@ -28,9 +28,9 @@ inline float height_of(std::int32_t order) {
     return std::bit_cast<float>(order ^ ((order >> 31) & 0x7fffffff));
 }
 
-/// Deleter of memory from take_large_pages.
+/// Deleter of memory from allocate_large_pages.
 struct Free {
-    void operator()(void* memory) const { give_large_pages(memory); }
+    void operator()(void* memory) const { free_large_pages(memory); }
 };
 
 /// The state after the sweep down. Level is std::uint16_t where fits16(grid), else std::int32_t.

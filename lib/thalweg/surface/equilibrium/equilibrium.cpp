@@ -178,7 +178,7 @@ Plan coarser(Plan const& fine) {
 }
 
 /// Makes the levels from the finest to one of about forty cells a side, the coarse ones of the region.
-std::vector<Plan> plans(WidenedLand& land, Region const& region, Grid const& grid, std::uint64_t seed) {
+std::vector<Plan> plans(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
     constexpr std::int64_t short_side = 8;
     constexpr std::int64_t long_side = 40;
     std::vector<Plan> levels;
@@ -201,17 +201,18 @@ std::vector<Plan> plans(WidenedLand& land, Region const& region, Grid const& gri
 }
 
 /// Prepares a level for its rounds.
-LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, LandLevel const& region,
-                   RockFields const& fields, RockParams const& rock, EquilibriumParams const& params, Run const& run) {
-    LandLevel level;
+TerrainLevel prepared(Plan&& plan, std::size_t number, TerrainLevel const& coarser, TerrainLevel const& region,
+                      ErodibilityFields const& fields, ErodibilityParams const& rock, EquilibriumParams const& params,
+                      Run const& run) {
+    TerrainLevel level;
     level.width = plan.extent.width + 2;
     level.height = plan.extent.height + 2;
     level.corner = plan.extent.corner;
     level.side = static_cast<float>(std::int64_t{1} << number);
     level.rivers = std::move(plan.rivers);
-    cover_cells(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
-    set_rock(level, fields, rock, run);
-    take_firmness(level, coarser);
+    set_cell_types(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
+    set_erodibility(level, fields, rock, run);
+    copy_firmness(level, coarser);
     jitter(level, params.seed, run);
     if (coarser.z.empty()) {
         start_from_nothing(level, nearest_river(level), params.seed, run);
@@ -222,12 +223,12 @@ LandLevel prepared(Plan&& plan, std::size_t number, LandLevel const& coarser, La
     return level;
 }
 
-void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin, Grid const& grid) {
+void check_drained(TerrainLevel const& level, Mask const& land, std::int64_t margin, Grid const& grid) {
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         Cell const c = grid.at(i);
         bool const dry = land.cells() == 0 || land[i] != 0;
         auto const at = static_cast<std::size_t>((c.row + margin + 1) * level.width + c.col + margin + 1);
-        refuse_if<BadInput>(dry && level.cover[at] == Cover::outside,
+        refuse_if<BadInput>(dry && level.type[at] == CellType::outside,
                             "surface.equilibrium: no river drains the closed land at column {}, row {}; let one run "
                             "there, or leave the edge open",
                             c.col, c.row);
@@ -235,7 +236,7 @@ void check_drained(LandLevel const& level, Mask const& land, std::int64_t margin
 }
 
 /// Frees everything that the next level and the output do not need.
-void drop_what_is_done(LandLevel& level) {
+void free_finished_memory(TerrainLevel& level) {
     level.erodibility = {};
     level.cap = {};
     level.uplift = {};
@@ -251,32 +252,32 @@ public:
           per_length_(jittered_per_length()) {}
 
     /// The frame is set from the nearest rivers where the region has no information.
-    void solve(LandLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
+    void solve(TerrainLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
         bool const by_rivers = goes_on(params_.edge) && frame.cells.empty();
-        EdgeCells const edge =
-            by_rivers ? edge_cells(level, nearest_river(level), params_.inflow ? Beyond::rivers : Beyond::valleys)
-                      : EdgeCells{};
-        set_edge_heights(level, edge);
-        flood_land(level);
+        BoundaryCells const edge =
+            by_rivers ? boundary_cells(level, nearest_river(level), params_.inflow ? Beyond::rivers : Beyond::valleys)
+                      : BoundaryCells{};
+        set_boundary_heights(level, edge);
+        flood_terrain(level);
         int const rounds = rounds_of(number, levels);
         bool const given = !level.rivers.asked.empty();
         if (number == 0 && !given && params_.heads == Heads::kept) {
-            take(give_up_touching_tips(level));
+            take(remove_touching_tips(level));
         }
         for (int round = 0; round < rounds; ++round) {
             run_.at(share_done(number, round, rounds), "fill");
             if (round > 0) {
-                set_edge_heights(level, edge);
+                set_boundary_heights(level, edge);
                 lift_frame(level, frame);
                 if (!shortened_.empty()) {
-                    slide_land(level);
+                    slide_terrain(level);
                 }
-                steepest_ways(level, per_length_, run_);
+                set_steepest_receivers(level, per_length_, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width_km > 0.0) {
                 valley_floors(level, {params_.floor_width_km, window_.grid.cell_m, params_.seed});
             }
-            order_cells(level);
+            set_stack_order(level);
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);
             } else if (number > 0) {
@@ -284,13 +285,13 @@ public:
             } else {
                 relax_finest_rivers(level, rounds - round);
             }
-            relax_land(level, law_);
+            relax_terrain(level, law_);
             if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
-                firm_rock(level, law_);
+                reduce_erodibility(level, law_);
             }
         }
         if (number == 0) {
-            come_to_rest(level, given);
+            slide_and_remove_tips(level, given);
         }
     }
 
@@ -314,35 +315,35 @@ private:
     }
 
     /// Relaxes rivers with the constraints of the grid's own rivers: no perched head, and water that follows them.
-    void relax_finest_rivers(LandLevel& level, int rounds_left) {
+    void relax_finest_rivers(TerrainLevel& level, int rounds_left) {
         if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
-            give_up(level);
+            remove_tips(level);
         }
         relax_rivers(level, law_);
         if (rounds_left <= to_come_down) {
             lower_perched(level, perched_, least_tangent);
         }
-        keep_to_receivers(level);
+        enforce_receivers(level);
     }
 
     /// Where divides moved in the last round, terrain slides and may leave tips of rivers perched.
-    void come_to_rest(LandLevel& level, bool given) {
-        slide_land(level);
+    void slide_and_remove_tips(TerrainLevel& level, bool given) {
+        slide_terrain(level);
         if (!given) {
-            give_up(level);
-            slide_land(level);
+            remove_tips(level);
+            slide_terrain(level);
         }
-        steepest_ways(level, per_length_, run_);
-        order_cells(level);
+        set_steepest_receivers(level, per_length_, run_);
+        set_stack_order(level);
     }
 
-    void give_up(LandLevel& level) {
-        Raise const raise = raise_for(level, rivers_, window_, params_);
+    void remove_tips(TerrainLevel& level) {
+        HeightConversion const raise = height_conversion_for(level, rivers_, window_, params_);
         perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
         if (params_.heads == Heads::kept) {
             return;
         }
-        take(give_up_tips(level, of_perched * perched_, TipBanks::rise));
+        take(remove_perched_tips(level, of_perched * perched_, TipBanks::rise));
     }
 
     void take(std::vector<std::int64_t> const& numbers) {
@@ -363,16 +364,16 @@ private:
 };
 
 struct Solved {
-    LandLevel level;
+    TerrainLevel level;
     std::vector<std::int64_t> shortened;
     std::int64_t margin = 0;
     bool in_region = false;
     std::vector<RegionInflow> inflows;
 };
 
-RockParams rock_of(EquilibriumParams const& params, Window const& window) {
+ErodibilityParams erodibility_of(EquilibriumParams const& params, Window const& window) {
     constexpr double radians = portable::pi / 180.0;
-    RockNoise noise;
+    ErodibilityNoise noise;
     noise.longest_wave = params.longest_wave_m / window.grid.cell_m;
     noise.stretch = params.grain;
     noise.strike = (90.0 - params.strike_deg.value_or(random_strike_deg(params.seed))) * radians;
@@ -383,14 +384,14 @@ RockParams rock_of(EquilibriumParams const& params, Window const& window) {
 /// Solves all levels; rivers' heights are in solver units, or free.
 Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
               Run const& run) {
-    WidenedLand land = widened(rivers, fields, params);
+    PaddedTerrain land = padded(rivers, fields, params);
     Region const region = region_around(rivers, fields, params);
     std::vector<Plan> levels = plans(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
     Solver solver(params, rivers, window, run);
-    RockParams const rock = rock_of(params, window);
-    LandLevel level;
-    LandLevel around; // the region's finest level
+    ErodibilityParams const rock = erodibility_of(params, window);
+    TerrainLevel level;
+    TerrainLevel around; // the region's finest level
     std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
         level = prepared(std::move(levels[number]), number, level, around, land.fields, rock, params, run);
@@ -403,7 +404,7 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
         if (number == 0 && region.level > 0) {
             inflows = inflows_of(level, window.grid, window.margin);
         }
-        drop_what_is_done(level);
+        free_finished_memory(level);
     }
     check_drained(level, fields.land, land.margin, rivers.grid);
     return {std::move(level), solver.shortened(), land.margin, region.level > 0, std::move(inflows)};
@@ -429,8 +430,8 @@ struct Held {
     double metres = 0.0;
 };
 
-Held held_land(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params, double metres,
-               Run const& run) {
+Held solved_terrain(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                    double metres, Run const& run) {
     Channels drawn = rivers;
     double const base_m = base_of(rivers, params.edge);
     for (float& z : drawn.z) {
@@ -440,8 +441,8 @@ Held held_land(Channels const& rivers, EquilibriumFields const& fields, Equilibr
 }
 
 /// Solves again with other metres per unit until the terrain reaches its target; returns the closest solution.
-Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                    double metres, Run const& run) {
+Held terrain_at_target(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                       double metres, Run const& run) {
     constexpr int most_solves = 6;
     constexpr double near_enough = 0.01;
     constexpr double widest = 2.0;              // [log] of one step
@@ -450,14 +451,14 @@ Held land_at_target(Channels const& rivers, EquilibriumFields const& fields, Equ
         double const share = share_of_target(held.land.level, window, held.metres, params);
         return portable::log(std::max(share, 1e-6));
     };
-    Held best = held_land(rivers, fields, params, metres, run);
+    Held best = solved_terrain(rivers, fields, params, metres, run);
     double best_off = off_by(best);
     double at = portable::log(metres);
     double off = best_off;
     double step = -1.5 * off;
     for (int solve = 1; solve < most_solves && std::fabs(best_off) > near_enough; ++solve) {
         step = std::clamp(step, -widest, widest);
-        Held next = held_land(rivers, fields, params, portable::exp(at + step), run);
+        Held next = solved_terrain(rivers, fields, params, portable::exp(at + step), run);
         double const next_off = off_by(next);
         double const per_step = (next_off - off) / step;
         at += step;
@@ -488,10 +489,10 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     wanted.region = asks_heights(rivers, params) ? 1.0 : params.region;
     Solved graded = solved(drawn, fields, wanted, run);
     Window const window{rivers.grid, fields.land, graded.margin};
-    Raise const raise = raise_for(graded.level, rivers, window, params);
+    HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params);
     if (!asks_heights(rivers, params)) {
-        EquilibriumTerrain land = written_land(std::move(graded.level), rivers, window, raise,
-                                               std::move(graded.shortened), params.heads, run);
+        EquilibriumTerrain land = extract_terrain(std::move(graded.level), rivers, window, raise,
+                                                  std::move(graded.shortened), params.heads, run);
         land.inflows = std::move(graded.inflows);
         land.in_region = graded.in_region;
         land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
@@ -499,11 +500,11 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     }
     // The scale of heights is known only now, so that prescribed metres can be converted to solver units.
     graded = {};
-    Held held = params.bring_to_target ? land_at_target(rivers, fields, params, raise.metres, run)
-                                       : held_land(rivers, fields, params, raise.metres, run);
-    Raise const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
+    Held held = params.bring_to_target ? terrain_at_target(rivers, fields, params, raise.metres, run)
+                                       : solved_terrain(rivers, fields, params, raise.metres, run);
+    HeightConversion const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
     EquilibriumTerrain land =
-        written_given_land(std::move(held.land.level), rivers, window, given, params.heights, run);
+        extract_terrain_with_heights(std::move(held.land.level), rivers, window, given, params.heights, run);
     land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
     return land;
 }

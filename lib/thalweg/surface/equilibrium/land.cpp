@@ -11,11 +11,11 @@ namespace {
 /// Cells by height, in buckets stored as linked lists in one array.
 class Buckets {
 public:
-    Buckets(LandLevel const& level) : next_(level.z.size()), head_(count, none) {
+    Buckets(TerrainLevel const& level) : next_(level.z.size()), head_(count, none) {
         float low = std::numeric_limits<float>::infinity();
         float high = -low;
         for (std::size_t i = 0; i < level.z.size(); ++i) {
-            if (level.cover[i] != Cover::outside) {
+            if (level.type[i] != CellType::outside) {
                 low = std::min(low, level.z[i]);
                 high = std::max(high, level.z[i]);
             }
@@ -59,25 +59,25 @@ constexpr std::int8_t unreached = -2;
 
 /// [least tangents] rise to a cell that a flood reaches, by its node's position, so that flow paths across flat floods
 /// meander as on rough terrain.
-float rise_to(LandLevel const& level, std::size_t i) {
+float rise_to(TerrainLevel const& level, std::size_t i) {
     constexpr unsigned steps = 16;
     constexpr float most = 4.0F;
     return level.shift.empty() ? 1.0F : 1.0F + most / steps * static_cast<float>(5U * level.shift[i] % steps);
 }
 
 /// Directs a bank to the river beside it and raises it above all of its cells.
-void settle_bank(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+void settle_bank(TerrainLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float highest = -std::numeric_limits<float>::infinity();
     float steepest = -std::numeric_limits<float>::infinity();
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         std::size_t const n = moved(i, offsets[k]);
-        if (level.cover[n] != Cover::river) {
+        if (level.type[n] != CellType::river) {
             continue;
         }
         highest = std::max(highest, level.z[n]);
         if (float const slope = (level.z[i] - level.z[n]) / step_lengths[k]; slope > steepest) {
             steepest = slope;
-            level.way[i] = static_cast<std::int8_t>(k);
+            level.direction[i] = static_cast<std::int8_t>(k);
         }
     }
     level.z[i] = std::max(level.z[i], highest + 1.5F * bank_step * level.side);
@@ -85,24 +85,24 @@ void settle_bank(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> co
 
 } // namespace
 
-void flood_land(LandLevel& level) {
+void flood_terrain(TerrainLevel& level) {
     auto const offsets = level.offsets();
-    level.way.assign(level.cover.size(), unreached);
+    level.direction.assign(level.type.size(), unreached);
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
-        level.way[level.rivers.cell[n]] = level.rivers.way[n];
+        level.direction[level.rivers.cell[n]] = level.rivers.direction[n];
     }
     each_inner(level, [&](std::size_t i) {
-        if (is_bank(level.cover[i])) {
+        if (is_bank(level.type[i])) {
             settle_bank(level, i, offsets);
         }
     });
     Buckets queue(level);
-    auto const last_row = level.cover.size() - static_cast<std::size_t>(level.width);
-    for (std::size_t i = 0; i < level.cover.size(); ++i) {
-        if (!is_land(level.cover[i])) {
-            level.way[i] = level.cover[i] == Cover::river ? level.way[i] : no_way;
+    auto const last_row = level.type.size() - static_cast<std::size_t>(level.width);
+    for (std::size_t i = 0; i < level.type.size(); ++i) {
+        if (!is_land(level.type[i])) {
+            level.direction[i] = level.type[i] == CellType::river ? level.direction[i] : no_direction;
         }
-        if (level.way[i] != unreached && level.cover[i] != Cover::outside) {
+        if (level.direction[i] != unreached && level.type[i] != CellType::outside) {
             queue.push(i, level.z[i]);
         }
     }
@@ -119,18 +119,18 @@ void flood_land(LandLevel& level) {
                 continue;
             }
             std::size_t const n = moved(i, offsets[k]);
-            if (level.way[n] == unreached) {
-                level.way[n] = static_cast<std::int8_t>((k + 4) % 8);
+            if (level.direction[n] == unreached) {
+                level.direction[n] = static_cast<std::int8_t>((k + 4) % 8);
                 float const rise = rise_to(level, n) * least_tangent * level.side;
                 level.z[n] = std::max(level.z[n], level.z[i] + rise * step_lengths[k]);
                 queue.push(n, level.z[n]);
             }
         }
     }
-    for (std::size_t i = 0; i < level.cover.size(); ++i) {
-        if (level.way[i] == unreached) {
-            level.way[i] = no_way;
-            level.cover[i] = Cover::outside;
+    for (std::size_t i = 0; i < level.type.size(); ++i) {
+        if (level.direction[i] == unreached) {
+            level.direction[i] = no_direction;
+            level.type[i] = CellType::outside;
             level.z[i] = std::numeric_limits<float>::infinity();
         }
     }
@@ -138,12 +138,12 @@ void flood_land(LandLevel& level) {
 
 namespace {
 
-std::int8_t steepest(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets,
+std::int8_t steepest(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets,
                      JitteredPerLength const& per_length) {
     float const z = level.z[i];
     int const here = level.shift[i];
     float best = 0.0F;
-    std::int8_t way = level.way[i];
+    std::int8_t way = level.direction[i];
     for (std::size_t k = 0; k < 8; ++k) {
         std::size_t const n = moved(i, offsets[k]);
         int const change = level.shift[n] - here;
@@ -157,13 +157,13 @@ std::int8_t steepest(LandLevel const& level, std::size_t i, std::array<std::int6
     return way;
 }
 
-std::int8_t steepest_river(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float best = 0.0F;
-    std::int8_t way = level.way[i];
+    std::int8_t way = level.direction[i];
     for (std::size_t k = 0; k < 8; ++k) {
         std::size_t const n = moved(i, offsets[k]);
         float const slope = (level.z[i] - level.z[n]) * static_cast<float>(d8_per_length[k]);
-        if (level.cover[n] == Cover::river && slope > best) {
+        if (level.type[n] == CellType::river && slope > best) {
             best = slope;
             way = static_cast<std::int8_t>(k);
         }
@@ -173,47 +173,47 @@ std::int8_t steepest_river(LandLevel const& level, std::size_t i, std::array<std
 
 } // namespace
 
-void steepest_ways(LandLevel& level, JitteredPerLength const& per_length, Run const& run) {
+void set_steepest_receivers(TerrainLevel& level, JitteredPerLength const& per_length, Run const& run) {
     auto const offsets = level.offsets();
     parallel_ranges(run, level.height - 2, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin + 1; row < end + 1; ++row) {
             auto const first = static_cast<std::size_t>(row * level.width);
             for (std::size_t i = first + 1; i + 1 < first + static_cast<std::size_t>(level.width); ++i) {
-                if (is_bank(level.cover[i])) {
-                    level.way[i] = steepest_river(level, i, offsets);
-                } else if (is_land(level.cover[i])) {
-                    level.way[i] = steepest(level, i, offsets, per_length);
+                if (is_bank(level.type[i])) {
+                    level.direction[i] = steepest_river(level, i, offsets);
+                } else if (is_land(level.type[i])) {
+                    level.direction[i] = steepest(level, i, offsets, per_length);
                 }
             }
         }
     });
 }
 
-void order_cells(LandLevel& level) {
+void set_stack_order(TerrainLevel& level) {
     constexpr std::uint8_t done = 255;
     auto const offsets = level.offsets();
-    Cells<std::uint8_t> awaited(level.way.size());
+    Cells<std::uint8_t> awaited(level.direction.size());
     for (std::size_t i = 0; i < awaited.size(); ++i) {
-        if (level.way[i] >= 0) {
-            ++awaited[moved(i, offsets[static_cast<std::size_t>(level.way[i])])];
+        if (level.direction[i] >= 0) {
+            ++awaited[moved(i, offsets[static_cast<std::size_t>(level.direction[i])])];
         }
     }
-    level.area.assign(level.way.size(), 1);
+    level.area.assign(level.direction.size(), 1);
     for (Inflow const& in : level.inflow) {
         level.area[in.cell] += in.area;
     }
-    level.order.resize(level.way.size());
+    level.order.resize(level.direction.size());
     std::size_t count = 0;
     for (std::size_t i = 0; i < awaited.size(); ++i) {
         for (std::size_t at = i; awaited[at] == 0;) {
             awaited[at] = done;
-            if (level.way[at] < 0) {
+            if (level.direction[at] < 0) {
                 break;
             }
-            if (is_land(level.cover[at])) {
+            if (is_land(level.type[at])) {
                 level.order[count++] = static_cast<std::uint32_t>(at);
             }
-            std::size_t const next = moved(at, offsets[static_cast<std::size_t>(level.way[at])]);
+            std::size_t const next = moved(at, offsets[static_cast<std::size_t>(level.direction[at])]);
             level.area[next] += level.area[at];
             --awaited[next];
             at = next;
@@ -239,11 +239,11 @@ Creep creep_inside(float const* z, std::int64_t width) {
     return {by_side * sides + by_corner * corners, 4.0F * (by_side + by_corner)};
 }
 
-Creep creep_at_rim(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+Creep creep_at_rim(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     Creep creep{0.0F, 0.0F};
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         std::size_t const n = moved(i, offsets[k]);
-        if (level.cover[n] != Cover::outside) {
+        if (level.type[n] != CellType::outside) {
             float const weight = k % 2 == 0 ? by_side : by_corner;
             creep.gain += weight * level.z[n];
             creep.weight += weight;
@@ -254,7 +254,7 @@ Creep creep_at_rim(LandLevel const& level, std::size_t i, std::array<std::int64_
 
 constexpr float tolerance = 1.5F; // relative to the cap
 
-float greatest_height(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float const steepest = tolerance * level.cap[i] * level.side;
     float most = level.z[i];
     for (std::size_t k = 0; k < offsets.size(); ++k) {
@@ -265,17 +265,17 @@ float greatest_height(LandLevel const& level, std::size_t i, std::array<std::int
 
 } // namespace
 
-void relax_land(LandLevel& level, EquilibriumLaw const& law) {
+void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law) {
     auto const offsets = level.offsets();
     float const creep_rate = law.creep / (level.side * level.side);
     float const cell_area = level.side * level.side;
     for (std::size_t at = level.order.size(); at-- > 0;) {
         std::size_t const i = level.order[at];
-        auto const way = static_cast<std::size_t>(level.way[i]);
+        auto const way = static_cast<std::size_t>(level.direction[i]);
         float const length = level.side * step_lengths[way];
         float const below = level.z[moved(i, offsets[way])];
-        Cover const cover = level.cover[i];
-        bool const at_rim = cover == Cover::rim || cover == Cover::rim_bank;
+        CellType const type = level.type[i];
+        bool const at_rim = type == CellType::rim || type == CellType::rim_bank;
         Creep const creep = at_rim ? creep_at_rim(level, i, offsets) : creep_inside(&level.z[i], level.width);
         float const cutting =
             law.land_power(static_cast<float>(level.area[i]) * cell_area) * level.erodibility[i] / length;
@@ -283,18 +283,18 @@ void relax_land(LandLevel& level, EquilibriumLaw const& law) {
         float z = (uplift + cutting * below + creep_rate * creep.gain) / (cutting + creep_rate * creep.weight);
         z = std::min(z, below + level.cap[i] * length);
         z = std::max(z, below + least_tangent * length);
-        if (is_bank(cover)) {
+        if (is_bank(type)) {
             z = std::max(z, highest_river(level, i, offsets) + bank_step * level.side);
         }
         level.z[i] = z;
     }
 }
 
-void slide_land(LandLevel& level) {
+void slide_terrain(TerrainLevel& level) {
     auto const offsets = level.offsets();
     std::vector<std::size_t> open;
     auto const slide = [&](std::size_t i) {
-        if (is_land(level.cover[i]) && !is_bank(level.cover[i])) {
+        if (is_land(level.type[i]) && !is_bank(level.type[i])) {
             if (float const most = greatest_height(level, i, offsets); most < level.z[i]) {
                 level.z[i] = most;
                 open.push_back(i);
@@ -317,7 +317,7 @@ constexpr float most_widening = 2.0F;
 constexpr float floor_share = 0.04F; // cap on the floor, relative to the cap
 
 /// Varies the width of floors: from half in gorges to twice in basins.
-float widening(LandLevel const& level, std::size_t i, FloorParams const& params) {
+float widening(TerrainLevel const& level, std::size_t i, FloorParams const& params) {
     double const long_wave = std::max(2.0, 1800.0 / params.cell_m); // [cells]
     double const short_wave = std::max(2.0, 400.0 / params.cell_m);
     Cell const cell{static_cast<std::int64_t>(i) % level.width, static_cast<std::int64_t>(i) / level.width};
@@ -326,7 +326,7 @@ float widening(LandLevel const& level, std::size_t i, FloorParams const& params)
 }
 
 /// Widening of river cells' floors near the sea, where mouths are drowned and filled.
-std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
+std::vector<float> filled_mouths(TerrainLevel const& level, double cell_m) {
     constexpr double reach_m = 3000.0;
     constexpr float at_mouth = 2.1F;
     RiverCells const& rivers = level.rivers;
@@ -337,7 +337,7 @@ std::vector<float> filled_mouths(LandLevel const& level, double cell_m) {
         if (rivers.receiver[n] >= 0) {
             more[n] = kept * more[static_cast<std::size_t>(rivers.receiver[n])];
         } else if (std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
-                       return level.cover[moved(rivers.cell[n], offset)] == Cover::sea;
+                       return level.type[moved(rivers.cell[n], offset)] == CellType::sea;
                    })) {
             more[n] = at_mouth;
         }
@@ -352,7 +352,7 @@ double growth(double area_km2) {
 }
 
 /// [cells] half widths of the floors of river cells.
-std::vector<float> half_widths(LandLevel const& level, FloorParams const& params) {
+std::vector<float> half_widths(TerrainLevel const& level, FloorParams const& params) {
     double const per_cell_km2 = params.cell_m * params.cell_m * 1e-6;
     double const per_km = 1000.0 / params.cell_m * params.width_km;
     std::vector<float> widths = filled_mouths(level, params.cell_m);
@@ -365,14 +365,14 @@ std::vector<float> half_widths(LandLevel const& level, FloorParams const& params
 
 } // namespace
 
-void valley_floors(LandLevel& level, FloorParams const& params) {
+void valley_floors(TerrainLevel& level, FloorParams const& params) {
     std::vector<float> const widths = half_widths(level, params);
     std::vector<float> reach(widths.size());
     std::transform(widths.begin(), widths.end(), reach.begin(),
                    [](float width) { return most_widening * foot_widths * width; });
     NearestRiver near = nearest_river(level, reach, std::move(level.order));
     each_inner(level, [&](std::size_t i) {
-        if (near.distance[i] >= 0.0F || !is_land(level.cover[i])) {
+        if (near.distance[i] >= 0.0F || !is_land(level.type[i])) {
             return;
         }
         float const width = widths[near.number[i]];

@@ -57,12 +57,12 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
         }
         if (fine.receiver[n] < 0) {
             coarse.receiver.push_back(-1);
-            coarse.way.push_back(-1);
+            coarse.direction.push_back(-1);
             continue;
         }
         std::size_t const there = above(fine.cell[static_cast<std::size_t>(fine.receiver[n])]);
         coarse.receiver.push_back(chosen[there]);
-        coarse.way.push_back(way_between(here, there, coarse_width));
+        coarse.direction.push_back(direction_between(here, there, coarse_width));
     }
     return coarse;
 }
@@ -116,7 +116,7 @@ Raster<float> relative(Raster<float> field, Mask const& land) {
 }
 
 /// The step by which a border cell leaves the grid, preferably to the north or south.
-Cell way_out(Grid const& grid, Cell c) {
+Cell exit_step(Grid const& grid, Cell c) {
     if (c.row == 0) {
         return {0, -1};
     }
@@ -136,7 +136,7 @@ public:
         for (std::size_t n = 0; n < given_.cell.size(); ++n) {
             Cell const c = given_.grid.at(given_.cell[n]);
             if (margin_ > 0 && given_.receiver[n] < 0 && given_.grid.on_border(c)) {
-                outside[n] = lead_out(c);
+                outside[n] = extend_outside(c);
             }
         }
         auto const first = static_cast<std::int64_t>(out_.cell.size());
@@ -160,16 +160,17 @@ private:
         auto const i = static_cast<std::size_t>((c.row + margin_ + 1) * width_ + c.col + margin_ + 1);
         out_.cell.push_back(static_cast<std::uint32_t>(i));
         out_.receiver.push_back(receiver);
-        out_.way.push_back(receiver < 0 ? std::int8_t{-1}
-                                        : way_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
+        out_.direction.push_back(receiver < 0
+                                     ? std::int8_t{-1}
+                                     : direction_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
         out_.level.push_back(0);
         out_.number.push_back(-1);
     }
 
     /// Adds the cells outside the border.
     /// \return number of the cell just outside
-    std::int32_t lead_out(Cell c) {
-        Cell const step = way_out(given_.grid, c);
+    std::int32_t extend_outside(Cell c) {
+        Cell const step = exit_step(given_.grid, c);
         std::int32_t last = -1;
         for (std::int64_t far = margin_; far > 0; --far) {
             put({c.col + far * step.col, c.row + far * step.row}, last);
@@ -196,7 +197,7 @@ void take_nearer(NearestRiver& near, std::size_t i, std::size_t from, float leng
 
 } // namespace
 
-WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
+PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
     std::int64_t const margin = goes_on(params.edge) ? open_margin : 0;
     return {grown(rivers.grid, margin),
             margin,
@@ -205,7 +206,8 @@ WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, Equ
             {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
 }
 
-NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start, Cells<std::uint32_t> memory) {
+NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start,
+                           Cells<std::uint32_t> memory) {
     auto const cells = static_cast<std::size_t>(level.cells());
     NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()), std::move(memory)};
     near.number.assign(cells, NearestRiver::none);
@@ -235,17 +237,17 @@ NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& hea
 
 namespace {
 
-bool beside(LandLevel const& level, std::size_t i, Cover what) {
+bool beside(TerrainLevel const& level, std::size_t i, CellType what) {
     auto const offsets = level.offsets();
     return std::any_of(offsets.begin(), offsets.end(),
-                       [&](std::int64_t offset) { return level.cover[moved(i, offset)] == what; });
+                       [&](std::int64_t offset) { return level.type[moved(i, offset)] == what; });
 }
 
-void cover_banks(LandLevel& level) {
+void set_banks(TerrainLevel& level) {
     for (std::uint32_t const river : level.rivers.cell) {
         for (std::int64_t const offset : level.offsets()) {
-            Cover& near = level.cover[moved(river, offset)];
-            near = near == Cover::land ? Cover::bank : near == Cover::rim ? Cover::rim_bank : near;
+            CellType& near = level.type[moved(river, offset)];
+            near = near == CellType::land ? CellType::bank : near == CellType::rim ? CellType::rim_bank : near;
         }
     }
 }
@@ -273,34 +275,34 @@ Mask coarsened(Mask const& land) {
     return coarse;
 }
 
-void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
+void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
     bool const has_sea = edge == Edge::coast || edge == Edge::mainland;
-    Cover const rest = has_sea ? Cover::sea : Cover::outside;
-    Cover const frame = edge == Edge::open || edge == Edge::mainland ? Cover::edge : rest;
-    Cover const frame_at_rest = edge == Edge::mainland ? Cover::sea : frame;
-    level.cover.resize(static_cast<std::size_t>(level.cells()));
+    CellType const rest = has_sea ? CellType::sea : CellType::outside;
+    CellType const frame = edge == Edge::open || edge == Edge::mainland ? CellType::boundary : rest;
+    CellType const frame_at_rest = edge == Edge::mainland ? CellType::sea : frame;
+    level.type.resize(static_cast<std::size_t>(level.cells()));
     for (std::int64_t row = 0; row < level.height; ++row) {
         for (std::int64_t col = 0; col < level.width; ++col) {
             Cell const inner{std::clamp<std::int64_t>(col, 1, level.width - 2) - 1,
                              std::clamp<std::int64_t>(row, 1, level.height - 2) - 1};
             bool const on_frame = inner.col + 1 != col || inner.row + 1 != row;
             bool const dry = land.cells() == 0 || land[inner] != 0;
-            level.cover[static_cast<std::size_t>(row * level.width + col)] =
-                on_frame ? (dry ? frame : frame_at_rest) : (dry ? Cover::land : rest);
+            level.type[static_cast<std::size_t>(row * level.width + col)] =
+                on_frame ? (dry ? frame : frame_at_rest) : (dry ? CellType::land : rest);
         }
     }
     for (std::uint32_t const river : level.rivers.cell) {
-        level.cover[river] = Cover::river;
+        level.type[river] = CellType::river;
     }
     if (!has_sea) {
         each_inner(level, [&](std::size_t i) {
-            if (level.cover[i] == Cover::land && beside(level, i, Cover::outside)) {
-                level.cover[i] = edge == Edge::open ? Cover::edge : Cover::rim;
+            if (level.type[i] == CellType::land && beside(level, i, CellType::outside)) {
+                level.type[i] = edge == Edge::open ? CellType::boundary : CellType::rim;
             }
         });
     }
     if (banks == RiverBanks::kept) {
-        cover_banks(level);
+        set_banks(level);
     }
 }
 
@@ -342,7 +344,7 @@ JitteredPerLength jittered_per_length() {
     return out;
 }
 
-void jitter(LandLevel& level, std::uint64_t seed, Run const& run) {
+void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run) {
     level.shift.resize(static_cast<std::size_t>(level.cells()));
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
@@ -360,7 +362,7 @@ constexpr std::uint64_t start_stage = 0x7374617274; // "start"
 constexpr float first_tangent = 0.05F;
 
 template <class Height>
-void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& run, Height height) {
+void set_heights(TerrainLevel& level, std::uint64_t seed, float rough, Run const& run, Height height) {
     level.z.resize(static_cast<std::size_t>(level.cells()));
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
@@ -376,7 +378,7 @@ void set_heights(LandLevel& level, std::uint64_t seed, float rough, Run const& r
 /// grid, before water settles in them.
 class Bends {
 public:
-    Bends(LandLevel const& level, std::uint64_t seed) : across_(level.width / spacing + 2) {
+    Bends(TerrainLevel const& level, std::uint64_t seed) : across_(level.width / spacing + 2) {
         std::int64_t const down = level.height / spacing + 2;
         east_.resize(static_cast<std::size_t>(across_ * down));
         south_.resize(east_.size());
@@ -421,7 +423,7 @@ private:
 
 } // namespace
 
-void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
+void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
     set_heights(level, seed, 0.3F, run, [&](std::int64_t col, std::int64_t row) {
         float const far = near.distance[static_cast<std::size_t>(row * level.width + col)];
         auto const rim = static_cast<float>(std::min({col, row, level.width - 1 - col, level.height - 1 - row}));
@@ -429,7 +431,7 @@ void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_
     });
 }
 
-void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, Run const& run) {
+void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Run const& run) {
     // The frame's infinite heights must not be interpolated: the outermost inner cells replace it.
     auto const held = [](std::int64_t at, std::int64_t size) { return std::clamp<std::int64_t>(at, 1, size - 2); };
     auto const height_at = [&](std::int64_t col, std::int64_t row) {
@@ -455,11 +457,11 @@ void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, R
     });
 }
 
-void start_rivers(LandLevel& level, std::vector<float> const& end_z) {
-    for (std::size_t i = 0; i < level.cover.size(); ++i) {
-        if (level.cover[i] == Cover::sea) {
+void start_rivers(TerrainLevel& level, std::vector<float> const& end_z) {
+    for (std::size_t i = 0; i < level.type.size(); ++i) {
+        if (level.type[i] == CellType::sea) {
             level.z[i] = 0.0F;
-        } else if (level.cover[i] == Cover::outside) {
+        } else if (level.type[i] == CellType::outside) {
             level.z[i] = std::numeric_limits<float>::infinity();
         }
     }
@@ -499,10 +501,10 @@ std::vector<double> ring_means(std::vector<double> const& values, std::int64_t r
     return means;
 }
 
-float above_rivers(LandLevel const& level, std::size_t i, float z) {
+float above_rivers(TerrainLevel const& level, std::size_t i, float z) {
     for (std::int64_t const offset : level.offsets()) {
         std::int64_t const n = static_cast<std::int64_t>(i) + offset;
-        if (n >= 0 && n < level.cells() && level.cover[static_cast<std::size_t>(n)] == Cover::river) {
+        if (n >= 0 && n < level.cells() && level.type[static_cast<std::size_t>(n)] == CellType::river) {
             z = std::max(z, level.z[static_cast<std::size_t>(n)] + bank_step * level.side);
         }
     }
@@ -510,7 +512,7 @@ float above_rivers(LandLevel const& level, std::size_t i, float z) {
 }
 
 /// By inner cell, the lowest possible valley: a large river still falls from it to one of the level.
-Cells<float> lowest_valleys(LandLevel const& level) {
+Cells<float> lowest_valleys(TerrainLevel const& level) {
     float const each = fall_of_large * level.side;
     std::vector<float> head_start(level.rivers.cell.size());
     std::transform(level.rivers.cell.begin(), level.rivers.cell.end(), head_start.begin(),
@@ -520,11 +522,11 @@ Cells<float> lowest_valleys(LandLevel const& level) {
     return lowest;
 }
 
-std::vector<double> heights_of(LandLevel const& level, EdgeCells::Part const& part, Cells<float> const& lowest) {
+std::vector<double> heights_of(TerrainLevel const& level, BoundaryCells::Part const& part, Cells<float> const& lowest) {
     std::vector<double> heights(part.cell.size());
     for (std::size_t k = 0; k < heights.size(); ++k) {
         float z = level.z[part.river[k]];
-        if (!lowest.empty() && level.cover[part.cell[k]] != Cover::sea) {
+        if (!lowest.empty() && level.type[part.cell[k]] != CellType::sea) {
             z = std::min(z, std::max(z - fall_of_heads * part.far[k], lowest[part.inner[k]]));
         }
         heights[k] = static_cast<double>(z);
@@ -534,21 +536,21 @@ std::vector<double> heights_of(LandLevel const& level, EdgeCells::Part const& pa
 
 } // namespace
 
-EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond beyond) {
-    EdgeCells edge;
+BoundaryCells boundary_cells(TerrainLevel const& level, NearestRiver const& near, Beyond beyond) {
+    BoundaryCells edge;
     edge.beyond = beyond;
     std::int64_t const w = level.width;
     std::int64_t const h = level.height;
-    auto const add = [&](EdgeCells::Part& part, std::size_t i, std::size_t inner) {
+    auto const add = [&](BoundaryCells::Part& part, std::size_t i, std::size_t inner) {
         part.cell.push_back(static_cast<std::uint32_t>(i));
         part.inner.push_back(static_cast<std::uint32_t>(inner));
-        bool const at_sea = level.cover[i] == Cover::sea; // its height is 0
+        bool const at_sea = level.type[i] == CellType::sea; // its height is 0
         part.river.push_back(at_sea ? static_cast<std::uint32_t>(i) : level.rivers.cell[near.number[inner]]);
         part.far.push_back(at_sea ? 0.0F : near.distance[inner] * level.side);
     };
     auto const put = [&](std::int64_t col, std::int64_t row) {
         auto const i = static_cast<std::size_t>(row * w + col);
-        if (level.cover[i] == Cover::sea || level.cover[i] == Cover::edge) {
+        if (level.type[i] == CellType::sea || level.type[i] == CellType::boundary) {
             add(edge.ring, i,
                 static_cast<std::size_t>(std::clamp<std::int64_t>(row, 1, h - 2) * w +
                                          std::clamp<std::int64_t>(col, 1, w - 2)));
@@ -567,14 +569,14 @@ EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond be
         put(0, row);
     }
     each_inner(level, [&](std::size_t i) {
-        if (level.cover[i] == Cover::edge) {
+        if (level.type[i] == CellType::boundary) {
             add(edge.inside, i, i);
         }
     });
     return edge;
 }
 
-void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
+void set_boundary_heights(TerrainLevel& level, BoundaryCells const& edge) {
     bool const valleys = edge.beyond == Beyond::valleys && !(edge.ring.cell.empty() && edge.inside.cell.empty());
     Cells<float> const lowest = valleys ? lowest_valleys(level) : Cells<float>{};
     std::vector<double> heights = heights_of(level, edge.inside, lowest);
@@ -589,7 +591,7 @@ void set_edge_heights(LandLevel& level, EdgeCells const& edge) {
     heights = ring_means(ring_means(heights_of(level, edge.ring, lowest), reach), reach);
     for (std::size_t k = 0; k < heights.size(); ++k) {
         std::uint32_t const i = edge.ring.cell[k];
-        if (level.cover[i] != Cover::sea) {
+        if (level.type[i] != CellType::sea) {
             level.z[i] = above_rivers(level, i, static_cast<float>(heights[k]));
         }
     }

@@ -22,7 +22,7 @@ bool ends_inside(Channels const& rivers) {
 }
 
 /// The step by which a cell leaves a window's level.
-Cell way_out(LevelExtent const& window, Cell c) {
+Cell exit_step(LevelExtent const& window, Cell c) {
     return c.row == 0                   ? Cell{0, -1}
            : c.row == window.height - 1 ? Cell{0, 1}
            : c.col == 0                 ? Cell{-1, 0}
@@ -31,13 +31,14 @@ Cell way_out(LevelExtent const& window, Cell c) {
 }
 
 /// Rivers of the region under extension.
-class LedOn {
+class ExtendedRivers {
 public:
-    LedOn(LevelExtent const& region, std::uint64_t seed) : region_(region), width_(region.width + 2), seed_(seed) {}
+    ExtendedRivers(LevelExtent const& region, std::uint64_t seed)
+        : region_(region), width_(region.width + 2), seed_(seed) {}
 
     /// Extends a river from a cell inside the region.
     /// \return number of its next cell; -1: it ends there
-    std::int32_t lead_on(Cell from, Cell step, std::uint64_t river) {
+    std::int32_t extend_river(Cell from, Cell step, std::uint64_t river) {
         std::vector<Cell> path;
         std::int32_t joined = -1;
         std::int64_t drift = 0;
@@ -67,8 +68,9 @@ public:
         auto const i = index(c);
         out_.cell.push_back(static_cast<std::uint32_t>(i));
         out_.receiver.push_back(receiver);
-        out_.way.push_back(receiver < 0 ? std::int8_t{-1}
-                                        : way_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
+        out_.direction.push_back(receiver < 0
+                                     ? std::int8_t{-1}
+                                     : direction_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
         out_.level.push_back(is_level);
         out_.number.push_back(number);
         auto const n = static_cast<std::int32_t>(out_.cell.size()) - 1;
@@ -124,13 +126,13 @@ RiverCells rivers_of_region(RiverCells const& rivers, LevelExtent const& window,
         auto const i = static_cast<std::int64_t>(rivers.cell[n]);
         return Cell{i % (window.width + 2) - 1, i / (window.width + 2) - 1};
     };
-    LedOn out(region, seed);
+    ExtendedRivers out(region, seed);
     std::vector<std::int32_t> next(rivers.cell.size(), -1);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         Cell const c = cell_of(n);
-        Cell const step = way_out(window, c);
+        Cell const step = exit_step(window, c);
         if (rivers.receiver[n] < 0 && !(step == Cell{0, 0})) {
-            next[n] = out.lead_on({c.col + shift.col, c.row + shift.row}, step, n);
+            next[n] = out.extend_river({c.col + shift.col, c.row + shift.row}, step, n);
         }
     }
     std::vector<std::int32_t> place(rivers.cell.size());
@@ -147,7 +149,7 @@ namespace {
 
 constexpr std::uint64_t frame_stage = 0x6672616d65; // "frame"
 
-std::size_t cell_at(LandLevel const& level, LevelPlace p) {
+std::size_t cell_at(TerrainLevel const& level, LevelPlace p) {
     auto const col = static_cast<std::int64_t>(std::floor(p.col + 0.5));
     auto const row = static_cast<std::int64_t>(std::floor(p.row + 0.5));
     return static_cast<std::size_t>(row * level.width + col);
@@ -156,7 +158,7 @@ std::size_t cell_at(LandLevel const& level, LevelPlace p) {
 /// Whether a cell of the region lies within a window's level.
 class Within {
 public:
-    Within(LandLevel const& level, LandLevel const& region)
+    Within(TerrainLevel const& level, TerrainLevel const& region)
         : region_(region), first_(cell_place(level, region, 1, 1)),
           last_(cell_place(level, region, level.width - 2, level.height - 2)) {}
 
@@ -167,18 +169,18 @@ public:
     }
 
 private:
-    static Cell cell_place(LandLevel const& level, LandLevel const& region, std::int64_t col, std::int64_t row) {
+    static Cell cell_place(TerrainLevel const& level, TerrainLevel const& region, std::int64_t col, std::int64_t row) {
         auto const i = static_cast<std::int64_t>(cell_at(region, place_in(region, level, col, row)));
         return {i % region.width, i / region.width};
     }
 
-    LandLevel const& region_;
+    TerrainLevel const& region_;
     Cell first_;
     Cell last_;
 };
 
 /// Calls visit(column, row) for the cells of a level's frame, once round.
-template <class Visit> void each_of_frame(LandLevel const& level, Visit visit) {
+template <class Visit> void each_of_frame(TerrainLevel const& level, Visit visit) {
     for (std::int64_t col = 0; col < level.width; ++col) {
         visit(col, std::int64_t{0});
         visit(col, level.height - 1);
@@ -189,7 +191,7 @@ template <class Visit> void each_of_frame(LandLevel const& level, Visit visit) {
     }
 }
 
-std::size_t beside_frame(LandLevel const& level, std::int64_t col, std::int64_t row) {
+std::size_t beside_frame(TerrainLevel const& level, std::int64_t col, std::int64_t row) {
     return static_cast<std::size_t>(std::clamp<std::int64_t>(row, 1, level.height - 2) * level.width +
                                     std::clamp<std::int64_t>(col, 1, level.width - 2));
 }
@@ -199,15 +201,15 @@ Vec2 middle_of(Cell c) {
 }
 
 /// Computes the shares of the frame's cells from their distance to a valley that leaves the window.
-void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& region, Within const& within,
+void share_out(RegionFrame& frame, TerrainLevel const& level, TerrainLevel const& region, Within const& within,
                std::uint64_t seed) {
     auto const around = region.offsets();
     auto const outside = [&](Cell c) { return cell_at(region, place_in(region, level, c.col, c.row)); };
     auto const leaves = [&](std::size_t beyond) {
         return std::any_of(around.begin(), around.end(), [&](std::int64_t offset) {
             std::size_t const n = moved(beyond, offset);
-            return within(n) && region.way[n] >= 0 &&
-                   moved(n, around[static_cast<std::size_t>(region.way[n])]) == beyond;
+            return within(n) && region.direction[n] >= 0 &&
+                   moved(n, around[static_cast<std::size_t>(region.direction[n])]) == beyond;
         });
     };
     std::map<std::size_t, std::vector<Cell>> beside; // cells of the frame by that of the region
@@ -240,7 +242,7 @@ void share_out(RegionFrame& frame, LandLevel const& level, LandLevel const& regi
 
 } // namespace
 
-RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed) {
+RegionFrame frame_by_region(TerrainLevel& level, TerrainLevel const& region, std::uint64_t seed) {
     Within const within(level, region);
     auto const offsets = level.offsets();
     auto const around = region.offsets();
@@ -252,18 +254,18 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
     RegionFrame frame;
     each_of_frame(level, [&](std::int64_t col, std::int64_t row) {
         auto const i = static_cast<std::size_t>(row * level.width + col);
-        if (level.cover[i] != Cover::edge) {
+        if (level.type[i] != CellType::boundary) {
             return;
         }
         LevelPlace const place = place_in(region, level, col, row);
         std::size_t const outside = cell_at(region, place);
-        std::int8_t const way = region.way[outside];
+        std::int8_t const way = region.direction[outside];
         if (way >= 0 && within(moved(outside, around[static_cast<std::size_t>(way)]))) {
-            level.cover[i] = Cover::outside;
+            level.type[i] = CellType::outside;
             level.z[i] = std::numeric_limits<float>::infinity();
             std::size_t const inner = beside_frame(level, col, row);
             Lowest& lowest = entries[outside];
-            if (is_land(level.cover[inner]) && level.z[inner] < lowest.z) {
+            if (is_land(level.type[inner]) && level.z[inner] < lowest.z) {
                 lowest = {inner, level.z[inner]};
             }
             return;
@@ -272,10 +274,10 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
     });
     share_out(frame, level, region, within, seed);
     each_inner(level, [&](std::size_t i) {
-        if ((level.cover[i] == Cover::land || level.cover[i] == Cover::bank) &&
+        if ((level.type[i] == CellType::land || level.type[i] == CellType::bank) &&
             std::any_of(offsets.begin(), offsets.end(),
-                        [&](std::int64_t offset) { return level.cover[moved(i, offset)] == Cover::outside; })) {
-            level.cover[i] = level.cover[i] == Cover::bank ? Cover::rim_bank : Cover::rim;
+                        [&](std::int64_t offset) { return level.type[moved(i, offset)] == CellType::outside; })) {
+            level.type[i] = level.type[i] == CellType::bank ? CellType::rim_bank : CellType::rim;
         }
     });
     float const each = region.side * region.side / (level.side * level.side);
@@ -291,7 +293,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
     for (std::int64_t row = inset; row < level.height - inset; row += stride) {
         for (std::int64_t col = inset; col < level.width - inset; col += stride) {
             auto const i = static_cast<std::uint32_t>(row * level.width + col);
-            if (is_land(level.cover[i])) {
+            if (is_land(level.type[i])) {
                 frame.land.push_back({i, value_at(region, region.z, place_in(region, level, col, row))});
             }
         }
@@ -300,7 +302,7 @@ RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint
     return frame;
 }
 
-void lift_frame(LandLevel& level, RegionFrame const& frame) {
+void lift_frame(TerrainLevel& level, RegionFrame const& frame) {
     double sum = 0.0;
     for (RegionFrame::Sample const& s : frame.land) {
         sum += static_cast<double>(level.z[s.cell]) - static_cast<double>(s.z);
@@ -311,14 +313,14 @@ void lift_frame(LandLevel& level, RegionFrame const& frame) {
     for (RegionFrame::Cell const& c : frame.cells) {
         Cell const at = level.at(c.cell);
         std::size_t const inner = beside_frame(level, at.col, at.row);
-        float const river = level.cover[inner] == Cover::river
+        float const river = level.type[inner] == CellType::river
                                 ? std::max(level.z[inner], highest_river(level, inner, offsets))
                                 : highest_river(level, inner, offsets);
         level.z[c.cell] = std::max(c.z + c.share * lift, river + bank_step * level.side);
     }
 }
 
-std::vector<float> end_heights(LandLevel const& level, LandLevel const& region) {
+std::vector<float> end_heights(TerrainLevel const& level, TerrainLevel const& region) {
     RiverCells const& rivers = level.rivers;
     std::vector<float> heights(rivers.cell.size(), 0.0F);
     for (std::size_t n = 0; n < heights.size(); ++n) {
@@ -331,7 +333,7 @@ std::vector<float> end_heights(LandLevel const& level, LandLevel const& region) 
     return heights;
 }
 
-std::vector<RegionInflow> inflows_of(LandLevel const& level, Grid const& grid, std::int64_t margin) {
+std::vector<RegionInflow> inflows_of(TerrainLevel const& level, Grid const& grid, std::int64_t margin) {
     constexpr std::uint32_t much = 1000; // [cells]
     auto const offsets = level.offsets();
     std::vector<RegionInflow> found;
@@ -345,7 +347,8 @@ std::vector<RegionInflow> inflows_of(LandLevel const& level, Grid const& grid, s
         for (std::size_t k = 0; k < offsets.size(); ++k) {
             Cell const beyond{c.col + d8_steps[k].col, c.row + d8_steps[k].row};
             std::size_t const n = moved(at, offsets[k]);
-            bool const flows_in = level.way[n] >= 0 && moved(n, offsets[static_cast<std::size_t>(level.way[n])]) == at;
+            bool const flows_in =
+                level.direction[n] >= 0 && moved(n, offsets[static_cast<std::size_t>(level.direction[n])]) == at;
             area += !grid.contains(beyond) && flows_in ? level.area[n] : 0;
         }
         if (area >= much) {

@@ -17,10 +17,10 @@ constexpr float kept_share = 0.3F;   // share of its fall that a reach keeps whe
 constexpr std::uint32_t great = 16;  // ratio of areas above which a river is not lowered for a brook
 
 /// The largest height of a river cell at which it is not perched, from the second ring of cells around it.
-float height_by_ring(LandLevel const& level, std::uint32_t cell) {
+float height_by_ring(TerrainLevel const& level, std::uint32_t cell) {
     float most = std::numeric_limits<float>::infinity();
     each_of_second_ring(level, cell, [&](std::size_t n) {
-        bool const land = level.cover[n] == Cover::land || level.cover[n] == Cover::rim;
+        bool const land = level.type[n] == CellType::land || level.type[n] == CellType::rim;
         most = std::min(most, level.z[n] + (land ? above_land : above_river) * level.side);
     });
     return most;
@@ -28,7 +28,7 @@ float height_by_ring(LandLevel const& level, std::uint32_t cell) {
 
 // The largest heights of river cells, by number, at which neither they nor, within one reach, the cells upstream are
 // perched above the terrain beside them.
-std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const& law) {
+std::vector<float> greatest_heights(TerrainLevel const& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
     std::vector<float> most(rivers.cell.size());
     std::transform(rivers.cell.begin(), rivers.cell.end(), most.begin(),
@@ -42,7 +42,7 @@ std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const
         }
         auto const r = static_cast<std::size_t>(rivers.receiver[n]);
         float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side *
-                           step_lengths[static_cast<std::size_t>(rivers.way[n])];
+                           step_lengths[static_cast<std::size_t>(rivers.direction[n])];
         float const below = most[n] - kept_share * fall;
         if (below < most[r] && level.area[rivers.cell[r]] / great <= area[n]) {
             most[r] = below;
@@ -54,14 +54,14 @@ std::vector<float> greatest_heights(LandLevel const& level, EquilibriumLaw const
 
 } // namespace
 
-float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
+float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i) {
     float const area = static_cast<float>(level.area[i]) * level.side * level.side + law.source_area;
     float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
     float const graded = creep_brings * uplift / (level.erodibility[i] * law.power(area));
     return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
 }
 
-void relax_rivers(LandLevel& level, EquilibriumLaw const& law) {
+void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
     std::vector<float> const most = greatest_heights(level, law);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
@@ -74,7 +74,7 @@ void relax_rivers(LandLevel& level, EquilibriumLaw const& law) {
             level.z[i] = below;
             continue;
         }
-        float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.way[n])];
+        float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.direction[n])];
         float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
         level.z[i] = std::max(z, below + least_tangent * length);
     }
@@ -85,7 +85,7 @@ namespace {
 /// Long profiles of rivers through prescribed heights.
 class Profiles {
 public:
-    Profiles(LandLevel const& level, EquilibriumLaw const& law) : level_(level), rivers_(level.rivers) {
+    Profiles(TerrainLevel const& level, EquilibriumLaw const& law) : level_(level), rivers_(level.rivers) {
         std::size_t const count = rivers_.cell.size();
         graded_.resize(count);
         anchor_.resize(count);
@@ -112,7 +112,9 @@ public:
 
     bool is_end(std::size_t n) const { return rivers_.receiver[n] < 0; }
     std::size_t receiver(std::size_t n) const { return static_cast<std::size_t>(rivers_.receiver[n]); }
-    float length(std::size_t n) const { return level_.side * step_lengths[static_cast<std::size_t>(rivers_.way[n])]; }
+    float length(std::size_t n) const {
+        return level_.side * step_lengths[static_cast<std::size_t>(rivers_.direction[n])];
+    }
 
 private:
     static constexpr std::int32_t nothing = -1;
@@ -165,7 +167,7 @@ private:
         return below + (rivers_.asked[above] - below) * (fall / (graded_[above] - graded_[receiver(n)]));
     }
 
-    LandLevel const& level_;
+    TerrainLevel const& level_;
     RiverCells const& rivers_;
     std::vector<float> graded_;       ///< heights of graded rivers above their ends
     std::vector<std::size_t> anchor_; ///< number of the next cell downstream with a prescribed height, or of the end
@@ -174,7 +176,7 @@ private:
 
 } // namespace
 
-void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
+void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
     Profiles const profiles(level, law);
     RiverCells const& rivers = level.rivers;
     std::vector<float> z = profiles.heights();
@@ -207,7 +209,7 @@ void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeight
 namespace {
 
 /// The height above which a river cell is perched.
-float highest_lawful(LandLevel const& level, std::uint32_t cell, float tangent) {
+float highest_lawful(TerrainLevel const& level, std::uint32_t cell, float tangent) {
     float low = std::numeric_limits<float>::infinity();
     each_of_second_ring(level, cell, [&](std::size_t n) { low = std::min(low, level.z[n]); });
     return low + tangent * level.side;
@@ -215,7 +217,7 @@ float highest_lawful(LandLevel const& level, std::uint32_t cell, float tangent) 
 
 /// Lowers a river cell to a height, and cells downstream of it as far as necessary; does nothing if that would take too
 /// long, or reach a lake or an end.
-void dig(LandLevel& level, std::size_t from, float z, float step) {
+void lower_reach(TerrainLevel& level, std::size_t from, float z, float step) {
     constexpr int longest = 256; // [cells] on a nearly level floor
     RiverCells const& rivers = level.rivers;
     std::size_t n = from;
@@ -232,7 +234,7 @@ void dig(LandLevel& level, std::size_t from, float z, float step) {
 }
 
 // Whether a river cell is above the lowest cell of its second ring by more than a tangent times a cell.
-bool is_perched(LandLevel const& level, std::uint32_t cell, float tangent) {
+bool is_perched(TerrainLevel const& level, std::uint32_t cell, float tangent) {
     return level.z[cell] > highest_lawful(level, cell, tangent);
 }
 
@@ -253,7 +255,7 @@ bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int
     return true;
 }
 
-std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
+std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent) {
     constexpr int steps = 4; // reaches the second ring, with a bend
     RiverCells const& rivers = level.rivers;
     std::vector<std::int64_t> numbers;
@@ -274,7 +276,7 @@ std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent) {
     return numbers;
 }
 
-void lower_perched(LandLevel& level, float tangent, float step) {
+void lower_perched(TerrainLevel& level, float tangent, float step) {
     constexpr std::size_t passes = 2; // digging lowers the surroundings of other cells
     RiverCells const& rivers = level.rivers;
     std::size_t const count = rivers.cell.size();
@@ -286,13 +288,13 @@ void lower_perched(LandLevel& level, float tangent, float step) {
             float const lawful = highest_lawful(level, rivers.cell[n], tangent);
             z = std::max(std::min(z, lawful), std::min(z, least));
             if (z > lawful) {
-                dig(level, n, lawful, step);
+                lower_reach(level, n, lawful, step);
             }
         }
     }
 }
 
-void raise_below_perched(LandLevel& level, float tangent) {
+void raise_below_perched(TerrainLevel& level, float tangent) {
     constexpr std::int64_t reach = 4; // [cells]
     Grid frame;
     frame.width = level.width;
@@ -307,7 +309,7 @@ void raise_below_perched(LandLevel& level, float tangent) {
         cells_around(frame, at, reach, [&](Cell c) {
             std::int64_t const far = std::max(std::abs(c.col - at.col), std::abs(c.row - at.row));
             auto const i = static_cast<std::size_t>(c.row * level.width + c.col);
-            if (far > 1 && is_land(level.cover[i])) {
+            if (far > 1 && is_land(level.type[i])) {
                 level.z[i] = std::max(level.z[i], z - tangent * level.side * static_cast<float>(far - 1));
             }
         });
@@ -360,7 +362,7 @@ bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
 }
 
 /// Marks the cells near heads that lie beside another river with more cells upstream, with everything upstream.
-std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
+std::vector<std::uint8_t> touching_heads(TerrainLevel const& level) {
     RiverCells const& rivers = level.rivers;
     constexpr std::int32_t nothing = -1;
     std::vector<std::int32_t> number_at(static_cast<std::size_t>(level.cells()), nothing);
@@ -380,15 +382,16 @@ std::vector<std::uint8_t> touching_heads(LandLevel const& level) {
     });
 }
 
-bool is_rim(LandLevel const& level, std::size_t i) {
+bool is_rim(TerrainLevel const& level, std::size_t i) {
     auto const offsets = level.offsets();
     return std::any_of(offsets.begin(), offsets.end(),
-                       [&](std::int64_t offset) { return level.cover[moved(i, offset)] == Cover::outside; });
+                       [&](std::int64_t offset) { return level.type[moved(i, offset)] == CellType::outside; });
 }
 
-void cover_again(LandLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+void reset_cell_types(TerrainLevel& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     bool const beside = highest_river(level, i, offsets) > -std::numeric_limits<float>::infinity();
-    level.cover[i] = is_rim(level, i) ? (beside ? Cover::rim_bank : Cover::rim) : (beside ? Cover::bank : Cover::land);
+    level.type[i] =
+        is_rim(level, i) ? (beside ? CellType::rim_bank : CellType::rim) : (beside ? CellType::bank : CellType::land);
 }
 
 /// Removes the marked cells; receivers of the others are never marked.
@@ -401,7 +404,7 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
         }
         rivers.cell[kept] = rivers.cell[n];
         rivers.receiver[kept] = rivers.receiver[n] < 0 ? -1 : place[static_cast<std::size_t>(rivers.receiver[n])];
-        rivers.way[kept] = rivers.way[n];
+        rivers.direction[kept] = rivers.direction[n];
         rivers.level[kept] = rivers.level[n];
         rivers.number[kept] = rivers.number[n];
         if (!rivers.asked.empty()) {
@@ -411,13 +414,13 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
     }
     rivers.cell.resize(kept);
     rivers.receiver.resize(kept);
-    rivers.way.resize(kept);
+    rivers.direction.resize(kept);
     rivers.level.resize(kept);
     rivers.number.resize(kept);
     rivers.asked.resize(rivers.asked.empty() ? 0 : kept);
 }
 
-std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> const& marked, TipBanks banks) {
+std::vector<std::int64_t> remove_tips(TerrainLevel& level, std::vector<std::uint8_t> const& marked, TipBanks banks) {
     RiverCells& rivers = level.rivers;
     std::vector<std::uint8_t> gone(marked.size());
     std::vector<std::uint8_t> holds(marked.size()); // an unmarked cell lies upstream
@@ -437,10 +440,10 @@ std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> co
             continue;
         }
         numbers.push_back(rivers.number[n]);
-        cover_again(level, i, offsets);
+        reset_cell_types(level, i, offsets);
         for (std::int64_t const offset : offsets) {
-            if (std::size_t const near = moved(i, offset); is_land(level.cover[near])) {
-                cover_again(level, near, offsets);
+            if (std::size_t const near = moved(i, offset); is_land(level.type[near])) {
+                reset_cell_types(level, near, offsets);
             }
         }
     }
@@ -450,13 +453,13 @@ std::vector<std::int64_t> give_up(LandLevel& level, std::vector<std::uint8_t> co
 
 } // namespace
 
-std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks) {
+std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks) {
     auto const perched = [&](std::size_t n) { return is_perched(level, level.rivers.cell[n], tangent); };
-    return give_up(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
+    return remove_tips(level, marked_tips(level.rivers, upstream_of(level.rivers), longest_tip, perched), banks);
 }
 
-std::vector<std::int64_t> give_up_touching_tips(LandLevel& level) {
-    return give_up(level, touching_heads(level), TipBanks::rise);
+std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level) {
+    return remove_tips(level, touching_heads(level), TipBanks::rise);
 }
 
 namespace {
@@ -466,7 +469,7 @@ constexpr float margin = 0.02F; // relative to a fall, above float rounding
 
 class Keeper {
 public:
-    Keeper(LandLevel& level, float least)
+    Keeper(TerrainLevel& level, float least)
         : level_(level), rivers_(level.rivers), offsets_(level.offsets()), least_(least) {
         for (std::size_t n = 0; n < rivers_.cell.size(); ++n) {
             if (rivers_.number[n] < 0) {
@@ -485,12 +488,12 @@ public:
             bool const leaves = rivers_.receiver[n] < 0 || number(receiver(n)) < 0;
             for (std::size_t k = 0; k < offsets_.size(); ++k) {
                 std::size_t const q = moved(rivers_.cell[n], offsets_[k]);
-                if (level_.cover[q] != Cover::river || std::binary_search(beyond_.begin(), beyond_.end(), q)) {
+                if (level_.type[q] != CellType::river || std::binary_search(beyond_.begin(), beyond_.end(), q)) {
                     continue;
                 }
                 if (leaves) {
                     level_.z[q] = std::max(level_.z[q], level_.z[rivers_.cell[n]]);
-                } else if (rivers_.level[n] == 0 && static_cast<std::int8_t>(k) != rivers_.way[n]) {
+                } else if (rivers_.level[n] == 0 && static_cast<std::int8_t>(k) != rivers_.direction[n]) {
                     keep_off(n, q, step_lengths[k]);
                 }
             }
@@ -504,7 +507,7 @@ public:
         }
         float& z = level_.z[rivers_.cell[n]];
         float const below = level_.z[rivers_.cell[receiver(n)]];
-        float const length = level_.side * step_lengths[static_cast<std::size_t>(rivers_.way[n])];
+        float const length = level_.side * step_lengths[static_cast<std::size_t>(rivers_.direction[n])];
         z = rivers_.level[n] != 0 ? below : std::max(z, below + least_ * length);
     }
 
@@ -527,7 +530,7 @@ private:
     void keep_off(std::size_t n, std::size_t q, float length) {
         float& z = level_.z[rivers_.cell[n]];
         float const below = level_.z[rivers_.cell[receiver(n)]];
-        float const own = step_lengths[static_cast<std::size_t>(rivers_.way[n])];
+        float const own = step_lengths[static_cast<std::size_t>(rivers_.direction[n])];
         float const ratio = length / own;
         float const least = z - ratio * (z - below) * (1.0F - margin);
         if (level_.z[q] >= least || lies_downstream(n, q)) {
@@ -541,7 +544,7 @@ private:
         }
     }
 
-    LandLevel& level_;
+    TerrainLevel& level_;
     RiverCells const& rivers_;
     std::array<std::int64_t, 8> offsets_;
     float least_;                     ///< tangent towards a receiver
@@ -550,7 +553,7 @@ private:
 
 } // namespace
 
-void keep_to_receivers(LandLevel& level, float least) {
+void enforce_receivers(TerrainLevel& level, float least) {
     Keeper keeper(level, least);
     for (int pass = 0; pass < passes; ++pass) {
         keeper.pass();

@@ -89,7 +89,7 @@ std::vector<Bin> unit_step_hits(std::vector<Cell> const& cluster, std::int64_t w
     for (std::int64_t i = 0; i < walkers; ++i) {
         RandomStream random(1001, 2, static_cast<std::uint64_t>(i));
         unit_step::Steps steps(random);
-        Site const hit = lattice.approach(lattice.born(random), steps, random);
+        Site const hit = lattice.approach(lattice.launch_site(random), steps, random);
         bins.emplace_back(hit.x, hit.y);
     }
     return bins;
@@ -225,17 +225,17 @@ TEST(FreeSquares, are_free_and_large) {
     }));
 }
 
-// Law: the mean of every z^k, k = 1 ... 4, is 0. Rounding to the lattice shifts it by no more than 1/birth^2.
+// Law: the mean of every z^k, k = 1 ... 4, is 0. Rounding to the lattice shifts it by no more than 1/radius^2.
 TEST(LaunchCircle, births_lie_on_the_circle_on_all_sides_alike) {
     LaunchCircle const circle = launch_circle(996.0);
-    EXPECT_EQ(circle.birth, 1000.0);
+    EXPECT_EQ(circle.radius, 1000.0);
     RandomStream random(5, 1, 1);
     int const n = 400000;
     std::array<std::complex<double>, 4> mean{};
     for (int i = 0; i < n; ++i) {
-        Site const s = born(circle, random);
-        ASSERT_NEAR(std::sqrt(static_cast<double>(squared(s))), circle.birth, 0.75);
-        std::complex<double> const z = std::complex<double>(s.x, s.y) / circle.birth;
+        Site const s = launch_site(circle, random);
+        ASSERT_NEAR(std::sqrt(static_cast<double>(squared(s))), circle.radius, 0.75);
+        std::complex<double> const z = std::complex<double>(s.x, s.y) / circle.radius;
         std::complex<double> power = 1.0;
         for (auto& m : mean) {
             power *= z;
@@ -256,15 +256,15 @@ TEST(LaunchCircle, return_from_afar_keeps_means_of_harmonic_functions) {
         std::array<std::complex<double>, 4> mean{};
         for (int i = 0; i < n; ++i) {
             Site const hit = back_from_afar(circle, from, random);
-            ASSERT_NEAR(std::sqrt(static_cast<double>(squared(hit))), circle.birth, 0.75);
-            std::complex<double> const inverse = circle.birth / std::complex<double>(hit.x, hit.y);
+            ASSERT_NEAR(std::sqrt(static_cast<double>(squared(hit))), circle.radius, 0.75);
+            std::complex<double> const inverse = circle.radius / std::complex<double>(hit.x, hit.y);
             std::complex<double> power = 1.0;
             for (auto& m : mean) {
                 power *= inverse;
                 m += power / static_cast<double>(n);
             }
         }
-        std::complex<double> const inverse = circle.birth / std::complex<double>(from.x, from.y);
+        std::complex<double> const inverse = circle.radius / std::complex<double>(from.x, from.y);
         std::complex<double> power = 1.0;
         for (auto const& m : mean) {
             power *= inverse;

@@ -26,9 +26,9 @@ using Dataset = std::unique_ptr<GDALDataset, CloseDataset>;
 inline constexpr float nodata_height = -9999.0F;
 
 /// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only, so that neither a file nor its
-/// folder is changed (see Undisturbed); null when no driver reads it, with the reason in GDAL's errors. What may be
-/// opened: see Access. Throws: BadInput when it may not be opened; IoError like Undisturbed.
-Dataset open_undisturbed(Source const& source, unsigned kinds);
+/// folder is changed (see UnchangedFile); null when no driver reads it, with the reason in GDAL's errors. What may be
+/// opened: see Access. Throws: BadInput when it may not be opened; IoError like UnchangedFile.
+Dataset open_unchanged(Source const& source, unsigned kinds);
 
 /// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
@@ -64,14 +64,14 @@ Dataset in_memory(Raster<float> const& dem, std::string const& what);
 /// there. Other paths are returned unchanged. Needs a Driver that outlives it.
 std::string inside_archive(std::string const& path);
 
-/// Passes a Run through GDAL, which does not support exceptions: pass &Watch::step and the object as GDAL's progress
-/// function and argument, then call settle() before checking whether GDAL succeeded.
-class Watch {
+/// Passes a Run through GDAL, which does not support exceptions: pass &GdalProgress::step and the object as GDAL's
+/// progress function and argument, then call settle() before checking whether GDAL succeeded.
+class GdalProgress {
 public:
-    Watch(Run const& run, char const* what) : run_(run), what_(what) {}
+    GdalProgress(Run const& run, char const* what) : run_(run), what_(what) {}
 
-    static int step(double share, char const* /*message*/, void* watch) {
-        auto& self = *static_cast<Watch*>(watch);
+    static int step(double share, char const* /*message*/, void* gdal_progress) {
+        auto& self = *static_cast<GdalProgress*>(gdal_progress);
         try {
             self.run_.at(share, self.what_);
             return 1;

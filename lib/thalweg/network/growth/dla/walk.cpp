@@ -38,26 +38,26 @@ Site nearest_site(double x, double y) {
 
 LaunchCircle launch_circle(double cluster_radius) {
     LaunchCircle circle;
-    circle.birth = cluster_radius + 4.0;
-    circle.far = static_cast<std::int32_t>(std::max(1.5 * circle.birth, circle.birth + 24.0));
+    circle.radius = cluster_radius + 4.0;
+    circle.far = static_cast<std::int32_t>(std::max(1.5 * circle.radius, circle.radius + 24.0));
     return circle;
 }
 
-Site born(LaunchCircle const& circle, RandomStream& random) {
+Site launch_site(LaunchCircle const& circle, RandomStream& random) {
     Direction const w = uniform_direction(random);
-    return nearest_site(circle.birth * w.x, circle.birth * w.y);
+    return nearest_site(circle.radius * w.x, circle.radius * w.y);
 }
 
 Site back_from_afar(LaunchCircle const& circle, Site from, RandomStream& random) {
     Direction const w = uniform_direction(random);
-    double const scale = circle.birth / static_cast<double>(squared(from));
+    double const scale = circle.radius / static_cast<double>(squared(from));
     double const ax = scale * from.x;
     double const ay = scale * from.y;
     double const top_x = w.x + ax;
     double const top_y = w.y + ay;
     double const low_x = 1.0 + ax * w.x + ay * w.y;
     double const low_y = ax * w.y - ay * w.x;
-    double const length = circle.birth / (low_x * low_x + low_y * low_y);
+    double const length = circle.radius / (low_x * low_x + low_y * low_y);
     return nearest_site(length * (top_x * low_x + top_y * low_y), length * (top_y * low_x - top_x * low_y));
 }
 

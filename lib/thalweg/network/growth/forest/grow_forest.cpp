@@ -15,7 +15,7 @@
 namespace thalweg::network {
 
 /// Two sweeps: exact, because all eight steps count as one.
-Raster<std::uint8_t> room_in(Mask const& region) {
+Raster<std::uint8_t> distance_to_outside(Mask const& region) {
     Raster<std::uint8_t> room = framed<std::uint8_t>(region, 0);
     std::int64_t const width = room.width();
     for (std::uint8_t& r : room.values()) {
@@ -37,7 +37,8 @@ Raster<std::uint8_t> room_in(Mask const& region) {
     return room;
 }
 
-RegionWalk::RegionWalk(Mask const& region) : room_(room_in(region)), middle_{region.width() / 2, region.height() / 2} {
+RegionWalk::RegionWalk(Mask const& region)
+    : room_(distance_to_outside(region)), middle_{region.width() / 2, region.height() / 2} {
     trees_.reach(static_cast<std::int32_t>(std::max(region.width(), region.height()) / 2 + 1));
     law_.prepare(std::max<int>(std::ranges::max(room_.values()), 1));
 }
@@ -112,10 +113,10 @@ Grid blocks_of(Grid const& grid, std::int64_t side) {
 
 ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step)
     : grid_(region.grid()), step_(step), land_(reached_from(seeds, region)), walk_(land_), nearest_(grid_, -1),
-      first_(blocks_of(grid_, step), -1), state_(grid_, State::far), fertile_(grid_, 0) {
+      first_(blocks_of(grid_, step), -1), state_(grid_, State::far), is_start_(grid_, 0) {
     for (std::int64_t i = 0; i < grid_.cells(); ++i) {
         cells_ += land_[i];
-        state_[i] = land_[i] != 0 ? State::far : State::barren;
+        state_[i] = land_[i] != 0 ? State::far : State::closed;
     }
     for (Cell const s : seeds) {
         bool const alone = all_near(s, [](std::int32_t) { return false; });
@@ -128,7 +129,7 @@ ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, s
     for (Cell const s : seeds) {
         look_around(s);
     }
-    find_births();
+    find_start_cells();
 }
 
 template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
@@ -144,16 +145,16 @@ template <class Visit> bool ForestGrowth::all_near(Cell c, Visit visit) const {
     return all;
 }
 
-Cell ForestGrowth::birth(RandomStream& random) const {
-    auto const k = static_cast<std::size_t>(random.real() * static_cast<double>(births_.size()));
-    return births_[k];
+Cell ForestGrowth::draw_start(RandomStream& random) const {
+    auto const k = static_cast<std::size_t>(random.real() * static_cast<double>(start_cells_.size()));
+    return start_cells_[k];
 }
 
 void ForestGrowth::add(Cell c) {
     place(c, nearest_[c]);
     look_around(c);
-    if (++outdated_ > static_cast<std::int64_t>(births_.size()) / (8 * step_ * step_) + 64) {
-        find_births();
+    if (++added_since_search_ > static_cast<std::int64_t>(start_cells_.size()) / (8 * step_ * step_) + 64) {
+        find_start_cells();
     }
 }
 
@@ -177,7 +178,7 @@ void ForestGrowth::place(Cell c, std::int64_t parent) {
         if (!inside(at)) {
             return;
         }
-        set(at, State::barren);
+        set(at, State::closed);
         // Walkers come from outside: they meet the rim first.
         bool const rim = std::any_of(std::begin(neighbour_offsets), std::end(neighbour_offsets),
                                      [&](Site o) { return !inside(moved(at, o)); });
@@ -192,7 +193,7 @@ void ForestGrowth::look_around(Cell c) {
     cells_around(grid_, c, 2 * step_, [&](Cell at) {
         bool const begins = state_[at] == State::far && squared_cells(at, c) <= new_reach && walk_.beside_a_tree(at);
         if (begins || state_[at] == State::open) {
-            set(at, may_hold(at) ? State::open : State::barren);
+            set(at, may_hold(at) ? State::open : State::closed);
         }
     });
 }
@@ -210,33 +211,33 @@ void ForestGrowth::set(Cell c, State state) {
     open_cells_ += static_cast<int>(state == State::open) - static_cast<int>(state_[c] == State::open);
     if (state == State::open && state_[c] != State::open) {
         opened_.push_back(c);
-        if (fertile_[c] == 0) {
-            outdated_ = grid_.cells(); // walkers come from a pocket without an exit
+        if (is_start_[c] == 0) {
+            added_since_search_ = grid_.cells(); // walkers come from a pocket without an exit
         }
     }
     state_[c] = state;
 }
 
 /// Walkers from elsewhere would never stick and are not released. In a nearly full region they would be the majority.
-void ForestGrowth::find_births() {
-    for (Cell const c : births_) {
-        fertile_[c] = 0;
+void ForestGrowth::find_start_cells() {
+    for (Cell const c : start_cells_) {
+        is_start_[c] = 0;
     }
     std::erase_if(opened_, [&](Cell c) { return state_[c] != State::open; });
-    births_ = opened_;
-    for (Cell const c : births_) {
-        fertile_[c] = 1;
+    start_cells_ = opened_;
+    for (Cell const c : start_cells_) {
+        is_start_[c] = 1;
     }
-    for (std::size_t k = 0; k < births_.size(); ++k) {
+    for (std::size_t k = 0; k < start_cells_.size(); ++k) {
         for (Site const o : neighbour_offsets) {
-            Cell const next = moved(births_[k], o);
-            if (grid_.contains(next) && state_[next] == State::far && fertile_[next] == 0) {
-                fertile_[next] = 1;
-                births_.push_back(next);
+            Cell const next = moved(start_cells_[k], o);
+            if (grid_.contains(next) && state_[next] == State::far && is_start_[next] == 0) {
+                is_start_[next] = 1;
+                start_cells_.push_back(next);
             }
         }
     }
-    outdated_ = 0;
+    added_since_search_ = 0;
 }
 
 namespace {
@@ -262,9 +263,9 @@ void check(Mask const& region, std::vector<Cell> const& seeds, ForestParams cons
 }
 
 /// Counts arrivals until the noise-reduction count is reached.
-class Visits {
+class ArrivalCounts {
 public:
-    Visits(Grid const& grid, int wanted) : wanted_(wanted), seen_(wanted > 1 ? grid : Grid{}, 0) {}
+    ArrivalCounts(Grid const& grid, int wanted) : wanted_(wanted), seen_(wanted > 1 ? grid : Grid{}, 0) {}
 
     bool enough(Cell c) {
         if (wanted_ == 1) {
@@ -285,7 +286,7 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
                         Run const& run) {
     check(region, seeds, params);
     ForestGrowth growth(region, seeds, params.step_cells);
-    Visits visits(region.grid(), params.visits);
+    ArrivalCounts visits(region.grid(), params.visits);
     GrownForest forest;
     auto const size = [&] { return static_cast<std::int64_t>(growth.particles().size()); };
     double const in_a_full_one = static_cast<double>(growth.cells()) / static_cast<double>(params.step_cells) /
@@ -305,7 +306,7 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
     while (growth.open_cells() > 0 && (params.particles == 0 || size() < params.particles)) {
         RandomStream random(params.seed, forest_stage, static_cast<std::uint64_t>(forest.walkers++));
         look_up();
-        for (Cell at = growth.birth(random); growth.free(at); look_up()) {
+        for (Cell at = growth.draw_start(random); growth.free(at); look_up()) {
             if (!growth.walk().approach(at, random)) {
                 continue;
             }

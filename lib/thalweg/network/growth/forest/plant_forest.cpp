@@ -20,16 +20,16 @@ namespace {
 
 /// The distance from the region's border that trees keep inland: then all cells between two neighbouring ones a step
 /// apart are land, and not coast.
-std::int64_t room_inland(std::int64_t step) {
+std::int64_t inland_distance(std::int64_t step) {
     return (step + 2) / 2 + 2;
 }
 
 Mask inland_of(Mask const& land, std::int64_t step) {
-    Raster<std::uint8_t> const room = room_in(land);
+    Raster<std::uint8_t> const room = distance_to_outside(land);
     Mask inland(land.grid());
     for (std::int64_t row = 0; row < land.height(); ++row) {
         for (std::int64_t col = 0; col < land.width(); ++col) {
-            inland[Cell{col, row}] = room[Cell{col + 1, row + 1}] >= room_inland(step) ? 1 : 0;
+            inland[Cell{col, row}] = room[Cell{col + 1, row + 1}] >= inland_distance(step) ? 1 : 0;
         }
     }
     return inland;
@@ -52,7 +52,7 @@ public:
     /// The inland cell nearest to an outlet, straight over land; nothing: none is so close that its river cannot touch
     /// another one.
     std::optional<Cell> seed_for(Cell outlet) const {
-        std::int64_t const reach = room_inland(step_) + 1;
+        std::int64_t const reach = inland_distance(step_) + 1;
         std::optional<Cell> best;
         cells_around(land_.grid(), outlet, reach, [&](Cell c) {
             bool const nearer = !best || squared_cells(c, outlet) < squared_cells(*best, outlet);
@@ -231,7 +231,7 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
     if (mouths.all().empty()) {
         throw BadInput(fmt::format("network.plant_forest: there is no room for a river: no cell is {} cells away "
                                    "from the sea; take smaller cells or shorter steps",
-                                   room_inland(params.step_cells)));
+                                   inland_distance(params.step_cells)));
     }
     std::vector<Cell> seeds;
     for (Mouth const& mouth : mouths.all()) {

@@ -413,7 +413,7 @@ struct Junction {
 };
 
 /// Positions of a trunk's own nodes, evenly spaced between the junctions; the last is the fork.
-std::vector<double> ways_of_trunk(std::size_t nodes, double length_m, std::vector<Junction> const& junctions) {
+std::vector<double> positions_on_trunk(std::size_t nodes, double length_m, std::vector<Junction> const& junctions) {
     double fork = length_m * static_cast<double>(nodes) / static_cast<double>(nodes + 1);
     if (!junctions.empty() && junctions.back().way_m >= fork) {
         fork = 0.5 * (junctions.back().way_m + length_m);
@@ -467,7 +467,8 @@ public:
         TokunagaTree tree = grow_tokunaga(params, run);
         balance_banks(tree, lands_.share_left(stroke));
         std::vector<std::size_t> const trunk = trunk_of(tree);
-        std::vector<double> const ways = ways_of_trunk(trunk.size(), strokes_[stroke].way.back(), junctions_[stroke]);
+        std::vector<double> const ways =
+            positions_on_trunk(trunk.size(), strokes_[stroke].way.back(), junctions_[stroke]);
 
         Indexed<LinkId, LinkId> number(tree.links.size(), -1); // of its links in the forest
         LinkId below = joints_[stroke];

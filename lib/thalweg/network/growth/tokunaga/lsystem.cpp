@@ -157,7 +157,7 @@ private:
     LSystem system_;
 };
 
-void demand_brackets(std::string_view word) {
+void require_brackets(std::string_view word) {
     std::int64_t open = 0;
     for (std::size_t i = 0; i < word.size(); ++i) {
         open += word[i] == '[' ? 1 : word[i] == ']' ? -1 : 0;
@@ -215,7 +215,7 @@ LSystem read_rules(std::string_view text, std::string const& name) {
 std::string rewrite(LSystem const& system, std::uint64_t seed, Run const& run) {
     refuse_if<BadParameter>(system.iterations < 0 || system.iterations > most_iterations,
                             "network.rewrite: {} iterations; give 0 to {}", system.iterations, most_iterations);
-    demand_brackets(system.axiom);
+    require_brackets(system.axiom);
     std::string word = system.axiom;
     for (int k = 0; k < system.iterations; ++k) {
         word = rewritten(word, system, seed, k, run);

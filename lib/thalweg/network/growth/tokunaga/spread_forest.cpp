@@ -401,7 +401,8 @@ constexpr int attempts = 3;          ///< a step that does not fit is shortened
 constexpr double shortening = 0.4;
 
 /// By site: vector to the centroid of the samples nearest to it (Lloyd 1982); 0 for a site without samples.
-std::vector<Vec2> ways_to_centres(std::vector<Vec2> const& sites, double spacing_m, std::vector<Vec2> const& samples) {
+std::vector<Vec2> vectors_to_centroids(std::vector<Vec2> const& sites, double spacing_m,
+                                       std::vector<Vec2> const& samples) {
     constexpr double cell = 0.7; // relative to the spacing: two sites per node
     geometry::PointGrid const grid(sites, cell * spacing_m);
     std::vector<Vec2> sum(sites.size());
@@ -434,7 +435,7 @@ void pull_to_centres(ForestLayout const& layout, std::size_t tree, std::vector<V
     if (sites.empty() || layout.samples[tree].empty()) {
         return;
     }
-    std::vector<Vec2> const way = ways_to_centres(sites, layout.tree_spacing_m[tree], layout.samples[tree]);
+    std::vector<Vec2> const way = vectors_to_centroids(sites, layout.tree_spacing_m[tree], layout.samples[tree]);
     std::vector<double> weight(layout.links, 0.0);
     for (std::size_t k = 0; k < owners.size(); ++k) {
         std::size_t const i = owners[k];

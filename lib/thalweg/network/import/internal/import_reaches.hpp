@@ -86,7 +86,7 @@ public:
         std::vector<double> way_m;     ///< by node: distance to the root
     };
     /// Finds the shortest paths to a root, for the nodes of its group; other nodes are unchanged.
-    void ways_to(std::size_t root, Ways& ways) const;
+    void shortest_paths(std::size_t root, Ways& ways) const;
     /// The gain in score of a second outlet of a tree, and its position; gain < 0: there is none.
     struct Second {
         double gain;

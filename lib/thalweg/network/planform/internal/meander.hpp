@@ -71,13 +71,13 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
 
 /// A river's bends; smaller ones within them, without which long bends would run straight along the grid; and bends of
 /// parts that are still straight for over 20 cells.
-enum class Wandering : std::uint8_t { bends, reaches, straights };
+enum class MeanderKind : std::uint8_t { bends, reaches, straights };
 
 /// Computes the shift of each point [m] across its river, by noise whose wavelength and amplitude grow with drainage
 /// area.
 /// \return by point; 0 at an outlet and where a river joins another
-std::vector<Vec2> wander(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain, Wandering which,
-                         std::uint64_t seed);
+std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain,
+                                 MeanderKind which, std::uint64_t seed);
 
 /// Computes the shift of each point [m] that makes tributaries approach the river they join from upstream: those that
 /// would meet it at more than 50 to 80 degrees (random) turn about their mouth, less with distance, up to 40 cells from

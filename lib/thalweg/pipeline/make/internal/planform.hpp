@@ -21,12 +21,12 @@ struct SourceRivers {
     std::optional<ElevatedNetwork> file_heights = {}; ///< as Planform
     Mask land = {};                                   ///< as Planform
     RiverFile file = {};
-    NetworkStory story = {};
+    NetworkStatistics statistics = {};
 };
 
 /// Grows or imports the rivers of a plan: one branch of a DLA cluster, networks by Tokunaga's law, a forest, or the
 /// lines of a file.
-SourceRivers rivers_of_source(Plan const& plan, Diary& diary, Run const& run);
+SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run);
 
 /// A network whose arcs name their types.
 struct Typed {

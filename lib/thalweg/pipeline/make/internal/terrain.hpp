@@ -19,11 +19,11 @@ namespace thalweg::pipeline {
 struct RaisedRivers {
     ElevatedNetwork network;
     Valley valley;
-    HeightsStory story;
+    HeightsStatistics statistics;
 };
 
 /// Assigns heights to rivers by the recipe, or those of their file.
-RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, Diary& diary, Run const& run);
+RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run);
 
 /// What a stage reports beside its result.
 struct Remarks {
@@ -41,24 +41,24 @@ Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
 struct SurfaceAlone {
     Raster<float> dem = {};
     std::optional<Tin> tin = {};
-    std::optional<SolverStory> diffusion = {};
-    std::optional<DetailStory> detail = {};
+    std::optional<SolverStatistics> diffusion = {};
+    std::optional<DetailStatistics> detail = {};
     std::optional<fractal::MatchedDem> projection = {};
     double fine_forms_cells = 0.0; ///< as Terrain
     std::vector<Check> checks = {};
 };
 
 /// A random surface, or one through points, with fractal detail and the statistics that are asked for.
-SurfaceAlone draw_without_rivers(Plan const& plan, Diary& diary, Run const& run);
+SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run const& run);
 
 /// A DEM with fractal detail, and how that was made.
-struct Detailed {
-    DetailStory story;
+struct DetailedTerrain {
+    DetailStatistics statistics;
     Raster<float> dem;
 };
 
 /// Fractal detail of a plan on a plain.
-Detailed detail_alone(Plan const& plan, Grid const& grid, Run const& run);
+DetailedTerrain detail_alone(Plan const& plan, Grid const& grid, Run const& run);
 
 /// A surface in equilibrium with its rivers.
 struct EquilibriumResult {
@@ -67,25 +67,25 @@ struct EquilibriumResult {
     Raster<float> dem;
     Channels channels;
     std::int64_t lakes = 0;
-    HeightsStory heights;
-    EquilibriumStory story;
+    HeightsStatistics heights;
+    EquilibriumStatistics statistics;
     Remarks remarks;
 };
 
 /// Draws the surface around the planned rivers and cuts tips that would be perched. Heights that were taken because
 /// the lines have them give way where they would need walls.
-EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, Diary& diary, Run const& run);
+EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run);
 
 /// Rivers with the side valleys of a surface in equilibrium as arcs.
 struct WithSideValleys {
     Rivers rivers;
     Valley valley;
-    SideValleysStory story;
+    SideValleysStatistics statistics;
 };
 
 /// \param dem,drainage the surface as it drains
 WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
-                                  Raster<float> const& dem, flow::FlowField const& drainage, Diary& diary,
+                                  Raster<float> const& dem, flow::FlowField const& drainage, StageLog& stage_log,
                                   Run const& run);
 
 } // namespace thalweg::pipeline

@@ -19,9 +19,9 @@
 namespace thalweg::pipeline {
 
 /// Times the stages and logs a line for each.
-class Diary {
+class StageLog {
 public:
-    explicit Diary(Run const& run) : run_(run) {}
+    explicit StageLog(Run const& run) : run_(run) {}
 
     template <class Stage> auto stage(char const* name, Stage&& work) {
         run_.at(0.0, name);
@@ -49,13 +49,13 @@ private:
 bool has_coastlines(Plan const& plan);
 
 /// Whether rivers go through the meander stage.
-bool bends_rivers(Plan const& plan);
+bool has_meanders(Plan const& plan);
 
 /// Whether rivers take their heights from the terrain.
-bool follows_land(Recipe const& recipe);
+bool heights_follow_terrain(Recipe const& recipe);
 
 /// Whether random points lie between the rivers, or in the terrain.
-bool scatters(Recipe const& recipe);
+bool scatters_points(Recipe const& recipe);
 
 /// Whether ridges are drawn between the rivers.
 bool has_ridges(Recipe const& recipe);
@@ -64,10 +64,10 @@ bool has_ridges(Recipe const& recipe);
 bool needs_tin(Recipe const& recipe);
 
 /// Whether the terrain is conditioned hydrologically.
-bool conditions(Recipe const& recipe);
+bool conditions_dem(Recipe const& recipe);
 
 /// Whether the terrain's own side valleys become arcs.
-bool fills_space(Recipe const& recipe);
+bool adds_side_valleys(Recipe const& recipe);
 
 // Networks that branch by Tokunaga's law.
 

@@ -77,7 +77,7 @@ private:
 };
 
 /// The direction from a cell to its neighbour, as in d8_steps; -1: not neighbours. Both cells are inside a frame.
-inline std::int8_t way_between(std::size_t from, std::size_t to, std::int64_t width) {
+inline std::int8_t direction_between(std::size_t from, std::size_t to, std::int64_t width) {
     std::int64_t const step = static_cast<std::int64_t>(to) - static_cast<std::int64_t>(from);
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
         if (d8_steps[k].row * width + d8_steps[k].col == step) {
@@ -91,7 +91,7 @@ inline std::int8_t way_between(std::size_t from, std::size_t to, std::int64_t wi
 struct RiverCells {
     std::vector<std::uint32_t> cell;    ///< index in the level
     std::vector<std::int32_t> receiver; ///< position in these vectors; -1: none
-    std::vector<std::int8_t> way;       ///< towards the receiver, as in d8_steps
+    std::vector<std::int8_t> direction; ///< towards the receiver, as in d8_steps
     std::vector<std::uint8_t> level;    ///< 1: as high as its receiver
     std::vector<float> asked;           ///< prescribed height; NaN: free; empty: all free
     std::vector<std::int64_t> number;   ///< in the caller's Channels; -1: beyond its grid
@@ -105,25 +105,25 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
 template <class T> using Cells = std::vector<T, LargePages<T>>;
 
 /// Cell types of the solver.
-enum class Cover : std::uint8_t {
+enum class CellType : std::uint8_t {
     land,
     rim,      ///< land beside outside: creep has fewer neighbours
     bank,     ///< land beside a river; finest level only
     rim_bank, ///< both rim and bank
     river,
-    edge,   ///< boundary cell: water leaves at a prescribed height
-    sea,    ///< water leaves at height 0
-    outside ///< not part of the terrain: infinitely high
+    boundary, ///< boundary cell: water leaves at a prescribed height
+    sea,      ///< water leaves at height 0
+    outside   ///< not part of the terrain: infinitely high
 };
 
-inline bool is_land(Cover c) {
-    return c <= Cover::rim_bank;
+inline bool is_land(CellType c) {
+    return c <= CellType::rim_bank;
 }
-inline bool is_bank(Cover c) {
-    return c == Cover::bank || c == Cover::rim_bank;
+inline bool is_bank(CellType c) {
+    return c == CellType::bank || c == CellType::rim_bank;
 }
 
-inline constexpr std::int8_t no_way = -1;
+inline constexpr std::int8_t no_direction = -1;
 
 /// Lengths of the D8 steps [cells].
 inline constexpr std::array<float, 8> step_lengths = {1.0F, 1.41421356F, 1.0F, 1.41421356F,
@@ -143,23 +143,23 @@ struct Inflow {
 
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
 /// are in cells of the finest level.
-struct LandLevel {
+struct TerrainLevel {
     std::int64_t width = 0;  ///< with the frame
     std::int64_t height = 0; ///< with the frame
     float side = 1.0F;       ///< size of a cell
     Cell corner;             ///< [finest cells] offset of the first inner cell from the caller's grid
     RiverCells rivers;
-    Cells<Cover> cover;
+    Cells<CellType> type;
     Cells<float> z;
     Cells<float> erodibility;
-    Cells<float> cap;           ///< largest tangent towards the receiver
-    Cells<float> uplift;        ///< empty: 1 everywhere
-    Cells<std::int8_t> way;     ///< towards the receiver, as in d8_steps, or no_way
-    Cells<std::uint8_t> shift;  ///< position of the node in its cell: code of jitter()
-    Cells<std::uint32_t> area;  ///< [cells of this level]
-    Cells<std::uint32_t> order; ///< land cells, receivers last
-    std::vector<Inflow> inflow; ///< water from beyond the frame
-    Cells<float> firmness;      ///< [log] decrease of erodibility below the fields' values; empty: none
+    Cells<float> cap;             ///< largest tangent towards the receiver
+    Cells<float> uplift;          ///< empty: 1 everywhere
+    Cells<std::int8_t> direction; ///< towards the receiver, as in d8_steps, or no_direction
+    Cells<std::uint8_t> shift;    ///< position of the node in its cell: code of jitter()
+    Cells<std::uint32_t> area;    ///< [cells of this level]
+    Cells<std::uint32_t> order;   ///< land cells, receivers last
+    std::vector<Inflow> inflow;   ///< water from beyond the frame
+    Cells<float> firmness;        ///< [log] decrease of erodibility below the fields' values; empty: none
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {
@@ -179,7 +179,7 @@ struct LevelPlace {
     double col;
     double row;
 };
-inline LevelPlace place_in(LandLevel const& coarse, LandLevel const& level, std::int64_t col, std::int64_t row) {
+inline LevelPlace place_in(TerrainLevel const& coarse, TerrainLevel const& level, std::int64_t col, std::int64_t row) {
     double const side = static_cast<double>(level.side);
     double const east =
         static_cast<double>(level.corner.col - coarse.corner.col) + (static_cast<double>(col) - 0.5) * side;
@@ -189,7 +189,7 @@ inline LevelPlace place_in(LandLevel const& coarse, LandLevel const& level, std:
 }
 
 /// Interpolates a field of the level, between cells inside its frame.
-inline float value_at(LandLevel const& level, Cells<float> const& field, LevelPlace p) {
+inline float value_at(TerrainLevel const& level, Cells<float> const& field, LevelPlace p) {
     double const left = std::floor(p.col);
     double const top = std::floor(p.row);
     auto const value = [&](double col, double row) {
@@ -205,7 +205,7 @@ inline float value_at(LandLevel const& level, Cells<float> const& field, LevelPl
 }
 
 /// Calls visit(cell) for the cells inside the frame, row by row.
-template <class Visit> void each_inner(LandLevel const& level, Visit visit) {
+template <class Visit> void each_inner(TerrainLevel const& level, Visit visit) {
     for (std::int64_t row = 1; row + 1 < level.height; ++row) {
         for (std::int64_t i = row * level.width + 1; i + 1 < (row + 1) * level.width; ++i) {
             visit(static_cast<std::size_t>(i));
@@ -218,7 +218,7 @@ inline std::size_t moved(std::size_t cell, std::int64_t offset) {
 }
 
 /// Calls visit(cell) for the sixteen cells two columns or rows away, unless the cell is too close to the frame.
-template <class Visit> void each_of_second_ring(LandLevel const& level, std::uint32_t cell, Visit visit) {
+template <class Visit> void each_of_second_ring(TerrainLevel const& level, std::uint32_t cell, Visit visit) {
     std::int64_t const col = cell % level.width;
     std::int64_t const row = cell / level.width;
     if (col < 2 || row < 2 || col + 2 >= level.width || row + 2 >= level.height) {
@@ -235,10 +235,10 @@ template <class Visit> void each_of_second_ring(LandLevel const& level, std::uin
 }
 
 /// Height of the highest river cell beside an inner cell; minus infinity: none.
-inline float highest_river(LandLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
+inline float highest_river(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float highest = -std::numeric_limits<float>::infinity();
     for (std::int64_t const offset : offsets) {
-        if (std::size_t const n = moved(i, offset); level.cover[n] == Cover::river) {
+        if (std::size_t const n = moved(i, offset); level.type[n] == CellType::river) {
             highest = std::max(highest, level.z[n]);
         }
     }
@@ -253,7 +253,7 @@ struct NearestRiver {
 
 /// Finds the river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell has
 /// a head start (by number; empty: none). The frame has none. Memory: that of the numbers.
-NearestRiver nearest_river(LandLevel const& level, std::vector<float> const& head_start = {},
+NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start = {},
                            Cells<std::uint32_t> memory = {});
 
 } // namespace thalweg::surface

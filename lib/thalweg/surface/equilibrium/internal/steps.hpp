@@ -16,9 +16,9 @@
 /// The steps of equilibrium(), by source file.
 namespace thalweg::surface {
 
-// rock.cpp: uplift and erodibility of a level's cells
+// erodibility.cpp: uplift and erodibility of a level's cells
 
-struct RockNoise {
+struct ErodibilityNoise {
     double longest_wave = 360.0; ///< [finest cells]
     double stretch = 1.0;        ///< ratio of lengths along and across the strike
     double strike = 0.0;         ///< [radians] anticlockwise from east
@@ -27,27 +27,28 @@ struct RockNoise {
 
 /// Fields on the caller's grid, each divided by its mean over land; without cells: none. Values at the border continue
 /// beyond the grid.
-struct RockFields {
+struct ErodibilityFields {
     Raster<float> uplift;
     Raster<float> erodibility;
 };
 
-struct RockParams {
+struct ErodibilityParams {
     double roughness = 0.0; ///< standard deviation of log erodibility
-    RockNoise noise;        ///< in finest cells
+    ErodibilityNoise noise; ///< in finest cells
 };
 
 /// Sets erodibility, the cap on slopes and uplift of a level's cells: means of the given fields over each cell, and
 /// noise on land (river cells get the mean). Slopes may be steeper at lower erodibility.
-void set_rock(LandLevel& level, RockFields const& fields, RockParams const& params, Run const& run);
+void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, ErodibilityParams const& params,
+                     Run const& run);
 
 /// Lowers erodibility along flow paths beside rivers whose heights the terrain there does not reach, so that the
 /// terrain rises to them and they need no walls: the divide between a long and a short river lies close to the head of
 /// the long one.
-void firm_rock(LandLevel& level, EquilibriumLaw const& law);
+void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law);
 
 /// Copies the reduced erodibility of the coarser level, before the first round.
-void take_firmness(LandLevel& level, LandLevel const& coarser);
+void copy_firmness(TerrainLevel& level, TerrainLevel const& coarser);
 
 // level.cpp: a level before its first round
 
@@ -57,14 +58,14 @@ inline bool goes_on(Edge edge) {
 }
 
 /// The solver's domain: the caller's grid plus a margin into which the terrain may continue.
-struct WidenedLand {
+struct PaddedTerrain {
     Grid grid;           ///< without the frame
     std::int64_t margin; ///< [cells] on each side
     RiverCells rivers; ///< in the frame of that grid; rivers that cross the border continue straight through the margin
     Mask land;         ///< without cells: all
-    RockFields fields;
+    ErodibilityFields fields;
 };
-WidenedLand widened(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
+PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
 
 /// Coarsens a land mask inside a level's frame: 1 if at least half of a cell's finer cells are land; without cells:
 /// all.
@@ -73,7 +74,7 @@ Mask coarsened(Mask const& land);
 /// Sets the type of each cell of a level, from its rivers, the land mask (inside the frame; without cells: all land)
 /// and the boundary. kept: cells beside rivers are banks.
 enum class RiverBanks : std::uint8_t { none, kept };
-void cover_cells(LandLevel& level, Mask const& land, Edge edge, RiverBanks banks);
+void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks banks);
 
 /// Nodes lie up to a quarter of a cell from the centres of their cells, at one of eight positions along each axis, so
 /// that flow directions do not follow the lattice. A code is eastward * jitter_stride + southward: the difference of
@@ -88,7 +89,7 @@ using JitteredPerLength = std::array<std::array<float, 2 * jitter_codes + 1>, 4>
 JitteredPerLength jittered_per_length();
 
 /// Places every node of a level at random.
-void jitter(LandLevel& level, std::uint64_t seed, Run const& run);
+void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run);
 
 /// What lies beyond an open boundary.
 enum class Beyond : std::uint8_t {
@@ -97,7 +98,7 @@ enum class Beyond : std::uint8_t {
 };
 
 /// The boundary cells of open terrain: the frame in order, and land beside masked-out cells.
-struct EdgeCells {
+struct BoundaryCells {
     /// By boundary cell: its index and the river nearest to it.
     struct Part {
         std::vector<std::uint32_t> cell;
@@ -109,22 +110,22 @@ struct EdgeCells {
     Part inside;
     Beyond beyond = Beyond::rivers;
 };
-EdgeCells edge_cells(LandLevel const& level, NearestRiver const& near, Beyond beyond);
+BoundaryCells boundary_cells(TerrainLevel const& level, NearestRiver const& near, Beyond beyond);
 
 /// Sets their heights: smoothed along the frame, and above the rivers that they touch. Rivers: as high as the nearest.
 /// Valleys: lower by the fall of a river's first reaches, more with distance, but nowhere so low that a large river
 /// could not flow from there to one of the grid.
-void set_edge_heights(LandLevel& level, EdgeCells const& edge);
+void set_boundary_heights(TerrainLevel& level, BoundaryCells const& edge);
 
 /// Initialises the coarsest level: a gentle rise away from where water leaves, plus random noise.
-void start_from_nothing(LandLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run);
+void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run);
 
 /// Initialises a level: interpolated heights of the coarser one, plus random noise.
-void start_from(LandLevel& level, LandLevel const& coarse, std::uint64_t seed, Run const& run);
+void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Run const& run);
 
 /// Sets the heights that are not free: sea, outside, and rivers that rise slightly from their ends. end_z: by river
 /// cell, for those that end; empty: 0.
-void start_rivers(LandLevel& level, std::vector<float> const& end_z = {});
+void start_rivers(TerrainLevel& level, std::vector<float> const& end_z = {});
 
 // region.cpp: terrain around the caller's grid
 
@@ -142,7 +143,7 @@ Region region_around(Channels const& rivers, EquilibriumFields const& fields, Eq
 struct LevelExtent {
     std::int64_t width = 0;
     std::int64_t height = 0;
-    Cell corner; ///< as LandLevel
+    Cell corner; ///< as TerrainLevel
 };
 
 /// The extent of the region on its finest level.
@@ -170,17 +171,17 @@ struct RegionFrame {
 
 /// Sets the boundary conditions of a window's level from the region. The frame is closed where water flows in, which
 /// enters at the lowest cell beside it, and open elsewhere.
-RegionFrame frame_by_region(LandLevel& level, LandLevel const& region, std::uint64_t seed);
+RegionFrame frame_by_region(TerrainLevel& level, TerrainLevel const& region, std::uint64_t seed);
 
 /// Sets the heights of an open frame: the region's, plus the excess of the terrain inside over the region, whose cells
 /// resolve no hillslopes.
-void lift_frame(LandLevel& level, RegionFrame const& frame);
+void lift_frame(TerrainLevel& level, RegionFrame const& frame);
 
 /// By river cell of a window's level that ends at the frame: the height of the region there.
-std::vector<float> end_heights(LandLevel const& level, LandLevel const& region);
+std::vector<float> end_heights(TerrainLevel const& level, TerrainLevel const& region);
 
 /// Lists where 1000 cells or more drain into the caller's grid, margin cells inside the finest level's frame.
-std::vector<RegionInflow> inflows_of(LandLevel const& level, Grid const& grid, std::int64_t margin);
+std::vector<RegionInflow> inflows_of(TerrainLevel const& level, Grid const& grid, std::int64_t margin);
 
 // land.cpp: the terrain between rivers
 
@@ -188,26 +189,26 @@ std::vector<RegionInflow> inflows_of(LandLevel const& level, Grid const& grid, s
 /// them, other land by a flood from the outlets. Each land cell ends up at least least_tangent above its receiver,
 /// banks above all river cells beside them. Cells that cannot drain become outside. Source: Barnes 2014, with buckets
 /// instead of a heap: cells of one bucket are taken in any order, which changes the order of cells but not the law.
-void flood_land(LandLevel& level);
+void flood_terrain(TerrainLevel& level);
 
 /// Directs land cells to their steepest neighbour, by the distances of jittered nodes, banks to their steepest river
 /// cell. A cell without a lower neighbour keeps its direction: no cell is below its receiver, so that directions never
 /// form a cycle.
-void steepest_ways(LandLevel& level, JitteredPerLength const& per_length, Run const& run);
+void set_steepest_receivers(TerrainLevel& level, JitteredPerLength const& per_length, Run const& run);
 
 /// Computes the stack order of the land cells (donors before receivers) and the contributing area of every cell:
 /// follows water from each cell without donors as long as all donors have arrived.
-void order_cells(LandLevel& level);
+void set_stack_order(TerrainLevel& level);
 
 /// One Gauss-Seidel sweep over the terrain, receivers first: sets each cell to the height at which uplift balances
 /// incision and creep. Each cell ends up at least least_tangent above its receiver and at most its cap (banks may have
 /// to be higher: above every river cell beside them).
-void relax_land(LandLevel& level, EquilibriumLaw const& law);
+void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law);
 
 /// Lowers terrain that is far steeper above one of its neighbours than its cap allows: cliffs left by a removed river,
 /// which would otherwise retreat by one row of cells a round. Banks and rivers are unchanged. The result is the largest
 /// heights that satisfy this; every cell that had a lower neighbour still has one.
-void slide_land(LandLevel& level);
+void slide_terrain(TerrainLevel& level);
 
 struct FloorParams {
     double width_km = 0.0; ///< half width of a valley floor where 1 km² drains
@@ -217,21 +218,21 @@ struct FloorParams {
 
 /// Lowers the cap on slopes beside rivers to form valley floors that widen downstream: flat, with a concave foot as
 /// wide again. Frees the stack order for its memory.
-void valley_floors(LandLevel& level, FloorParams const& params);
+void valley_floors(TerrainLevel& level, FloorParams const& params);
 
 // rivers.cpp: heights of rivers, and shortened rivers
 
 /// Tangent of a graded river cell by its contributing area, at most a share of the cap.
-float graded_tangent(LandLevel const& level, EquilibriumLaw const& law, std::uint32_t i);
+float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i);
 
 /// Sets rivers to their graded heights for their contributing areas: at most a share of the hillslope cap, and not
 /// above the terrain two cells away, so that they are not perched. Lakes are level.
-void relax_rivers(LandLevel& level, EquilibriumLaw const& law);
+void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law);
 
 /// Sets rivers to prescribed heights; between these they are graded as steeply as necessary, above the highest like the
 /// other terrain. Fixed: kept, except for a rise of one ulp where necessary. Soft: lowered where the terrain beside is
 /// lower, or where water would not run otherwise.
-void relax_given_rivers(LandLevel& level, EquilibriumLaw const& law, RiverHeights heights);
+void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights);
 
 /// Whether water leaves the caller's grid at river cell n of a level.
 bool leaves_grid(RiverCells const& rivers, std::size_t n);
@@ -241,30 +242,30 @@ bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int
 
 /// Lists river cells, by number in the caller's Channels and in order, that are perched above cells other than their
 /// own river's.
-std::vector<std::int64_t> walled_cells(LandLevel const& level, float tangent);
+std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent);
 
 /// Lowers such cells as long as they stay a step above their receivers, which are lowered with them over a short
 /// distance.
-void lower_perched(LandLevel& level, float tangent, float step);
+void lower_perched(TerrainLevel& level, float tangent, float step);
 
 /// Raises the terrain two to four cells from a perched river cell, as a slope, until it is no longer perched.
-void raise_below_perched(LandLevel& level, float tangent);
+void raise_below_perched(TerrainLevel& level, float tangent);
 
 /// Shortens rivers: removes perched cells near heads and everything upstream of them. Removed cells become land; under
 /// `stay`, a bank does not become lower than a river beside it. Returns numbers in the caller's Channels.
 enum class TipBanks : std::uint8_t { stay, rise };
-std::vector<std::int64_t> give_up_tips(LandLevel& level, float tangent, TipBanks banks);
+std::vector<std::int64_t> remove_perched_tips(TerrainLevel& level, float tangent, TipBanks banks);
 
 /// Removes likewise the cells near heads that lie beside another river's cells, where no terrain fits between them.
-std::vector<std::int64_t> give_up_touching_tips(LandLevel& level);
+std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level);
 
 /// Where rivers lie side by side, adjusts heights so that each river cell's steepest descent leads to its receiver, and
 /// a cell at which a river leaves the caller's grid has none in it: lowers the cell or raises its neighbour, in a few
 /// passes. Conflicts that cannot be resolved (a receiver's receiver beside the cell) remain. least: the least tangent
 /// towards a receiver.
-void keep_to_receivers(LandLevel& level, float least = least_tangent);
+void enforce_receivers(TerrainLevel& level, float least = least_tangent);
 
-// written_land.cpp: from the solver's heights to metres
+// extract_terrain.cpp: from the solver's heights to metres
 
 /// The ratio of the terrain's relief or mean slope to its target when heights in cells are multiplied by a factor; 1:
 /// reached.
@@ -278,7 +279,7 @@ struct Window {
 };
 
 /// Conversion from the solver's heights to metres: base_m + metres * z.
-struct Raise {
+struct HeightConversion {
     double metres;
     double base_m;
     double mean_tangent; ///< mean slope of the terrain in metres
@@ -286,18 +287,20 @@ struct Raise {
 
 /// Chooses the conversion that gives the terrain in a window the target relief or mean slope, with the lowest river end
 /// at 0.
-Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& window, EquilibriumParams const& params);
+HeightConversion height_conversion_for(TerrainLevel const& level, Channels const& rivers, Window const& window,
+                                       EquilibriumParams const& params);
 
 /// The ratio of the relief or mean slope in a window to its target, for this number of metres per unit.
-double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
+double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
 
 /// Extracts the caller's grid from a solved finest level, in metres, with its flow directions. Tips that are still
 /// perched are removed too, unless heads are kept.
-EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                std::vector<std::int64_t> shortened, Heads heads, Run const& run);
+EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, Window const& window,
+                                   HeightConversion const& raise, std::vector<std::int64_t> shortened, Heads heads,
+                                   Run const& run);
 
 /// The same with rivers at or below their prescribed heights; reports walls and lowered cells.
-EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                      RiverHeights heights, Run const& run);
+EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels const& rivers, Window const& window,
+                                                HeightConversion const& raise, RiverHeights heights, Run const& run);
 
 } // namespace thalweg::surface

@@ -38,8 +38,8 @@ inline std::int32_t chebyshev(Site s) {
 /// Where walkers start around a cluster, and where they are relocated. The outer limit is a square, so that the free
 /// squares of walkers can share a side with it.
 struct LaunchCircle {
-    double birth = 0.0; ///< [cells] launch radius: radius of the cluster + 4
-    /// [cells] the larger of 1.5 birth and birth + 24: walkers with max(|x|,|y|) = far are relocated
+    double radius = 0.0; ///< [cells] launch radius: radius of the cluster + 4
+    /// [cells] the larger of 1.5 radius and radius + 24: walkers with max(|x|,|y|) = far are relocated
     std::int32_t far = 0;
 
     bool lost(Site s) const { return chebyshev(s) >= far; }
@@ -49,11 +49,11 @@ struct LaunchCircle {
 LaunchCircle launch_circle(double cluster_radius);
 
 /// A uniform site of the launch circle, rounded to the lattice.
-Site born(LaunchCircle const& circle, RandomStream& random);
+Site launch_site(LaunchCircle const& circle, RandomStream& random);
 
 /// Where a walk from `from`, outside, first hits the launch circle, rounded to the lattice. In the plane the hitting
 /// law is the exterior Poisson kernel (exact for Brownian motion, on the lattice up to terms of order 1/gap^2); it is
-/// drawn as the image of a uniform point w under the Moebius map (w + a) / (1 + conj(a) w), a = birth/conj(from).
+/// drawn as the image of a uniform point w under the Moebius map (w + a) / (1 + conj(a) w), a = radius/conj(from).
 Site back_from_afar(LaunchCircle const& circle, Site from, RandomStream& random);
 
 /// One byte per site on a square around the seed, initially 0, stored in tiles of 16 x 16 sites so that vertical
@@ -260,7 +260,7 @@ public:
     } ///< the cluster and its neighbours lie in -half <= x, y < half
 
     /// Places a walker on the launch circle.
-    void release(Walker& walker) const { walker.at = born(circle_, walker.random); }
+    void release(Walker& walker) const { walker.at = launch_site(circle_, walker.random); }
 
     /// Walks until the walker is on a free site with an occupied neighbour; it may already be on one.
     /// \return the occupied neighbours, bit d for direction d

@@ -17,7 +17,7 @@ inline constexpr int most_room = 255;
 /// Computes the Chebyshev distance of a region's cells to the nearest cell outside it.
 /// \param region 0: outside; cells beyond the grid are outside
 /// \return in a frame of one cell; 0: outside, at most most_room
-Raster<std::uint8_t> room_in(Mask const& region);
+Raster<std::uint8_t> distance_to_outside(Mask const& region);
 
 /// The simple random walk in a region among trees, without unit steps in free space: a walker jumps to the boundary of
 /// the largest square known to be free of trees and of the region's border. A step that would leave the region is not
@@ -68,10 +68,10 @@ public:
     std::int64_t open_cells() const { return open_cells_; } ///< cells that may still hold a particle
     bool open(Cell c) const { return state_[c] == State::open; }
     /// Whether a walker that starts there can stick.
-    bool free(Cell c) const { return state_[c] != State::barren; }
+    bool free(Cell c) const { return state_[c] != State::closed; }
 
     /// Draws a start cell, all equally likely, from those with a path to an open cell.
-    Cell birth(RandomStream& random) const;
+    Cell draw_start(RandomStream& random) const;
 
     /// Adds a particle at an open cell.
     void add(Cell c);
@@ -80,14 +80,14 @@ private:
     enum class State : std::uint8_t {
         far,   ///< not beside a tree
         open,  ///< beside a tree, may hold a particle
-        barren ///< in a tree's reach, or beside one where no particle may ever be; or outside the region
+        closed ///< in a tree's reach, or beside one where no particle may ever be; or outside the region
     };
 
     void place(Cell c, std::int64_t parent);
     void look_around(Cell c);
     bool may_hold(Cell c) const;
     void set(Cell c, State state);
-    void find_births();
+    void find_start_cells();
     /// Calls visit(particle) for particles less than two steps away until it returns false; returns whether it never
     /// did.
     template <class Visit> bool all_near(Cell c, Visit visit) const;
@@ -104,10 +104,10 @@ private:
     Indexed<std::int32_t, std::int32_t> next_; ///< by particle: the previous one in its block
     Raster<State> state_;
     std::int64_t open_cells_ = 0;
-    std::vector<Cell> opened_;  ///< every open cell, and some that are no longer open
-    std::vector<Cell> births_;  ///< cells from which a walker can reach an open cell
-    Mask fertile_;              ///< 1: in births_
-    std::int64_t outdated_ = 0; ///< particles added since births_ was computed
+    std::vector<Cell> opened_;            ///< every open cell, and some that are no longer open
+    std::vector<Cell> start_cells_;       ///< cells from which a walker can reach an open cell
+    Mask is_start_;                       ///< 1: in start_cells_
+    std::int64_t added_since_search_ = 0; ///< particles added since start_cells_ was computed
 };
 
 } // namespace thalweg::network

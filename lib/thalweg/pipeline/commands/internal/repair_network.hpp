@@ -14,13 +14,13 @@
 
 namespace thalweg::pipeline {
 
-struct MendNetworkParams {
+struct RepairNetworkParams {
     double near_m = 0.0;                ///< [m] >= 0: as measure::TopologyParams
     Raster<float> const* dem = nullptr; ///< as network::ImportParams
 };
 
 /// A network repaired from the faults of its file.
-struct MendedNetwork {
+struct RepairedNetwork {
     ElevatedNetwork network;
     NetworkOrders orders;
     std::vector<double> us_area_m2; ///< by arc
@@ -48,7 +48,7 @@ struct MendedNetwork {
 /// \param found result of the check with the same near_m
 /// \return the repaired network
 /// \throws BadParameter when a parameter is outside its range
-MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport const& found,
-                           MendNetworkParams const& params = {}, Run const& run = {});
+RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport const& found,
+                               RepairNetworkParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -7,7 +7,7 @@
 namespace thalweg::surface {
 namespace {
 
-constexpr std::uint64_t rock_stage = 0x726f636b; // "rock"
+constexpr std::uint64_t erodibility_stage = 0x726f636b; // "rock"
 constexpr double shortest_wave = 2.0;
 // Smooth interpolation of four uniform numbers has about half the variance of one, which is a twelfth.
 constexpr double to_unit_variance = 5.0;
@@ -17,7 +17,7 @@ constexpr int counted_octaves = 8;
 /// One octave: its lattice, rotated and shifted against the grid, and the random numbers at the nodes in use.
 class Octave {
 public:
-    Octave(LandLevel const& level, RockNoise const& params, std::uint64_t number, double wave, Run const& run)
+    Octave(TerrainLevel const& level, ErodibilityNoise const& params, std::uint64_t number, double wave, Run const& run)
         : Octave(params.strike + turn(number, params.stretch), std::sqrt(params.stretch), level.side / wave) {
         double const col = static_cast<double>(level.corner.col) / level.side - 0.5; // centre of the frame's corner
         double const row = static_cast<double>(level.corner.row) / level.side - 0.5;
@@ -81,7 +81,7 @@ private:
                     std::int64_t const at = left + col + (std::int64_t{1} << 40);
                     if (at / a_block != held) {
                         held = at / a_block;
-                        words = random_block(seed, rock_stage, number, static_cast<std::uint64_t>(top + row),
+                        words = random_block(seed, erodibility_stage, number, static_cast<std::uint64_t>(top + row),
                                              static_cast<std::uint64_t>(held));
                     }
                     auto const k = static_cast<std::uint64_t>(at % a_block);
@@ -106,7 +106,7 @@ private:
 // Smooth noise of mean 0: value noise on lattices from the longest wave down to two cells, each half as wide as the
 // previous one, slightly stronger and rotated against it, all stretched along the strike; without waves that a level's
 // cells cannot resolve. The variance of the first eight lattices is about 1. Depends on position and seed alone.
-Cells<float> rock_noise(LandLevel const& level, RockNoise const& params, Run const& run) {
+Cells<float> erodibility_noise(TerrainLevel const& level, ErodibilityNoise const& params, Run const& run) {
     Cells<float> noise(static_cast<std::size_t>(level.cells()));
     double variance = 0.0;
     double part = 1.0;
@@ -144,7 +144,7 @@ float mean_over(Raster<float> const& field, Cell from, std::int64_t side) {
     return count > 0.0 ? static_cast<float>(sum / count) : 1.0F;
 }
 
-Cells<float> level_of(Raster<float> const& field, LandLevel const& level) {
+Cells<float> level_of(Raster<float> const& field, TerrainLevel const& level) {
     auto const side = static_cast<std::int64_t>(level.side);
     Cells<float> out(static_cast<std::size_t>(level.cells()), 1.0F);
     for (std::int64_t row = 1; row + 1 < level.height; ++row) {
@@ -158,8 +158,9 @@ Cells<float> level_of(Raster<float> const& field, LandLevel const& level) {
 
 } // namespace
 
-void set_rock(LandLevel& level, RockFields const& fields, RockParams const& params, Run const& run) {
-    level.erodibility = rock_noise(level, params.noise, run);
+void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, ErodibilityParams const& params,
+                     Run const& run) {
+    level.erodibility = erodibility_noise(level, params.noise, run);
     level.cap.resize(level.erodibility.size());
     bool const rocks = fields.erodibility.cells() > 0;
     Cells<float> const rock = rocks ? level_of(fields.erodibility, level) : Cells<float>{};
@@ -168,7 +169,7 @@ void set_rock(LandLevel& level, RockFields const& fields, RockParams const& para
     }
     parallel_ranges(run, level.cells(), 1 << 14, [&](std::int64_t begin, std::int64_t end) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            double const noise = level.cover[i] == Cover::river ? 0.0 : static_cast<double>(level.erodibility[i]);
+            double const noise = level.type[i] == CellType::river ? 0.0 : static_cast<double>(level.erodibility[i]);
             double fifth_root = portable::exp(0.2 * params.roughness * noise);
             if (rocks) {
                 fifth_root *= portable::pow(static_cast<double>(rock[i]), 0.2);
@@ -191,10 +192,10 @@ constexpr float reach_cells = 4.0F;   // [finest cells] beside a flow path
 constexpr std::size_t longest = 4096; // [cells] of a flow path
 
 /// The lowest land cell in the second ring of a river cell, without banks.
-std::optional<std::size_t> lowest_beside(LandLevel const& level, std::uint32_t cell) {
+std::optional<std::size_t> lowest_beside(TerrainLevel const& level, std::uint32_t cell) {
     std::optional<std::size_t> lowest;
     each_of_second_ring(level, cell, [&](std::size_t n) {
-        bool const dry = level.cover[n] == Cover::land || level.cover[n] == Cover::rim;
+        bool const dry = level.type[n] == CellType::land || level.type[n] == CellType::rim;
         if (dry && (!lowest || level.z[n] < level.z[*lowest])) {
             lowest = n;
         }
@@ -203,18 +204,18 @@ std::optional<std::size_t> lowest_beside(LandLevel const& level, std::uint32_t c
 }
 
 /// The graded or prescribed height of a river cell, regardless of the terrain.
-float wanted_height(LandLevel const& level, EquilibriumLaw const& law, std::size_t n) {
+float wanted_height(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n) {
     RiverCells const& rivers = level.rivers;
     if (!rivers.asked.empty() && !std::isnan(rivers.asked[n])) {
         return rivers.asked[n];
     }
     float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
-    float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.way[n])];
+    float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.direction[n])];
     return below + graded_tangent(level, law, rivers.cell[n]) * length;
 }
 
 /// Marks the flow path beside a river cell with the deficit of the terrain there.
-void mark_lack(LandLevel const& level, EquilibriumLaw const& law, std::size_t n, Cells<float>& marks) {
+void mark_lack(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t n, Cells<float>& marks) {
     RiverCells const& rivers = level.rivers;
     auto const lowest = lowest_beside(level, rivers.cell[n]);
     float const wanted = lowest ? wanted_height(level, law, n) : 0.0F;
@@ -224,9 +225,9 @@ void mark_lack(LandLevel const& level, EquilibriumLaw const& law, std::size_t n,
     auto const offsets = level.offsets();
     std::vector<std::size_t> path;
     std::size_t at = *lowest;
-    while (is_land(level.cover[at]) && level.way[at] >= 0 && path.size() < longest) {
+    while (is_land(level.type[at]) && level.direction[at] >= 0 && path.size() < longest) {
         path.push_back(at);
-        at = moved(at, offsets[static_cast<std::size_t>(level.way[at])]);
+        at = moved(at, offsets[static_cast<std::size_t>(level.direction[at])]);
     }
     constexpr int steps = 12;
     if (runs_through(rivers, n, at, steps)) { // it falls as its own river does
@@ -258,7 +259,7 @@ Cells<float> sums_along(Cells<float> const& values, std::int64_t lines, std::int
 }
 
 /// By cell the mean of the marks in a square around it, 0 where there are none.
-Cells<float> spread(Cells<float> const& marks, LandLevel const& level, std::int64_t reach) {
+Cells<float> spread(Cells<float> const& marks, TerrainLevel const& level, std::int64_t reach) {
     Cells<float> counts(marks.size());
     std::transform(marks.begin(), marks.end(), counts.begin(), [](float mark) { return mark > 0.0F ? 1.0F : 0.0F; });
     auto const sums = [&](Cells<float> const& of) {
@@ -273,8 +274,8 @@ Cells<float> spread(Cells<float> const& marks, LandLevel const& level, std::int6
     return means;
 }
 
-void add_firmness(LandLevel& level, std::size_t i, float more) {
-    if (!(more > 0.0F) || level.cover[i] == Cover::river) {
+void add_firmness(TerrainLevel& level, std::size_t i, float more) {
+    if (!(more > 0.0F) || level.type[i] == CellType::river) {
         return;
     }
     level.firmness[i] += more;
@@ -284,7 +285,7 @@ void add_firmness(LandLevel& level, std::size_t i, float more) {
 
 } // namespace
 
-void firm_rock(LandLevel& level, EquilibriumLaw const& law) {
+void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
     Cells<float> marks(static_cast<std::size_t>(level.cells()), 0.0F);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
@@ -302,7 +303,7 @@ void firm_rock(LandLevel& level, EquilibriumLaw const& law) {
     }
 }
 
-void take_firmness(LandLevel& level, LandLevel const& coarser) {
+void copy_firmness(TerrainLevel& level, TerrainLevel const& coarser) {
     if (coarser.firmness.empty()) {
         return;
     }

@@ -124,7 +124,7 @@ Tangents tangents_of(Raster<float> const& land) {
 // Computes the factor that scales heights to the target relief or mean slope. land: heights in cells; NaN: none.
 // Returns 1 for level terrain. Throws BadParameter naming the steepest mean slope that can be reached when too much of
 // the terrain is level.
-Rise rise_of(Raster<float> const& land, EquilibriumParams const& params) {
+Rise height_scale_of(Raster<float> const& land, EquilibriumParams const& params) {
     Tangents const tangents = tangents_of(land);
     double const factor =
         params.relief_m ? rise_for_relief(land, *params.relief_m) : rise_for_slope(tangents, params.mean_slope_deg);
@@ -150,7 +150,7 @@ namespace {
 // Enforces the law in the floats that will be written: raises heights by the least that puts every cell a step above
 // its receiver and banks above the rivers beside them; lakes have the height of their receivers. Prescribed heights of
 // rivers are raised by one ulp where necessary.
-void settle_land(LandLevel& level, float step, RiverHeights heights) {
+void settle_terrain(TerrainLevel& level, float step, RiverHeights heights) {
     auto const above = [step](float z) {
         return std::max(z + step, std::nextafter(z, std::numeric_limits<float>::infinity()));
     };
@@ -172,14 +172,14 @@ void settle_land(LandLevel& level, float step, RiverHeights heights) {
     }
     auto const offsets = level.offsets();
     each_inner(level, [&](std::size_t i) {
-        if (level.cover[i] == Cover::edge) {
+        if (level.type[i] == CellType::boundary) {
             level.z[i] = std::max(level.z[i], above(highest_river(level, i, offsets)));
         }
     });
     for (std::size_t at = level.order.size(); at-- > 0;) {
         std::size_t const i = level.order[at];
-        float least = above(level.z[moved(i, offsets[static_cast<std::size_t>(level.way[i])])]);
-        if (is_bank(level.cover[i])) {
+        float least = above(level.z[moved(i, offsets[static_cast<std::size_t>(level.direction[i])])]);
+        if (is_bank(level.type[i])) {
             least = std::max(least, above(highest_river(level, i, offsets)));
         }
         level.z[i] = std::max(level.z[i], least);
@@ -187,7 +187,7 @@ void settle_land(LandLevel& level, float step, RiverHeights heights) {
 }
 
 /// Copies the caller's grid out of the level; NaN at sea.
-Raster<float> cropped(LandLevel const& level, Window const& window) {
+Raster<float> cropped(TerrainLevel const& level, Window const& window) {
     Raster<float> dem(window.grid);
     Mask const& land = window.land;
     std::int64_t const margin = window.margin;
@@ -244,24 +244,24 @@ Raster<flow::Direction> directions(Raster<float> const& dem, Channels const& riv
     return out;
 }
 
-float perched_height(Raise const& raise, Grid const& grid) {
+float perched_height(HeightConversion const& raise, Grid const& grid) {
     return static_cast<float>(raise.mean_tangent * grid.cell_m);
 }
 
-void to_metres(LandLevel& level, Raise const& raise) {
+void to_metres(TerrainLevel& level, HeightConversion const& raise) {
     for (float& z : level.z) {
         z = static_cast<float>(raise.base_m + static_cast<double>(z) * raise.metres);
     }
 }
 
 /// Less than the solver's own step, so that only float rounding is corrected.
-float settled_step(Raise const& raise) {
+float settled_step(HeightConversion const& raise) {
     return static_cast<float>(0.25 * static_cast<double>(least_tangent) * raise.metres);
 }
 
 /// Lowers free cells to at most the prescribed height upstream: the solver's floats of cells beyond the caller's grid,
 /// each a step higher, may have raised them.
-void keep_below_asked(LandLevel& level, Channels const& rivers) {
+void keep_below_asked(TerrainLevel& level, Channels const& rivers) {
     RiverCells const& cells = level.rivers;
     for (std::size_t n = cells.cell.size(); n-- > 0;) {
         if (cells.receiver[n] < 0 || cells.level[n] != 0) {
@@ -276,7 +276,7 @@ void keep_below_asked(LandLevel& level, Channels const& rivers) {
 }
 
 /// Shifts heights so that the lowest river end is at 0, if all ends have risen.
-void lower_to_ends(LandLevel& level, Channels const& rivers) {
+void lower_to_ends(TerrainLevel& level, Channels const& rivers) {
     RiverCells const& cells = level.rivers;
     float low = std::numeric_limits<float>::infinity();
     for (std::size_t n = 0; n < cells.cell.size(); ++n) {
@@ -291,7 +291,7 @@ void lower_to_ends(LandLevel& level, Channels const& rivers) {
     }
 }
 
-void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumTerrain& out) {
+void report_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumTerrain& out) {
     std::vector<double> lowered;
     for (std::size_t n = 0; n < rivers.z.size(); ++n) {
         if (!std::isnan(rivers.z[n])) {
@@ -306,37 +306,40 @@ void tell_lowered(Raster<float> const& dem, Channels const& rivers, EquilibriumT
 
 } // namespace
 
-Raise raise_for(LandLevel const& level, Channels const& rivers, Window const& window, EquilibriumParams const& params) {
+HeightConversion height_conversion_for(TerrainLevel const& level, Channels const& rivers, Window const& window,
+                                       EquilibriumParams const& params) {
     Raster<float> const dem = cropped(level, window);
-    Rise const rise = rise_of(dem, params);
+    Rise const rise = height_scale_of(dem, params);
     double const metres = rise.factor * window.grid.cell_m;
     return {metres, -static_cast<double>(lowest_end(dem, rivers)) * metres, rise.mean_tangent};
 }
 
-double share_of_target(LandLevel const& level, Window const& window, double metres, EquilibriumParams const& params) {
+double share_of_target(TerrainLevel const& level, Window const& window, double metres,
+                       EquilibriumParams const& params) {
     return share_of_target(cropped(level, window), metres / window.grid.cell_m, params);
 }
 
-EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                std::vector<std::int64_t> shortened, Heads heads, Run const& run) {
+EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, Window const& window,
+                                   HeightConversion const& raise, std::vector<std::int64_t> shortened, Heads heads,
+                                   Run const& run) {
     EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
     // Slightly lower than what counts as perched, as a margin for the settling that follows.
     lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
     if (heads == Heads::kept) {
-        keep_to_receivers(level, settled_step(raise));
+        enforce_receivers(level, settled_step(raise));
         lower_to_ends(level, rivers);
     }
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
-    settle_land(level, settled_step(raise), RiverHeights::graded);
+    settle_terrain(level, settled_step(raise), RiverHeights::graded);
     out.dem = cropped(level, window);
     float const perched_m = perched_height(raise, window.grid);
     if (heads == Heads::kept) {
         out.walled = walled_cells(level, perched_m);
     }
     auto const perched =
-        heads == Heads::kept ? std::vector<std::int64_t>{} : give_up_tips(level, perched_m, TipBanks::stay);
+        heads == Heads::kept ? std::vector<std::int64_t>{} : remove_perched_tips(level, perched_m, TipBanks::stay);
     shortened.insert(shortened.end(), perched.begin(), perched.end());
     std::sort(shortened.begin(), shortened.end());
     out.shortened = std::move(shortened);
@@ -345,8 +348,8 @@ EquilibriumTerrain written_land(LandLevel level, Channels const& rivers, Window 
     return out;
 }
 
-EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, Window const& window, Raise const& raise,
-                                      RiverHeights heights, Run const& run) {
+EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels const& rivers, Window const& window,
+                                                HeightConversion const& raise, RiverHeights heights, Run const& run) {
     EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
@@ -363,12 +366,12 @@ EquilibriumTerrain written_given_land(LandLevel level, Channels const& rivers, W
         lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }
-    settle_land(level, settled_step(raise), heights);
+    settle_terrain(level, settled_step(raise), heights);
     out.dem = cropped(level, window);
     out.walled = walled_cells(level, perched_height(raise, window.grid));
     level = {};
     out.direction = directions(out.dem, rivers, {}, run);
-    tell_lowered(out.dem, rivers, out);
+    report_lowered(out.dem, rivers, out);
     return out;
 }
 

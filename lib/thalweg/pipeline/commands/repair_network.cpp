@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/mend_network.hpp>
+#include <thalweg/pipeline/commands/internal/repair_network.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,7 +24,7 @@
 namespace thalweg::pipeline {
 namespace {
 
-struct MendedLines {
+struct RepairedLines {
     RiverLines rivers;                         // in the direction of flow, feature = arc_id
     std::vector<std::size_t> arcs;             // by river: number of its arc in the file
     std::vector<SecondaryLine> secondary = {}; // arcs that are not natural watercourses, feature = arc_id
@@ -91,9 +91,9 @@ void fill_heights(std::vector<Vec3>& line, Vec3 const* first, Vec3 const* last) 
     }
 }
 
-class LineMender {
+class LineRepairer {
 public:
-    LineMender(NetworkFile const& file, measure::TopologyReport const& found, double near_m)
+    LineRepairer(NetworkFile const& file, measure::TopologyReport const& found, double near_m)
         : file_(file), found_(found), nodes_(file), near_m_(near_m) {
         for (Finding const& f : found.findings) {
             if (f.kind == "spike" || f.kind == "self_touching") {
@@ -172,7 +172,7 @@ public:
         result_.arcs.push_back(a);
     }
 
-    MendedLines finish() {
+    RepairedLines finish() {
         result_.rivers = network::keep_connectors(std::move(result_.rivers), near_m_);
         for (std::size_t l = result_.arcs.size(); l < result_.rivers.lines.size(); ++l) {
             result_.arcs.push_back(arc_of_channel_.at(result_.rivers.lines[l].feature));
@@ -247,16 +247,16 @@ private:
     double near_m_;
     std::set<std::int64_t> looped_ = {};
     std::map<std::int64_t, std::size_t> arc_of_channel_ = {}; ///< by arc_id: the first with that id
-    MendedLines result_ = {};
+    RepairedLines result_ = {};
 };
 
 // Makes an importable line of every arc that allows it.
-MendedLines mend_lines(NetworkFile const& file, measure::TopologyReport const& found, double near_m) {
-    LineMender mender(file, found, near_m);
+RepairedLines repair_lines(NetworkFile const& file, measure::TopologyReport const& found, double near_m) {
+    LineRepairer repairer(file, found, near_m);
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
-        mender.mend(a);
+        repairer.mend(a);
     }
-    return mender.finish();
+    return repairer.finish();
 }
 
 /// Of the finite vertices.
@@ -278,7 +278,7 @@ double diagonal_of(NetworkFile const& file) {
 /// The file's attributes of the rivers' lines, by feature; of several with one id, of the first.
 class Known {
 public:
-    Known(NetworkFile const& file, MendedLines const& lines) : file_(file), lines_(lines) {
+    Known(NetworkFile const& file, RepairedLines const& lines) : file_(file), lines_(lines) {
         for (std::size_t r = 0; r < lines.arcs.size(); ++r) {
             by_feature_.emplace_back(lines.rivers.lines[r].feature, r);
         }
@@ -293,12 +293,12 @@ private:
     }
 
     NetworkFile const& file_;
-    MendedLines const& lines_;
+    RepairedLines const& lines_;
     std::vector<std::pair<std::int64_t, std::size_t>> by_feature_;
 };
 
 /// An arc has the file's area at an end that did not move; otherwise the sum of its inflows, a lower bound.
-void take_areas(Known const& known, double near_m, MendedNetwork& mended) {
+void take_areas(Known const& known, double near_m, RepairedNetwork& mended) {
     StreamNetwork const& plan = mended.network.plan;
     mended.us_area_m2.assign(plan.arc_count(), 0.0);
     mended.ds_area_m2.assign(plan.arc_count(), 0.0);
@@ -334,7 +334,7 @@ std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double give
 }
 
 /// Copies the file's attributes of arcs, other than their lines.
-void take_words(Known const& known, MendedNetwork& mended) {
+void take_words(Known const& known, RepairedNetwork& mended) {
     NetworkDraft named = mended.network.plan.draft();
     for (ArcId a = 0; a < named.arcs.size(); ++a) {
         Arc& of = named.arcs[a].arc;
@@ -368,7 +368,7 @@ std::vector<SecondaryLine> named_by_file(NetworkFile const& file, std::vector<Se
 }
 
 /// Adds one finding for each kind of repaired fault, so that every repair is reported.
-void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mended) {
+void report_repairs(measure::TopologyReport const& found, std::vector<Finding>& mended) {
     for (auto first = found.findings.begin(); first != found.findings.end();) {
         auto const last =
             std::find_if(first, found.findings.end(), [&](Finding const& f) { return f.kind != first->kind; });
@@ -379,7 +379,7 @@ void say_mended(measure::TopologyReport const& found, std::vector<Finding>& mend
     }
 }
 
-void say_lowered(network::Lowered const& lowered, std::int64_t id_shift, std::vector<Finding>& mended) {
+void report_lowering(network::Lowered const& lowered, std::int64_t id_shift, std::vector<Finding>& mended) {
     std::size_t a = 0;
     for (ArcId arc = 0; arc < lowered.network.plan.arc_count(); ++arc) {
         Arc const& of = lowered.network.plan.arc(arc);
@@ -409,15 +409,15 @@ std::vector<Finding> doubts_of_directions(network::Directions const& directions,
 
 } // namespace
 
-MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport const& found,
-                           MendNetworkParams const& params, Run const& run) {
-    MendedNetwork mended;
+RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport const& found,
+                               RepairNetworkParams const& params, Run const& run) {
+    RepairedNetwork mended;
     auto const give_up = [&](std::string const& why) {
         mended.mended.push_back({"not_mended", 0, {}, 0.0, why});
         return mended;
     };
     double const near_m = params.near_m > 0.0 ? params.near_m : 1e-6 * diagonal_of(file);
-    MendedLines lines = mend_lines(file, found, near_m);
+    RepairedLines lines = repair_lines(file, found, near_m);
     mended.mended = std::move(lines.mended);
     if (lines.rivers.lines.empty()) {
         return give_up("no arc is left that has a line");
@@ -438,7 +438,7 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     append(mended.mended, std::move(imported.repairs));
     mended.doubts = doubts_of_directions(imported.directions, params.dem != nullptr);
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
-    say_lowered(lowered, file.id_shift, mended.mended);
+    report_lowering(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {
         mended.mended.push_back(
             {"level", 0, {}, static_cast<double>(file.arcs.size()), "the file has no heights: all are 0"});
@@ -451,7 +451,7 @@ MendedNetwork mend_network(NetworkFile const& file, measure::TopologyReport cons
     mended.user.attributes = file.attributes;
     append(lines.secondary, std::move(imported.secondary));
     mended.secondary = named_by_file(file, std::move(lines.secondary));
-    say_mended(found, mended.mended);
+    report_repairs(found, mended.mended);
 
     auto const left = measure::check_topology(measure::as_file(mended.network, mended.orders), {near_m}, run);
     if (!left.findings.empty()) {
