@@ -25,10 +25,14 @@ namespace test {
 
 using namespace thalweg;
 
-/// Whether a text has these words in it; a check that fails shows the text.
-inline testing::AssertionResult has(std::string_view text, std::string_view words) {
-    return text.find(words) != std::string_view::npos ? testing::AssertionSuccess()
-                                                      : testing::AssertionFailure() << "'" << text << "'";
+/// Whether a text has all of these words in it; a check that fails shows the text and the words it lacks.
+inline testing::AssertionResult has(std::string_view text, std::convertible_to<std::string_view> auto const&... words) {
+    for (std::string_view const one : {std::string_view(words)...}) {
+        if (text.find(one) == std::string_view::npos) {
+            return testing::AssertionFailure() << "'" << text << "' lacks '" << one << "'";
+        }
+    }
+    return testing::AssertionSuccess() << "'" << text << "'";
 }
 
 /// What an act that fails with Failure says; nothing where it does not fail.

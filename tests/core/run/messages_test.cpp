@@ -5,10 +5,12 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
-namespace printable_test {
+namespace messages_test {
 
 using namespace thalweg;
+using thalweg::closest;
 
 TEST(Printable, PlainTextStaysAsItIs) {
     for (std::string const text : {"", "\n", "a\nb\n", "\t1 m²", "río Ñandú → 長江 🏞"}) {
@@ -41,7 +43,7 @@ TEST(Printable, LongTextIsCutAndSaysHowMuch) {
     EXPECT_LT(cut.size(), 700U);
     EXPECT_EQ(cut.substr(0, 6), "begin ");
     EXPECT_EQ(cut.substr(cut.size() - 4), " end");
-    EXPECT_NE(cut.find("[... 9999460 bytes left out ...]"), std::string::npos) << cut;
+    EXPECT_TRUE(test::has(cut, "[... 9999460 bytes left out ...]"));
     std::string wide;
     for (int i = 0; i < 1000; ++i) {
         wide += "長";
@@ -51,7 +53,7 @@ TEST(Printable, LongTextIsCutAndSaysHowMuch) {
     for (int i = 0; i < 1000; ++i) {
         lines += "line\n";
     }
-    EXPECT_NE(printable(lines).find("[... 951 more lines ...]"), std::string::npos);
+    EXPECT_TRUE(test::has(printable(lines), "[... 951 more lines ...]"));
 }
 
 TEST(Printable, PasswordsAreLeftOut) {
@@ -65,4 +67,28 @@ TEST(Printable, PasswordsAreLeftOut) {
     EXPECT_EQ(without_passwords("password="), "password=");
 }
 
-} // namespace printable_test
+TEST(Suggest, NothingNear) {
+    EXPECT_EQ(closest("", {}), "");
+    EXPECT_EQ(closest("", {"dilate"}), "");
+    EXPECT_EQ(closest("zebra", {"dilate", "diffuse"}), "");
+    EXPECT_EQ(closest("x", {"uniform"}), "");
+}
+
+TEST(Suggest, TypingErrors) {
+    std::vector<std::string> const known = {"uniform", "decreasing", "rise_fall"};
+    EXPECT_EQ(closest("rise_fal", known), "rise_fall");
+    EXPECT_EQ(closest("risefall", known), "rise_fall");
+    EXPECT_EQ(closest("unifrom", known), "uniform");
+    EXPECT_EQ(closest("decreasing", known), "decreasing");
+    EXPECT_EQ(thalweg::did_you_mean("unifom", known), " Did you mean 'uniform'?");
+}
+
+TEST(Suggest, SwappedNeighboursAreOneSlip) {
+    std::vector<std::string> const known = {"make", "check", "man"};
+    EXPECT_EQ(closest("maek", known), "make");
+    EXPECT_EQ(closest("mkae", known), "make");
+    EXPECT_EQ(closest("chekc", known), "check");
+    EXPECT_EQ(closest("ekam", known), "");
+}
+
+} // namespace messages_test
