@@ -6,16 +6,19 @@
 #include <limits>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
-namespace least_squares_test {
+namespace linear_test {
 
 using namespace thalweg;
 using namespace thalweg::solver;
 
 namespace {
+
+using test::on_threads;
 
 double drawn(std::uint64_t seed, std::uint64_t i, std::uint64_t j) {
     return 2.0 * unit(random_word(seed, i, j)) - 1.0;
@@ -57,6 +60,24 @@ Matrix diagonal(std::vector<double> const& d) {
         q.at(i, i) = d[i];
     }
     return q;
+}
+
+/// A A' + 1 for random A: positive definite.
+std::vector<double> random_matrix_cholesky(std::size_t n, std::uint64_t seed) {
+    std::vector<double> a(n * n);
+    for (std::size_t i = 0; i < a.size(); ++i) {
+        a[i] = unit(random_word(seed, i)) - 0.5;
+    }
+    std::vector<double> m(n * n);
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            m[i * n + j] = i == j ? 1.0 : 0.0;
+            for (std::size_t k = 0; k < n; ++k) {
+                m[i * n + j] += a[i * n + k] * a[j * n + k];
+            }
+        }
+    }
+    return m;
 }
 
 } // namespace
@@ -179,4 +200,94 @@ TEST(LeastSquaresOnSphere, RefusesWhatIsNoSphere) {
     EXPECT_THROW(least_squares_on_sphere(twice, b, {{0}, diagonal({1}), 1.0}), BadInput);
 }
 
-} // namespace least_squares_test
+TEST(Cholesky, OfNothingAndOfOneNumber) {
+    EXPECT_TRUE(solver::solve(solver::factor({}, 0, 0.0), {}).empty());
+    EXPECT_EQ(solver::solve(solver::factor({4.0}, 1, 0.0), {8.0}), (std::vector<double>{2.0}));
+    EXPECT_EQ(solver::solve(solver::factor({2.0}, 1, 1.0), {8.0}), (std::vector<double>{2.0}));
+}
+
+TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
+    EXPECT_THROW(solver::factor({1.0, 0.0, 2.0, 1.0}, 2, 0.0), NotConverged);
+    EXPECT_THROW(solver::factor({1.0, 0.0, 1.0, 1.0}, 2, 0.0), NotConverged);
+    EXPECT_THROW(solver::factor({std::nan("")}, 1, 0.0), NotConverged);
+}
+
+TEST(Cholesky, SolvesWithTheSameBitsForAnyNumberOfThreads) {
+    constexpr std::size_t n = 300;
+    auto const matrix = random_matrix_cholesky(n, 4);
+    std::vector<double> x(n);
+    std::vector<double> b(n, 0.0);
+    for (std::size_t i = 0; i < n; ++i) {
+        x[i] = unit(random_word(5, i));
+    }
+    for (std::size_t i = 0; i < n; ++i) {
+        for (std::size_t j = 0; j < n; ++j) {
+            b[i] += matrix[i * n + j] * x[j];
+        }
+    }
+    thalweg::Run run = on_threads(1);
+    auto const one = solver::factor(matrix, n, 0.0, run);
+    auto const found = solver::solve(one, b);
+    for (std::size_t i = 0; i < n; ++i) {
+        EXPECT_NEAR(found[i], x[i], 1e-9);
+    }
+    run.threads = 5;
+    auto const many = solver::factor(matrix, n, 0.0, run);
+    EXPECT_EQ(solver::solve(many, b), found);
+}
+
+TEST(SparseFactor, RefusesWhatIsNoPositiveMatrix) {
+    EXPECT_THROW(SparseFactor(2, {{0, 1, 1.0}}), BadInput);
+    EXPECT_THROW(SparseFactor(2, {{2, 1, 1.0}}), BadInput);
+    EXPECT_THROW(SparseFactor(1, {{0, 0, std::numeric_limits<double>::quiet_NaN()}}), BadInput);
+    EXPECT_THROW(SparseFactor(2, {{0, 0, 1.0}}), NotConverged);
+    EXPECT_THROW(SparseFactor(1, {{0, 0, -1.0}}), NotConverged);
+    EXPECT_THROW(SparseFactor(2, {{0, 0, 1.0}, {1, 0, 2.0}, {1, 1, 1.0}}), NotConverged);
+    EXPECT_THROW(SparseFactor(1, {{0, 0, 1.0}}).solve({1.0, 2.0}), BadInput);
+    EXPECT_TRUE(SparseFactor(0, {}).solve({}).empty());
+}
+
+TEST(SparseFactor, SolvesForEveryRightHandSide) {
+    for (std::uint64_t seed = 1; seed < 20; ++seed) {
+        constexpr std::uint32_t size = 60;
+        std::vector<SparseEntry> entries;
+        std::vector<std::vector<double>> dense(size, std::vector<double>(size, 0.0));
+        auto const add = [&](std::uint32_t row, std::uint32_t column, double value) {
+            entries.push_back({row, column, value});
+            dense[row][column] += value;
+            if (row != column) {
+                dense[column][row] += value;
+            }
+        };
+        for (std::uint32_t i = 0; i < size; ++i) {
+            add(i, i, 0.5);
+            add(i, i, 0.5); // two numbers in one place add up
+        }
+        for (std::uint64_t k = 0; k < 150; ++k) {
+            auto const a = static_cast<std::uint32_t>(random_word(seed, k, 1) % size);
+            auto const b = static_cast<std::uint32_t>(random_word(seed, k, 2) % size);
+            if (a > b) {
+                add(a, b, -1.0); // a spring between two
+                add(a, a, 1.0);
+                add(b, b, 1.0);
+            }
+        }
+        SparseFactor const factor(size, entries);
+        for (std::uint64_t side = 0; side < 3; ++side) {
+            std::vector<double> b;
+            for (std::uint64_t i = 0; i < size; ++i) {
+                b.push_back(unit(random_word(seed, i, 10 + side)));
+            }
+            std::vector<double> const x = factor.solve(b);
+            for (std::uint32_t i = 0; i < size; ++i) {
+                double sum = 0.0;
+                for (std::uint32_t j = 0; j < size; ++j) {
+                    sum += dense[i][j] * x[j];
+                }
+                EXPECT_NEAR(sum, b[i], 1e-12);
+            }
+        }
+    }
+}
+
+} // namespace linear_test
