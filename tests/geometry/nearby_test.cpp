@@ -11,7 +11,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 
-namespace point_grid_test {
+namespace nearby_test {
 
 using namespace thalweg;
 using geometry::PointGrid;
@@ -32,18 +32,6 @@ std::size_t nearest_of_all(std::vector<Vec2> const& points, Vec2 p) {
 }
 
 } // namespace
-
-TEST(PointGrid, OnePointIsTheNearest) {
-    PointGrid const grid({{3.0, -4.0}}, 1.0);
-    EXPECT_EQ(grid.nearest({3.0, -4.0}), 0U);
-    EXPECT_EQ(grid.nearest({1e9, 1e9}), 0U);
-}
-
-TEST(PointGrid, TheFirstAmongEqualPoints) {
-    PointGrid const grid({{1.0, 1.0}, {0.0, 0.0}, {0.0, 0.0}, {2.0, 0.0}}, 0.5);
-    EXPECT_EQ(grid.nearest({0.0, 0.0}), 1U);
-    EXPECT_EQ(grid.nearest({1.0, 0.0}), 0U);
-}
 
 TEST(PointGrid, FewCellsForAWideCloud) {
     PointGrid const grid({{0.0, 0.0}, {1e9, 0.0}}, 1e-3);
@@ -72,4 +60,4 @@ TEST(PointGrid, IsTheNearestOfAll) {
     }));
 }
 
-} // namespace point_grid_test
+} // namespace nearby_test

@@ -12,7 +12,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
-namespace cotangents_test {
+namespace triangles_test {
 
 using namespace thalweg;
 using namespace thalweg::geometry;
@@ -131,4 +131,4 @@ TEST(Cotangents, AreThoseOfTheAngles) {
     }));
 }
 
-} // namespace cotangents_test
+} // namespace triangles_test
