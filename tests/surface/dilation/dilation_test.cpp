@@ -5,17 +5,17 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
-#include <numeric>
 
 #include <golden.hpp>
 #include <gtest/gtest.h>
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/surface/dilation/separable.hpp>
 
 #include "valleys.hpp"
 
-namespace dilate_test {
+namespace dilation_test {
 
 using namespace thalweg;
 using namespace thalweg::surface;
@@ -37,6 +37,94 @@ Valley ditch(std::int64_t width, float z, double cell_m = 1.0) {
     return valley;
 }
 
+/// As documented, cell by cell.
+double flats(Valley const& valley, Raster<float> const& dem) {
+    Grid const& grid = dem.grid();
+    double dry = 0.0;
+    double flat = 0.0;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (std::isnan(dem[i]) || !std::isnan(valley.z[i])) {
+            continue;
+        }
+        Cell const c = grid.at(i);
+        bool drained = false;
+        for (Cell const near : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
+            drained = drained || (grid.contains(near) && dem[near] < dem[i]);
+        }
+        dry += 1.0;
+        flat += drained ? 0.0 : 1.0;
+    }
+    return dry > 0.0 ? flat / dry : 0.0;
+}
+
+std::string as_text(Dilated const& d) {
+    std::string text;
+    char number[32];
+    for (std::int64_t row = 0; row < d.dem.height(); ++row) {
+        for (float const z : d.dem.row(row)) {
+            std::snprintf(number, sizeof number, "%s%.9g", text.empty() || text.back() == '\n' ? "" : " ",
+                          static_cast<double>(z));
+            text += std::isnan(z) ? std::string(number, number[0] == ' ' ? 1 : 0) + "-" : number;
+        }
+        text += '\n';
+    }
+    return text;
+}
+
+/// A river of three arms that rises by a quarter a cell away from its mouth in the south.
+Valley fork() {
+    std::string const map = ".#........#...."
+                            "..#......#....."
+                            "...#....#......"
+                            "....#..#......."
+                            ".....##........"
+                            ".....#........."
+                            "....#.........."
+                            "....#.........."
+                            "....#..........";
+    Valley valley{Raster<float>(test::frame_below(15, 9), valleys::nan)};
+    for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
+        if (map[static_cast<std::size_t>(i)] == '#') {
+            valley.z[i] = 0.25F * static_cast<float>(8 - valley.z.grid().at(i).row);
+        }
+    }
+    return valley;
+}
+
+Expansion frontier(Valley const& valley) {
+    return expand_frontier(valley, Mask(valley.z.grid(), 1));
+}
+
+bool same(Expansion const& a, Expansion const& b) {
+    return same_bits(a.level, b.level) && same_bits(a.base, b.base);
+}
+
+template <class Level> Expansion by_lanes(Valley const& valley, Lanes lanes, int threads) {
+    Run const run = on_threads(threads);
+    Expansion expansion{Raster<std::int32_t>(valley.z.grid()), Raster<float>(valley.z.grid())};
+    auto const swept = separable::sweep_down<Level>(valley, expansion.base, lanes, run);
+    separable::sweep_up(swept, expansion.base, expansion.level, lanes, run);
+    auto const most = *std::max_element(expansion.level.values().begin(), expansion.level.values().end());
+    EXPECT_EQ(swept.levels, most);
+    return expansion;
+}
+
+Valley one_river(Grid const& grid) {
+    Valley valley{Raster<float>(grid, std::nanf(""))};
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        valley.z[Cell{grid.width / 2, row}] = static_cast<float>(grid.height - row);
+    }
+    return valley;
+}
+
+DilateParams even_slopes() {
+    DilateParams params;
+    params.increment.increment = "uniform";
+    return params;
+}
+
+} // namespace
+
 TEST(Dilate, RefusesWhatCannotBeDilated) {
     for (Metric const metric : {Metric::cityblock, Metric::euclid}) {
         EXPECT_THROW(dilate(Valley{}, with("uniform", metric)), BadInput);
@@ -44,7 +132,7 @@ TEST(Dilate, RefusesWhatCannotBeDilated) {
         EXPECT_THROW(dilate(dry, with("uniform", metric)), BadInput);
         dry.z[{3, 1}] = std::numeric_limits<float>::infinity();
         auto const text = full_message_of<BadInput>([&] { dilate(dry, with("uniform", metric)); });
-        EXPECT_NE(text.find("column 3, row 1"), std::string::npos) << text;
+        EXPECT_TRUE(test::has(text, "column 3, row 1"));
         Valley const outside = ditch(3, 1.0F);
         EXPECT_THROW(dilate(outside, Mask(outside.z.grid(), 0), with("uniform", metric)), BadInput);
         EXPECT_THROW(dilate(outside, Mask(test::frame_below(1, 3), 1), with("uniform", metric)), BadInput);
@@ -178,26 +266,6 @@ TEST(Dilate, ReachesTheReliefAskedFor) {
     }));
 }
 
-/// As documented, cell by cell.
-double flats(Valley const& valley, Raster<float> const& dem) {
-    Grid const& grid = dem.grid();
-    double dry = 0.0;
-    double flat = 0.0;
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (std::isnan(dem[i]) || !std::isnan(valley.z[i])) {
-            continue;
-        }
-        Cell const c = grid.at(i);
-        bool drained = false;
-        for (Cell const near : {Cell{c.col - 1, c.row}, {c.col + 1, c.row}, {c.col, c.row - 1}, {c.col, c.row + 1}}) {
-            drained = drained || (grid.contains(near) && dem[near] < dem[i]);
-        }
-        dry += 1.0;
-        flat += drained ? 0.0 : 1.0;
-    }
-    return dry > 0.0 ? flat / dry : 0.0;
-}
-
 TEST(Dilate, CountsFlats) {
     EXPECT_EQ(dilate(ditch(11, 0.0F), with("x<6 ? 1 : 0")).flat_share, 0.5);
     EXPECT_EQ(dilate(ditch(11, 0.0F), with("0.5")).flat_share, 0.0);
@@ -251,50 +319,6 @@ TEST(DilateEuclid, IsTheNearestOfAllValleyCells) {
     }));
 }
 
-TEST(DilateEuclid, DiffersFromCityBlockOffTheAxes) {
-    Valley valley{Raster<float>(test::frame_below(9, 9), valleys::nan)};
-    valley.z[{4, 4}] = 0.0F;
-    Dilated const round = dilate(valley, with("1", Metric::euclid));
-    EXPECT_EQ((round.dem[{7, 8}]), 5.0F);
-    EXPECT_EQ((round.dem[{8, 4}]), 4.0F);
-    EXPECT_EQ(round.levels, 6);
-    EXPECT_EQ((dilate(valley, with("1")).dem[{7, 8}]), 7.0F);
-}
-
-std::string as_text(Dilated const& d) {
-    std::string text;
-    char number[32];
-    for (std::int64_t row = 0; row < d.dem.height(); ++row) {
-        for (float const z : d.dem.row(row)) {
-            std::snprintf(number, sizeof number, "%s%.9g", text.empty() || text.back() == '\n' ? "" : " ",
-                          static_cast<double>(z));
-            text += std::isnan(z) ? std::string(number, number[0] == ' ' ? 1 : 0) + "-" : number;
-        }
-        text += '\n';
-    }
-    return text;
-}
-
-/// A river of three arms that rises by a quarter a cell away from its mouth in the south.
-Valley fork() {
-    std::string const map = ".#........#...."
-                            "..#......#....."
-                            "...#....#......"
-                            "....#..#......."
-                            ".....##........"
-                            ".....#........."
-                            "....#.........."
-                            "....#.........."
-                            "....#..........";
-    Valley valley{Raster<float>(test::frame_below(15, 9), valleys::nan)};
-    for (std::int64_t i = 0; i < valley.z.cells(); ++i) {
-        if (map[static_cast<std::size_t>(i)] == '#') {
-            valley.z[i] = 0.25F * static_cast<float>(8 - valley.z.grid().at(i).row);
-        }
-    }
-    return valley;
-}
-
 TEST(DilateGolden, Fork) {
     expect_golden("dilate_fork.txt", as_text(dilate(fork(), with("decreasing"))));
 }
@@ -313,6 +337,148 @@ TEST(DilateGolden, ForkRound) {
     expect_golden("dilate_fork_euclid.txt", as_text(dilate(fork(), with("uniform", Metric::euclid, 40.0))));
 }
 
-} // namespace
+TEST(Expand, RefusesWhatIsNoValley) {
+    Valley const none;
+    EXPECT_THROW(expand(none), BadInput);
+    EXPECT_THROW(expand_frontier(none, Mask()), BadInput);
+    Valley valley{Raster<float>(test::frame_below(9, 4), valleys::nan)};
+    EXPECT_THROW(expand(valley), BadInput);
+    EXPECT_THROW(frontier(valley), BadInput);
+    valley.z[{2, 3}] = 1.0F;
+    valley.z[{8, 1}] = -std::numeric_limits<float>::infinity();
+    for (auto const& verb :
+         {+[](Valley const& v) { return expand(v); }, +[](Valley const& v) { return frontier(v); }}) {
+        auto const text = full_message_of<BadInput>([&] { verb(valley); });
+        EXPECT_TRUE(test::has(text, "column 8, row 1"));
+    }
+    EXPECT_THROW(expand_frontier(valley, Mask(test::frame_below(4, 9), 1)), BadInput);
+}
 
-} // namespace dilate_test
+TEST(Expand, LongLines) {
+    for (auto const& grid : {test::frame_below(70000, 1), test::frame_below(1, 70000), test::frame_below(65534, 1)}) {
+        Valley valley{Raster<float>(grid, valleys::nan)};
+        valley.z[0] = 3.0F;
+        EXPECT_TRUE(same(expand(valley), frontier(valley)));
+        EXPECT_EQ(expand(valley).level[grid.cells() - 1], grid.cells() - 1);
+    }
+}
+
+TEST(Expand, AllNaNsMeanNoRiver) {
+    Valley plain{Raster<float>(test::frame_below(11, 3), valleys::nan)};
+    plain.z[5] = 2.0F;
+    Valley odd = plain;
+    for (float& z : odd.z.values()) {
+        z = std::isnan(z) ? std::bit_cast<float>(0xffc12345U) : z;
+    }
+    EXPECT_TRUE(same(expand(plain), expand(odd)));
+    EXPECT_TRUE(same(frontier(plain), frontier(odd)));
+}
+
+TEST(Expand, IsTheLeastOfTheNearestValleyCells) {
+    ASSERT_TRUE(rc::check("base = min{e_v : |c - v| = d(c)}", [] {
+        Valley const valley = valleys::any(14);
+        Expansion const e = expand(valley);
+        Grid const& grid = valley.z.grid();
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            std::int64_t level = grid.cells();
+            float base = 0.0F;
+            for (std::int64_t v = 0; v < grid.cells(); ++v) {
+                std::int64_t const d =
+                    std::abs(grid.at(i).col - grid.at(v).col) + std::abs(grid.at(i).row - grid.at(v).row);
+                if (!std::isnan(valley.z[v]) && (d < level || (d == level && valley.z[v] < base))) {
+                    level = d;
+                    base = valley.z[v];
+                }
+            }
+            RC_ASSERT(e.level[i] == level);
+            RC_ASSERT(e.base[i] == base);
+        }
+    }));
+}
+
+TEST(Expand, ClosedFormIsTheFrontierBitForBit) {
+    ASSERT_TRUE(rc::check("expand == expand_frontier", [] {
+        Valley const valley = valleys::any(70);
+        RC_ASSERT(same(expand(valley), frontier(valley)));
+    }));
+}
+
+TEST(Expand, TheSameBytesFromEveryWayToRunIt) {
+    ASSERT_TRUE(rc::check("lanes, widths of level and threads change no byte", [] {
+        Valley const valley = valleys::any(70);
+        Expansion const reference = frontier(valley);
+        Lanes const widest = widest_lanes();
+        for (int const threads : {1, 2, 5}) {
+            RC_ASSERT(same(reference, by_lanes<std::uint16_t>(valley, Lanes::plain, threads)));
+            RC_ASSERT(same(reference, by_lanes<std::int32_t>(valley, Lanes::plain, threads)));
+            RC_ASSERT(same(reference, by_lanes<std::uint16_t>(valley, widest, threads)));
+            RC_ASSERT(same(reference, by_lanes<std::int32_t>(valley, widest, threads)));
+        }
+    }));
+}
+
+TEST(Expand, StripsAndBandsOfALargeGrid) {
+    Valley const valley = valleys::by_chance(1111, 1203, 0.0004, 5);
+    Expansion const reference = frontier(valley);
+    for (int const threads : {1, 2, 7}) {
+        EXPECT_TRUE(same(reference, by_lanes<std::uint16_t>(valley, Lanes::plain, threads)));
+        EXPECT_TRUE(same(reference, by_lanes<std::uint16_t>(valley, widest_lanes(), threads)));
+    }
+}
+
+TEST(Frontier, Cancelled) {
+    std::stop_source source;
+    source.request_stop();
+    thalweg::Run run;
+    run.stop = source.get_token();
+    Valley const valley = valleys::by_chance(20, 20, 0.1, 1);
+    EXPECT_THROW(expand_frontier(valley, Mask(valley.z.grid(), 1), run), Cancelled);
+    EXPECT_THROW(expand(valley, run), Cancelled);
+    EXPECT_THROW(dilate(valley, {}, run), Cancelled);
+}
+
+TEST(DilateOver, RefusesABaseOfAnotherFrame) {
+    Valley const valley = one_river(test::frame_below(5, 5));
+    EXPECT_THROW(dilate_over(valley, Raster<float>(test::frame_below(5, 6))), BadInput);
+}
+
+TEST(DilateOver, HasNoHeightWhereTheBaseHasNone) {
+    Valley const valley = one_river(test::frame_below(5, 5));
+    Raster<float> base(valley.z.grid(), 1.0F);
+    base[Cell{0, 3}] = std::nanf("");
+    EXPECT_TRUE(std::isnan(dilate_over(valley, base).dem[Cell{0, 3}]));
+}
+
+TEST(DilateOver, RisesFromTheBaseAsADilationRisesFromLevelGround) {
+    Grid const grid = test::frame_below(9, 7);
+    Valley const valley = one_river(grid);
+    Valley level = valley;
+    for (float& z : level.z.values()) {
+        z = std::isnan(z) ? z : 0.0F;
+    }
+    Raster<float> base(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        base[i] = static_cast<float>(i % 5) * 3.0F;
+    }
+    Dilated const rise = dilate(level, even_slopes());
+    Dilated const land = dilate_over(valley, base, even_slopes());
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        EXPECT_EQ(land.dem[i], std::isnan(valley.z[i]) ? base[i] + rise.dem[i] : valley.z[i]);
+    }
+    EXPECT_EQ(land.levels, rise.levels);
+}
+
+TEST(DilateOver, CellsBehindABarrierStayWithout) {
+    Grid const grid = test::frame_below(9, 7);
+    Valley const valley = one_river(grid);
+    Mask inside(grid, 1);
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        inside[Cell{2, row}] = 0;
+    }
+    Dilated const land = dilate_over(valley, Raster<float>(grid, 5.0F), inside, even_slopes());
+    EXPECT_TRUE(std::isnan(land.dem[Cell{0, 3}]));
+    EXPECT_TRUE(std::isnan(land.dem[Cell{2, 3}]));
+    EXPECT_FALSE(std::isnan(land.dem[Cell{3, 3}]));
+}
+
+} // namespace dilation_test

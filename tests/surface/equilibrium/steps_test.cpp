@@ -2,20 +2,23 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <cstdint>
 #include <limits>
 #include <set>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 #include <support.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/surface/equilibrium/internal/level.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 #include "channel_trees.hpp"
 
-namespace equilibrium_parts_test {
+namespace steps_test {
 
 using namespace thalweg;
 using namespace thalweg::surface;
@@ -57,6 +60,120 @@ LandLevel any_land() {
         level.cover[level.rivers.cell[n]] = Cover::river;
     }
     return level;
+}
+
+/// Any land with an open frame.
+LandLevel any_open_land() {
+    LandLevel level = any_land();
+    auto const width = static_cast<std::size_t>(level.width);
+    for (std::size_t i = 0; i < level.cover.size(); ++i) {
+        bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
+        level.cover[i] = inside ? level.cover[i] : Cover::edge;
+    }
+    return level;
+}
+
+constexpr float infinitely_high = std::numeric_limits<float>::infinity();
+
+/// Land of one height in a frame of nothing.
+LandLevel level_of(std::int64_t width, std::int64_t height, float z) {
+    LandLevel level;
+    level.width = width + 2;
+    level.height = height + 2;
+    level.cover.assign(static_cast<std::size_t>(level.cells()), Cover::outside);
+    level.z.assign(level.cover.size(), infinitely_high);
+    each_inner(level, [&](std::size_t i) {
+        level.cover[i] = Cover::land;
+        level.z[i] = z;
+    });
+    return level;
+}
+
+/// A river of one cell, from which water leaves.
+void add_spring(LandLevel& level, std::size_t cell) {
+    level.cover[cell] = Cover::river;
+    level.rivers.cell.push_back(static_cast<std::uint32_t>(cell));
+    level.rivers.receiver.push_back(-1);
+    level.rivers.way.push_back(no_way);
+    level.rivers.level.push_back(0);
+    level.rivers.number.push_back(static_cast<std::int64_t>(level.rivers.number.size()));
+}
+
+/// Rough land with holes, some river cells with or without banks, and some of the sea.
+LandLevel any_flood_level() {
+    auto const width = *rc::gen::inRange<std::int64_t>(1, 12).as("width");
+    auto const height = *rc::gen::inRange<std::int64_t>(1, 12).as("height");
+    auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
+    bool const banks = *rc::gen::arbitrary<bool>().as("banks");
+    LandLevel level = level_of(width, height, 0.0F);
+    level.side = *rc::gen::element(1.0F, 4.0F).as("side");
+    each_inner(level, [&](std::size_t i) {
+        level.z[i] = static_cast<float>(random_word(seed, 1, i) % 10);
+        auto const kind = random_word(seed, 2, i) % 16;
+        if (kind == 0) {
+            add_spring(level, i);
+        } else if (kind <= 3) {
+            level.cover[i] = Cover::outside;
+            level.z[i] = infinitely_high;
+        } else if (kind == 4) {
+            level.cover[i] = Cover::sea;
+            level.z[i] = 0.0F;
+        }
+    });
+    if (banks) {
+        each_inner(level, [&](std::size_t i) {
+            auto const offsets = level.offsets();
+            bool const beside = std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
+                return level.cover[moved(i, offset)] == Cover::river;
+            });
+            if (level.cover[i] == Cover::land && beside) {
+                level.cover[i] = Cover::bank;
+            }
+        });
+    }
+    return level;
+}
+
+/// Calls visit(neighbour, direction) for the cells of a level beside one.
+template <class Visit> void each_beside(LandLevel const& level, std::size_t i, Visit visit) {
+    auto const col = static_cast<std::int64_t>(i) % level.width;
+    auto const row = static_cast<std::int64_t>(i) / level.width;
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        std::int64_t const c = col + d8_steps[k].col;
+        std::int64_t const r = row + d8_steps[k].row;
+        if (c >= 0 && c < level.width && r >= 0 && r < level.height) {
+            visit(static_cast<std::size_t>(r * level.width + c), k);
+        }
+    }
+}
+
+/// The least heights by definition: what water leaves from stays, all other land stands a step above some neighbour.
+/// Infinite where no water can leave.
+std::vector<double> least_heights(LandLevel const& level) {
+    std::vector<double> least(level.z.size(), std::numeric_limits<double>::infinity());
+    for (std::size_t i = 0; i < least.size(); ++i) {
+        if (level.cover[i] == Cover::river || level.cover[i] == Cover::sea) {
+            least[i] = static_cast<double>(level.z[i]);
+        }
+    }
+    for (bool changed = true; changed;) {
+        changed = false;
+        for (std::size_t i = 0; i < least.size(); ++i) {
+            if (!is_land(level.cover[i])) {
+                continue;
+            }
+            each_beside(level, i, [&](std::size_t n, std::size_t k) {
+                double const above =
+                    least[n] + static_cast<double>(least_tangent * level.side) * static_cast<double>(step_lengths[k]);
+                double const here = std::max(static_cast<double>(level.z[i]), above);
+                if (here < least[i] - 1e-9) {
+                    least[i] = here;
+                    changed = true;
+                }
+            });
+        }
+    }
+    return least;
 }
 
 } // namespace
@@ -246,21 +363,6 @@ TEST(Perched, IsLoweredOrHeldUp) {
     }));
 }
 
-namespace {
-
-/// Any land with an open frame.
-LandLevel any_open_land() {
-    LandLevel level = any_land();
-    auto const width = static_cast<std::size_t>(level.width);
-    for (std::size_t i = 0; i < level.cover.size(); ++i) {
-        bool const inside = i % width > 0 && i % width + 1 < width && i >= width && i + width < level.cover.size();
-        level.cover[i] = inside ? level.cover[i] : Cover::edge;
-    }
-    return level;
-}
-
-} // namespace
-
 // The land's edge is as high as the nearest river, also when heads have been given up and the others are counted anew.
 TEST(EdgeHeights, AskNoNumbers) {
     ASSERT_TRUE(rc::check("edges keep their heights when rivers are counted anew", [] {
@@ -294,4 +396,57 @@ TEST(EdgeHeights, ValleysLieLowerThanRivers) {
     }));
 }
 
-} // namespace equilibrium_parts_test
+TEST(FloodLand, EveryLandCellStandsAboveItsReceiver) {
+    ASSERT_TRUE(rc::check("ways lead out, down by a step at least; no land is lowered", [] {
+        LandLevel const before = any_flood_level();
+        LandLevel level = before;
+        flood_land(level);
+        std::vector<double> const least = least_heights(before);
+        auto const offsets = level.offsets();
+        each_inner(level, [&](std::size_t i) {
+            bool const was_land = is_land(before.cover[i]);
+            RC_ASSERT((was_land && std::isinf(least[i])) == (was_land && level.cover[i] == Cover::outside));
+            if (!is_land(level.cover[i])) {
+                RC_ASSERT(level.way[i] == no_way);
+                RC_ASSERT((was_land || level.z[i] == before.z[i]));
+                return;
+            }
+            RC_ASSERT(level.way[i] >= 0);
+            RC_ASSERT(level.z[i] >= before.z[i]);
+            RC_ASSERT(static_cast<double>(level.z[i]) >= least[i] - 1e-4);
+            auto const k = static_cast<std::size_t>(level.way[i]);
+            std::size_t const receiver = moved(i, offsets[k]);
+            RC_ASSERT(level.cover[receiver] != Cover::outside);
+            RC_ASSERT(level.z[i] - level.z[receiver] >= 0.999F * least_tangent * level.side * step_lengths[k] - 1e-6F);
+            if (is_bank(level.cover[i])) {
+                RC_ASSERT(level.cover[receiver] == Cover::river);
+                each_beside(level, i, [&](std::size_t n, std::size_t) {
+                    RC_ASSERT((level.cover[n] != Cover::river || level.z[i] > level.z[n]));
+                });
+            }
+        });
+    }));
+}
+
+// Heights in one bucket are taken in any order: that may raise a cell by the height of a bucket for each step. And a
+// cell is settled by the first one that reaches it, across a corner though the next one would reach it across a side.
+TEST(FloodLand, RaisesHardlyMoreThanTheLeast) {
+    ASSERT_TRUE(rc::check("the least heights without banks, but for buckets", [] {
+        LandLevel level = any_flood_level();
+        for (Cover& cover : level.cover) {
+            cover = is_land(cover) ? Cover::land : cover;
+        }
+        std::vector<double> const least = least_heights(level);
+        flood_land(level);
+        double const bucket_m = 10.0 / 65535.0;
+        double const corner_m = (std::sqrt(2.0) - 1.0) * static_cast<double>(least_tangent * level.side);
+        double const slack = 1e-4 + static_cast<double>(level.cells()) * (bucket_m + corner_m);
+        each_inner(level, [&](std::size_t i) {
+            if (is_land(level.cover[i])) {
+                RC_ASSERT(static_cast<double>(level.z[i]) <= least[i] + slack);
+            }
+        });
+    }));
+}
+
+} // namespace steps_test
