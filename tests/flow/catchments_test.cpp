@@ -87,7 +87,7 @@ rc::Gen<std::pair<ElevatedNetwork, Raster<float>>> gen_rivers_and_land() {
 using Numbers = std::vector<double>;
 
 /// A river down the middle column of five rows, joined from the west in its middle cell.
-StreamNetwork small_rivers_areas() {
+StreamNetwork small_network() {
     NetworkDraft net;
     auto const north = net.add_node({2.5, 4.5});
     auto const west = net.add_node({0.5, 2.5});
@@ -255,7 +255,7 @@ TEST(AreasNearest, NoRiversNoAreas) {
 }
 
 TEST(AreasNearest, RefusesWhatIsNoTreeOrOutside) {
-    StreamNetwork net = small_rivers_areas();
+    StreamNetwork net = small_network();
     EXPECT_TRUE(has(message_of<BadInput>([&] { areas_nearest(net, frame(5, 4)); }), "arc 1"));
     NetworkDraft divided = net.draft();
     divided.add_arc(2, 1);
@@ -273,14 +273,14 @@ TEST(AreasNearest, SmallRivers) {
     // By column and row from the north-west: arc 1 owns (2,0), (2,1), arc 2 (0,2), (1,2), arc 3 the rest of column 2.
     // Of the cells that are as near to two, (0,0) goes to (2,0), (1,1) to (2,1), (1,3) to (1,2) and (0,4) to (0,2).
     Grid grid = frame(5, 5);
-    ContributingAreas const areas = areas_nearest(small_rivers_areas(), grid);
+    ContributingAreas const areas = areas_nearest(small_network(), grid);
     EXPECT_EQ(areas.us_area_m2, (Numbers{5, 4, 18}));
     EXPECT_EQ(areas.ds_area_m2, (Numbers{9, 6, 25}));
     EXPECT_EQ(areas.node_m2, (Numbers{5, 4, 18, 25}));
     EXPECT_STREQ(areas.source, "nearest");
     grid.cell_m = 10.0;
     grid.north = 50.0;
-    NetworkDraft wide = small_rivers_areas().draft();
+    NetworkDraft wide = small_network().draft();
     for (Node& node : wide.nodes) {
         node.at = {node.at.x * 10.0, node.at.y * 10.0};
     }
@@ -320,7 +320,7 @@ TEST(AreasD8, SmallRiversInTheirValley) {
                                          30, 29, 14, 29, 30, //
                                          30, 29, 12, 29, 30});
     auto const drainage = flow::route(dem);
-    ContributingAreas const areas = areas_d8(small_rivers_areas(), drainage);
+    ContributingAreas const areas = areas_d8(small_network(), drainage);
     auto const& d8 = drainage.area_cells;
     auto const at = [&](std::int64_t col, std::int64_t row) { return static_cast<double>(d8[Cell{col, row}]); };
     // The tributary stays a river to its confluence, though the DEM is steepest diagonally past it.

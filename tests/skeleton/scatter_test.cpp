@@ -45,11 +45,11 @@ Vec3 at_cell(std::int64_t col, std::int64_t row, double z) {
     return {p.x, p.y, z};
 }
 
-Grid const ground_scatter_between{60, 50, 20.0, 500000.0, 5000000.0, "EPSG:32631"};
+Grid const valley_grid{60, 50, 20.0, 500000.0, 5000000.0, "EPSG:32631"};
 
 /// A river down column 10, and one that runs along row 40 from there.
 Valley two_rivers() {
-    Valley valley{Raster<float>(ground_scatter_between, std::numeric_limits<float>::quiet_NaN())};
+    Valley valley{Raster<float>(valley_grid, std::numeric_limits<float>::quiet_NaN())};
     for (std::int64_t row = 0; row < 50; ++row) {
         valley.z[Cell{10, row}] = 300.0F - 2.0F * static_cast<float>(row);
     }
@@ -67,8 +67,8 @@ struct Nearest {
 
 Nearest nearest_by_search(Valley const& valley, Cell from) {
     Nearest best;
-    for (std::int64_t i = 0; i < ground_scatter_between.cells(); ++i) {
-        Cell const c = ground_scatter_between.at(i);
+    for (std::int64_t i = 0; i < valley_grid.cells(); ++i) {
+        Cell const c = valley_grid.at(i);
         double const away = std::sqrt(
             static_cast<double>((c.col - from.col) * (c.col - from.col) + (c.row - from.row) * (c.row - from.row)));
         if (!std::isnan(valley.z[i]) && away < best.cells) {
@@ -80,8 +80,8 @@ Nearest nearest_by_search(Valley const& valley, Cell from) {
 
 /// How far up a point stands between its river and the greatest rise.
 double share_of(Valley const& valley, Vec3 const& p, double gain) {
-    Nearest const river = nearest_by_search(valley, ground_scatter_between.cell_of({p.x, p.y}));
-    return (p.z - river.z) / (gain * river.cells * ground_scatter_between.cell_m);
+    Nearest const river = nearest_by_search(valley, valley_grid.cell_of({p.x, p.y}));
+    return (p.z - river.z) / (gain * river.cells * valley_grid.cell_m);
 }
 
 } // namespace
@@ -228,7 +228,7 @@ TEST(Scatter, PlacesAreUniform) {
 }
 
 TEST(ScatterBetween, RefusesWhatCannotBe) {
-    Valley const none{Raster<float>(ground_scatter_between, std::numeric_limits<float>::quiet_NaN())};
+    Valley const none{Raster<float>(valley_grid, std::numeric_limits<float>::quiet_NaN())};
     EXPECT_THROW(scatter_between(none, {}), BadInput);
     EXPECT_THROW(scatter_between(two_rivers(), Mask(Grid{3, 3, 20.0, 0.0, 0.0, ""}, 1)), BadInput);
     EXPECT_THROW(scatter_between(two_rivers(), {}, {.count = -1}), BadParameter);
@@ -240,25 +240,25 @@ TEST(ScatterBetween, RefusesWhatCannotBe) {
 
 TEST(ScatterBetween, NothingIsPlacedWhereNothingMayBe) {
     EXPECT_TRUE(scatter_between(two_rivers(), {}, {.count = 0}).points.points.empty());
-    Scattered const s = scatter_between(two_rivers(), Mask(ground_scatter_between, 0), {.count = 5});
+    Scattered const s = scatter_between(two_rivers(), Mask(valley_grid, 0), {.count = 5});
     EXPECT_TRUE(s.points.points.empty());
     EXPECT_EQ(s.missing, 5);
 }
 
 TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
     Valley const valley = two_rivers();
-    Mask inside = test::raster_of<std::uint8_t>(ground_scatter_between, [&](Cell c) { return c.col < 50 ? 1 : 0; });
+    Mask inside = test::raster_of<std::uint8_t>(valley_grid, [&](Cell c) { return c.col < 50 ? 1 : 0; });
     for (std::uint64_t seed = 1; seed <= 5; ++seed) {
         for (double const spacing : {0.0, 2.5, 4.0}) {
             for (HeightLaw const law : {HeightLaw::uniform, HeightLaw::normal}) {
                 Scattered const s = scatter_between(valley, inside, {seed, 60, spacing, 0.4, 0.0, law});
                 EXPECT_EQ(static_cast<std::int64_t>(s.points.points.size()) + s.missing, 60);
                 EXPECT_EQ(s.missing, 0);
-                EXPECT_EQ(s.points.crs, ground_scatter_between.crs);
+                EXPECT_EQ(s.points.crs, valley_grid.crs);
                 for (std::size_t i = 0; i < s.points.points.size(); ++i) {
                     Vec3 const p = s.points.points[i];
-                    Cell const cell = ground_scatter_between.cell_of({p.x, p.y});
-                    ASSERT_TRUE(ground_scatter_between.contains(cell));
+                    Cell const cell = valley_grid.cell_of({p.x, p.y});
+                    ASSERT_TRUE(valley_grid.contains(cell));
                     EXPECT_EQ(inside[cell], 1);
                     EXPECT_GE(nearest_by_search(valley, cell).cells, std::max(2.0, spacing));
                     double const share = share_of(valley, p, 0.4);
@@ -266,7 +266,7 @@ TEST(ScatterBetween, PointsKeepTheirDistancesAndStandAboveTheNearestRiver) {
                     EXPECT_LE(share, 1.0 + 1e-9);
                     for (std::size_t j = 0; j < i; ++j) {
                         Vec3 const q = s.points.points[j];
-                        EXPECT_GE(distance({p.x, p.y}, {q.x, q.y}), spacing * ground_scatter_between.cell_m);
+                        EXPECT_GE(distance({p.x, p.y}, {q.x, q.y}), spacing * valley_grid.cell_m);
                     }
                 }
             }
@@ -292,7 +292,7 @@ TEST(ScatterBetween, SharesFollowTheirLaw) {
 
 TEST(ScatterBetween, WithoutAGainPointsLieAsHighAsTheirRivers) {
     for (Vec3 const& p : scatter_between(two_rivers(), {}, {3, 50, 3.0, 0.0}).points.points) {
-        EXPECT_EQ(p.z, nearest_by_search(two_rivers(), ground_scatter_between.cell_of({p.x, p.y})).z);
+        EXPECT_EQ(p.z, nearest_by_search(two_rivers(), valley_grid.cell_of({p.x, p.y})).z);
     }
 }
 
@@ -303,8 +303,8 @@ TEST(ScatterBetween, PointsRiseNoMoreBeyondTheFarthestDistance) {
     ASSERT_EQ(free.size(), bound.size());
     std::size_t lowered = 0;
     for (std::size_t i = 0; i < free.size(); ++i) {
-        Nearest const river = nearest_by_search(valley, ground_scatter_between.cell_of({free[i].x, free[i].y}));
-        double const away = river.cells * ground_scatter_between.cell_m;
+        Nearest const river = nearest_by_search(valley, valley_grid.cell_of({free[i].x, free[i].y}));
+        double const away = river.cells * valley_grid.cell_m;
         double const share = (free[i].z - river.z) / (0.4 * away);
         EXPECT_NEAR(bound[i].z, river.z + 0.4 * std::min(away, 100.0) * share, 1e-9);
         lowered += away > 100.0 ? 1 : 0;

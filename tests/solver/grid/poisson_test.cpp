@@ -132,7 +132,7 @@ double greatest_difference(Raster<double> const& a, Raster<double> const& b) {
 }
 
 /// Fixed cells of 0 and 1 among others, and all holes isolated: no part is without a fixed cell.
-GridProblem by_chance_relax_explicit(std::int64_t width, std::int64_t height, std::uint64_t seed) {
+GridProblem random_problem(std::int64_t width, std::int64_t height, std::uint64_t seed) {
     Grid const grid{width, height, 1.0, 0.0, 0.0, ""};
     GridProblem problem{Raster<std::uint8_t>(grid, free_cell), Raster<double>(grid), {}};
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -477,7 +477,7 @@ TEST(Unreached, FindsPartsWithoutFixedCells) {
 }
 
 TEST(RelaxExplicit, RefusesWhatGrows) {
-    GridProblem problem = by_chance_relax_explicit(9, 9, 1);
+    GridProblem problem = random_problem(9, 9, 1);
     for (double const alpha : {0.26, 0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
         EXPECT_THROW(relax_explicit(problem, {alpha, 1}), BadParameter);
     }
@@ -498,7 +498,7 @@ TEST(RelaxExplicit, IsTheFormula) {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30).as("seed");
         int const sweeps = *rc::gen::inRange(0, 15).as("sweeps");
         double const alpha = *rc::gen::element(0.25, 0.11).as("alpha");
-        GridProblem const problem = by_chance_relax_explicit(width, height, seed);
+        GridProblem const problem = random_problem(width, height, seed);
         Raster<double> const expected = swept(problem, alpha, sweeps);
         GridSolution const solution = relax_explicit(problem, {alpha, sweeps});
         RC_ASSERT(solution.iterations == sweeps);
@@ -509,7 +509,7 @@ TEST(RelaxExplicit, IsTheFormula) {
 }
 
 TEST(RelaxExplicit, TendsToTheSolution) {
-    GridProblem const problem = by_chance_relax_explicit(64, 64, 5);
+    GridProblem const problem = random_problem(64, 64, 5);
     Raster<double> const steady = solve_poisson(problem, {1e-12, 1000}).value;
     GridSolution const solution = relax_explicit(problem, {0.25, 20000});
     EXPECT_LE(solution.residual, 1e-10);
@@ -519,7 +519,7 @@ TEST(RelaxExplicit, TendsToTheSolution) {
 }
 
 TEST(RelaxExplicit, SameBytesForAnyThreads) {
-    GridProblem const problem = by_chance_relax_explicit(301, 203, 6);
+    GridProblem const problem = random_problem(301, 203, 6);
     thalweg::Run run = on_threads(1);
     Raster<double> const one = relax_explicit(problem, {0.25, 21}, run).value;
     for (int const threads : {2, 5}) {

@@ -63,7 +63,7 @@ Matrix diagonal(std::vector<double> const& d) {
 }
 
 /// A A' + 1 for random A: positive definite.
-std::vector<double> random_matrix_cholesky(std::size_t n, std::uint64_t seed) {
+std::vector<double> positive_definite(std::size_t n, std::uint64_t seed) {
     std::vector<double> a(n * n);
     for (std::size_t i = 0; i < a.size(); ++i) {
         a[i] = unit(random_word(seed, i)) - 0.5;
@@ -214,7 +214,7 @@ TEST(Cholesky, RefusesWhatIsNotPositiveDefinite) {
 
 TEST(Cholesky, SolvesWithTheSameBitsForAnyNumberOfThreads) {
     constexpr std::size_t n = 300;
-    auto const matrix = random_matrix_cholesky(n, 4);
+    auto const matrix = positive_definite(n, 4);
     std::vector<double> x(n);
     std::vector<double> b(n, 0.0);
     for (std::size_t i = 0; i < n; ++i) {
