@@ -429,9 +429,8 @@ TEST(ForeignNetwork, FieldsThatAUserNamesAreEnough) {
     EXPECT_EQ(count_of(file, "null_number"), 0); // no arc downstream
 
     std::string const unknown = refusal(path);
-    EXPECT_TRUE(has(unknown, "Nummer, nach, ordnung"));
-    EXPECT_TRUE(has(unknown, "taudem: linkno, dslinkno"));
-    EXPECT_TRUE(has(unknown, "native: arc_id, from_node, to_node, ds_arc"));
+    EXPECT_TRUE(has(unknown, "Nummer, nach, ordnung", "taudem: linkno, dslinkno",
+                    "native: arc_id, from_node, to_node, ds_arc"));
     EXPECT_TRUE(has(refusal(path, {.fields = {{"arc_id", "nummer"}}}), "taudem: linkno"));
     EXPECT_TRUE(has(refusal(path, {.fields = {{"arc_id", "numer"}, {"ds_arc", "nach"}}}),
                     "no field numer. Did you mean 'Nummer'?"));

@@ -271,8 +271,7 @@ TEST(WriteSchemas, MoreRiversThanASchemaCanNameAreRefusedWithTheRemedy) {
     SampleNetwork const sample = two_basins();
     std::string const message =
         message_of([&] { io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::taudem}); });
-    EXPECT_NE(message.find("3 rivers meet at (0.7, 100.1)"), std::string::npos) << message;
-    EXPECT_NE(message.find("--max-upstream 2"), std::string::npos) << message;
+    EXPECT_TRUE(test::has(message, "3 rivers meet at (0.7, 100.1)", "--max-upstream 2"));
     EXPECT_EQ(folder.entries(), 0);
     EXPECT_NO_THROW(io::write_network(sample.tables(), folder / "net.gpkg", {.schema = Schema::grass}));
 }
@@ -346,24 +345,20 @@ TEST(WriteSchemas, GraphsHaveNodesEdgesAndTheirText) {
     ScratchFolder const folder;
     io::write_network(sample.tables(), folder / "net.graphml", {NetworkFormat::graphml});
     std::string const graphml = bytes_of(folder / "net.graphml");
-    EXPECT_NE(graphml.find("edgedefault=\"directed\""), std::string::npos);
-    EXPECT_NE(graphml.find("<data key=\"crs\">EPSG:32631</data>"), std::string::npos);
-    EXPECT_NE(graphml.find("<node id=\"1\"><data key=\"x\">0.1</data><data key=\"y\">0.2</data>"), std::string::npos);
-    EXPECT_NE(graphml.find("<edge source=\"3\" target=\"2\">"), std::string::npos);
-    EXPECT_NE(graphml.find("a &lt;b&gt; &amp; &quot;c&quot;, 'd' #  </data>"), std::string::npos);
-    EXPECT_NE(graphml.find("LINESTRING Z (0.3 100.7 4.7, 0.1 0.2 0.3333333333333333)"), std::string::npos);
+    EXPECT_TRUE(test::has(graphml, "edgedefault=\"directed\"", "<data key=\"crs\">EPSG:32631</data>",
+                          "<node id=\"1\"><data key=\"x\">0.1</data><data key=\"y\">0.2</data>",
+                          "<edge source=\"3\" target=\"2\">", "a &lt;b&gt; &amp; &quot;c&quot;, 'd' #  </data>",
+                          "LINESTRING Z (0.3 100.7 4.7, 0.1 0.2 0.3333333333333333)"));
 
     io::write_network(sample.tables(), folder / "net.csv", {NetworkFormat::csv});
     std::string const csv = bytes_of(folder / "net.csv");
     EXPECT_EQ(csv.substr(0, csv.find("\r\n")).find("from_node,to_node,arc_id,ds_arc,"), 0U);
-    EXPECT_NE(csv.find("\r\n3,2,1,2,"), std::string::npos);
-    EXPECT_NE(csv.find("\"a <b> & \"\"c\"\", 'd' # \x01\""), std::string::npos);
+    EXPECT_TRUE(test::has(csv, "\r\n3,2,1,2,", "\"a <b> & \"\"c\"\", 'd' # \x01\""));
 
     io::write_network(sample.tables(), folder / "net.edges", {NetworkFormat::edges});
     std::string const edges = bytes_of(folder / "net.edges");
     EXPECT_EQ(edges.front(), '#');
-    EXPECT_NE(edges.find("\n3 2 {'arc_id': 1, 'ds_arc': 2, "), std::string::npos);
-    EXPECT_NE(edges.find("'a <b> & \"c\", \\x27d\\x27 \\x23 \\x01'"), std::string::npos);
+    EXPECT_TRUE(test::has(edges, "\n3 2 {'arc_id': 1, 'ds_arc': 2, ", "'a <b> & \"c\", \\x27d\\x27 \\x23 \\x01'"));
 }
 
 // Law: what is written in anyone's schema, in any format that holds doubles, is read back: lines and heights bit for
