@@ -10,7 +10,7 @@
 
 namespace thalweg::pipeline {
 
-/// Small recipes in folders of their own, one of each method.
+/// Five small recipes in folders of their own, of different sources and surfaces.
 inline std::filesystem::path old_recipes() {
     return std::filesystem::path(THALWEG_SOURCE_DIR) / "tests/data/recipes_0_1_0";
 }

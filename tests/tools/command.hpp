@@ -5,6 +5,9 @@
 #include <filesystem>
 #include <string>
 
+#include <gtest/gtest.h>
+#include <support.hpp>
+
 /// What a run of the command line gave.
 struct Outcome {
     int code = -1;
@@ -31,3 +34,13 @@ private:
 };
 
 std::string file_bytes(std::filesystem::path const& path);
+
+/// Runs thalweg in the place: it ends with the code, and its messages have all of the words.
+inline Outcome expect_run(Workplace const& place, std::string const& arguments, int code, auto const&... words) {
+    Outcome run = thalweg_run(arguments, place.path());
+    EXPECT_EQ(run.code, code) << arguments << "\n" << run.err;
+    if constexpr (sizeof...(words) > 0) {
+        EXPECT_TRUE(test::has(run.err, words...)) << arguments;
+    }
+    return run;
+}

@@ -7,6 +7,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include "command.hpp"
 
@@ -25,8 +26,8 @@ inline void expect_refused(Workplace const& place, std::string const& arguments,
     auto const before = content(place.path());
     Outcome const o = thalweg_run(arguments, place.path());
     EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_NE(("\n" + o.err).find("\nerror: "), std::string::npos) << o.err;
+    EXPECT_TRUE(test::has(o.err, words)) << arguments << "\n";
+    EXPECT_TRUE(test::has(("\n" + o.err), "\nerror: "));
     EXPECT_EQ(o.out, "") << arguments;
     EXPECT_TRUE(content(place.path()) == before) << arguments;
 }

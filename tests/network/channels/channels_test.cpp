@@ -15,6 +15,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace channels_test {
@@ -25,6 +26,8 @@ using namespace thalweg;
 using network::channels;
 using network::ChannelsOfArcs;
 using network::ChannelsParams;
+using network::shorten;
+using network::Shortened;
 
 ChannelsParams literal() {
     return {.look_cells = 0, .stub_cells = 0};
@@ -58,6 +61,28 @@ std::string drawn(Channels const& rivers) {
     }
     return picture;
 }
+
+//  two arms of five cells, a confluence, a stem of four
+StreamNetwork fork() {
+    return test::network_of({{5.5, 0.5}, {5.5, 4.5}, {0.5, 9.5}, {10.5, 9.5}},
+                            {{1, 0, {}, 7}, {2, 1, {}, 8}, {3, 1, {}, 9}});
+}
+
+/// Some channel cells with all that flow into them.
+std::vector<std::int64_t> some_tips(Channels const& rivers, std::uint64_t seed, double share) {
+    std::vector<std::uint8_t> gone(rivers.cell.size(), 0);
+    std::vector<std::int64_t> out;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+        bool const below = rivers.receiver[i] >= 0 && gone[static_cast<std::size_t>(rivers.receiver[i])] != 0;
+        gone[i] = below || unit(random_word(seed, i)) < share ? 1 : 0;
+        if (gone[i] != 0) {
+            out.push_back(static_cast<std::int64_t>(i));
+        }
+    }
+    return out;
+}
+
+} // namespace
 
 TEST(Channels, NoNetworkIsNoChannels) {
     ChannelsOfArcs const out = channels(StreamNetwork{}, test::frame(3, 3));
@@ -210,6 +235,129 @@ TEST(Channels, RiversOnALatticeKeepTheirWay) {
     }));
 }
 
-} // namespace
+TEST(Shorten, NothingGoneChangesNothing) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    Shortened const out = shorten(fork(), drawn, {});
+    EXPECT_TRUE(out.notes.empty());
+    EXPECT_EQ(out.drawn.channels.cell, drawn.channels.cell);
+    EXPECT_EQ(out.drawn.of_arc, drawn.of_arc);
+    EXPECT_EQ(out.network.node_count(), 4U);
+}
+
+TEST(Shorten, RefusesWhatIsNoTip) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    EXPECT_THROW(shorten(fork(), drawn, {-1}), BadInput);
+    EXPECT_THROW(shorten(fork(), drawn, {static_cast<std::int64_t>(drawn.channels.cell.size())}), BadInput);
+    EXPECT_THROW(shorten(fork(), drawn, {0}), BadInput);
+    EXPECT_THROW(shorten(test::network_of({{5.5, 0.5}, {5.5, 4.5}}, {{1, 0}}), drawn, {}), BadInput);
+}
+
+TEST(Shorten, ATipBeginsFartherDown) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].begin() + 2);
+    Shortened const out = shorten(fork(), drawn, left);
+    EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{2.5, 7.5}, {5.5, 4.5}}));
+    ASSERT_EQ(out.notes.size(), 1U);
+    EXPECT_EQ(out.notes[0].kind, "shortened");
+    EXPECT_EQ(out.notes[0].feature, 8);
+    EXPECT_NEAR(out.notes[0].amount, 2.0 * std::sqrt(2.0), 1e-12);
+    EXPECT_EQ(out.drawn.channels.cell.size(), drawn.channels.cell.size() - 2);
+    EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
+}
+
+TEST(Shorten, CellsBesideTheirLineStay) {
+    ChannelsOfArcs drawn = channels(fork(), test::frame(11, 11));
+    Grid const& grid = drawn.channels.grid;
+    std::vector<std::int64_t> const& arm = drawn.of_arc[1];
+    for (std::size_t k = 0; k + 1 < arm.size(); ++k) { // the line touches their corners
+        auto const i = static_cast<std::size_t>(arm[k]);
+        Cell const c = grid.at(drawn.channels.cell[i]);
+        drawn.channels.cell[i] = grid.index({c.col + 1, c.row});
+    }
+    Shortened const out = shorten(fork(), drawn, {arm.begin(), arm.begin() + 2});
+    ASSERT_EQ(out.network.arc_count(), 3U);
+    EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{3.0, 7.0}, {5.5, 4.5}}));
+    EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
+}
+
+TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);
+    Shortened const out = shorten(fork(), drawn, left);
+    ASSERT_EQ(out.network.arc_count(), 1U);
+    EXPECT_EQ(out.network.arc(0).line, (std::vector<Vec2>{{10.5, 9.5}, {5.5, 4.5}, {5.5, 0.5}}));
+    EXPECT_EQ(out.network.arc(0).feature, 9);
+    EXPECT_EQ(out.drawn.of_arc[0].size(), 10U);
+    EXPECT_EQ(out.notes.size(), 1U);
+}
+
+TEST(Shorten, AHeadInTheCellOfAnotherRiverGoesWithTheCellsBelowIt) {
+    StreamNetwork const net = test::network_of({{0.5, 25.5}, {30.5, 25.5}, {5.6, 25.4}, {5.5, 0.5}}, {{0, 1}, {2, 3}});
+    ChannelsOfArcs const drawn = channels(net, test::frame(31, 31));
+    auto const& cells = drawn.of_arc[1];
+    ASSERT_GE(cells.size(), 4U);
+    ASSERT_NE(drawn.channels.receiver[static_cast<std::size_t>(cells[0])], cells[1]); // that is the other river's
+    Shortened const out = shorten(net, drawn, {cells.begin() + 1, cells.begin() + 3});
+    ASSERT_EQ(out.network.arc_count(), 2U);
+    EXPECT_LT(out.network.arc(1).line.front().y, 23.0);
+    EXPECT_EQ(out.notes.size(), 1U);
+}
+
+TEST(Shorten, AllMayGo) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    Shortened const out = shorten(fork(), drawn, some_tips(drawn.channels, 1, 1.0));
+    EXPECT_EQ(out.network.arc_count(), 0U);
+    EXPECT_TRUE(out.drawn.channels.cell.empty());
+}
+
+TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
+    ASSERT_TRUE(rc::check("lines end parts of lines, channels keep their law, and arcs their cells", [] {
+        auto const [seed, on_lattice, net, grid] = test::some_rivers();
+        ChannelsOfArcs const drawn = channels(net, grid);
+        std::vector<std::int64_t> const gone = some_tips(drawn.channels, seed, *rc::gen::element(0.0, 0.01, 0.1));
+        Shortened const out = shorten(net, drawn, gone);
+        test::require_law(out.drawn.channels);
+        RC_ASSERT(out.drawn.of_arc.size() == out.network.arc_count());
+        RC_ASSERT(out.drawn.channels.cell.size() + gone.size() == drawn.channels.cell.size());
+        std::set<std::pair<double, double>> vertices;
+        double before_m = 0.0;
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            before_m += net.length_m(a);
+            for (Vec2 const p : net.arc(a).line) {
+                vertices.emplace(p.x, p.y);
+            }
+        }
+        double after_m = 0.0;
+        for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
+            after_m += out.network.length_m(a);
+            auto const& line = out.network.arc(a).line;
+            RC_ASSERT(line.size() >= 2U);
+            RC_ASSERT(line.front() == out.network.node(out.network.from(a)).at);
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                RC_ASSERT(vertices.contains({line[i].x, line[i].y}));
+            }
+            if (on_lattice) {
+                // what was drawn from the new line's cells, and no tip stands where a river is gone
+                std::set<std::int64_t> cells;
+                for (Cell const c : cells_along(line, grid)) {
+                    cells.insert(grid.index(c));
+                }
+                for (std::int64_t const i : out.drawn.of_arc[a]) {
+                    RC_ASSERT(cells.contains(out.drawn.channels.cell[static_cast<std::size_t>(i)]));
+                }
+                if (out.network.in(out.network.from(a)).empty() && !out.drawn.of_arc[a].empty()) {
+                    RC_ASSERT(out.drawn.channels.cell[static_cast<std::size_t>(out.drawn.of_arc[a].front())] ==
+                              grid.index(grid.cell_of(line.front())));
+                }
+            }
+        }
+        double noted_m = 0.0;
+        for (Finding const& note : out.notes) {
+            noted_m += note.amount;
+        }
+        RC_ASSERT(noted_m + after_m <= before_m * (1.0 + 1e-12));
+        RC_ASSERT(!on_lattice || noted_m + after_m >= before_m * (1.0 - 1e-12));
+    }));
+}
 
 } // namespace channels_test

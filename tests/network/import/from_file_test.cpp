@@ -47,13 +47,13 @@ std::string fault_of(NetworkFile const& file) {
 
 void expect_fault(NetworkFile const& file, std::string const& words) {
     std::string const fault = fault_of(file);
-    EXPECT_NE(fault.find(words), std::string::npos) << words << "\n" << fault;
+    EXPECT_TRUE(test::has(fault, words)) << "\n";
 }
 
 } // namespace
 
 TEST(FromFile, FirstFaultIsNamedAndWhatToDo) {
-    EXPECT_NE(fault_of({}).find("holds no arcs"), std::string::npos);
+    EXPECT_TRUE(test::has(fault_of({}), "holds no arcs"));
     auto const broken = [](auto breaks, std::string const& words) {
         NetworkFile file = y_shape();
         breaks(file);

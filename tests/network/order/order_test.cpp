@@ -4,17 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <map>
 #include <numeric>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <network/networks.hpp>
+#include <network/plain_streams.hpp>
 #include <rapidcheck.h>
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 
 namespace order_test {
+
+using namespace thalweg;
+using network::order;
+using network::streams;
 
 namespace {
 
@@ -99,6 +107,46 @@ struct Plain {
     }
 };
 
+using Labels = std::vector<std::int64_t>;
+
+Labels streams_of(StreamNetwork const& network) {
+    return streams(network, order(network));
+}
+
+/// The definition: every arc runs down as long as the order stays; streams are told apart by where that ends.
+Labels walked(StreamNetwork const& network, NetworkOrders const& orders) {
+    std::vector<std::size_t> last;
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        std::size_t at = a;
+        for (std::int64_t below = network.out(network.to(at)); below >= 0; below = network.out(network.to(at))) {
+            auto const next = static_cast<std::size_t>(below);
+            if (orders.strahler[next] != orders.strahler[at]) {
+                break;
+            }
+            at = next;
+        }
+        last.push_back(at);
+    }
+    std::set<std::size_t> const ends(last.begin(), last.end());
+    Labels labels;
+    for (std::size_t const end : last) {
+        labels.push_back(1 + std::distance(ends.begin(), ends.find(end)));
+    }
+    return labels;
+}
+
+void check(StreamNetwork const& network) {
+    NetworkOrders const orders = order(network);
+    Labels const labels = streams(network, orders);
+    RC_ASSERT(labels == walked(network, orders));
+    for (std::size_t a = 0; a < labels.size(); ++a) {
+        if (std::int64_t const out = network.out(network.to(a)); out >= 0) {
+            auto const below = static_cast<std::size_t>(out);
+            RC_ASSERT((labels[a] == labels[below]) == (orders.strahler[a] == orders.strahler[below]));
+        }
+    }
+}
+
 } // namespace
 
 TEST(Order, EmptyAndOneArc) {
@@ -115,16 +163,14 @@ TEST(Order, EmptyAndOneArc) {
 }
 
 TEST(Order, RefusesWhatIsNoForest) {
-    EXPECT_NE(refusal(test::network_of({{0, 0}, {1, 2}, {5, 5}}, {{1, 0}, {1, 2}})).find("(1.000, 2.000)"),
-              std::string::npos);
+    EXPECT_TRUE(test::has(refusal(test::network_of({{0, 0}, {1, 2}, {5, 5}}, {{1, 0}, {1, 2}})), "(1.000, 2.000)"));
     // A river runs into a circle: the place named lies on the circle.
     std::string const text =
         refusal(test::network_of({{9, 9}, {1, 1}, {2, 1}, {2, 2}}, {{0, 1}, {1, 2}, {2, 3}, {3, 1}}));
-    EXPECT_NE(text.find("network.order: "), std::string::npos);
-    EXPECT_NE(text.find("circle"), std::string::npos);
-    EXPECT_EQ(text.find("(9.000, 9.000)"), std::string::npos);
-    EXPECT_NE(refusal(test::network_of({{0, 0}}, {{0, 0, {{1, 1}}}})).find("circle"), std::string::npos);
-    EXPECT_NE(refusal(test::network_of({{0, 0}, {NAN, 1}}, {{1, 0}})).find("not a number"), std::string::npos);
+    EXPECT_TRUE(test::has(text, "network.order: ", "circle"));
+    EXPECT_FALSE(test::has(text, "(9.000, 9.000)"));
+    EXPECT_TRUE(test::has(refusal(test::network_of({{0, 0}}, {{0, 0, {{1, 1}}}})), "circle"));
+    EXPECT_TRUE(test::has(refusal(test::network_of({{0, 0}, {NAN, 1}}, {{1, 0}})), "not a number"));
 }
 
 TEST(Order, ASmallTreeByHand) {
@@ -146,13 +192,6 @@ TEST(Order, ASmallTreeByHand) {
 TEST(Order, EqualPathsKeepTheLowerArc) {
     NetworkOrders const o = order(test::network_of({{0, 0}, {0, 1}, {-1, 2}, {1, 2}}, {{3, 1}, {2, 1}, {1, 0}}));
     EXPECT_EQ(o.hack, (std::vector<int>{1, 2, 1}));
-}
-
-TEST(Order, SeveralArcsIntoAnOutlet) {
-    NetworkOrders const o = order(test::network_of({{0, 0}, {1, 0}, {0, 2}}, {{1, 0}, {2, 0}}));
-    EXPECT_EQ(o.hack, (std::vector<int>{2, 1}));
-    EXPECT_EQ(o.topological, (std::vector<int>{1, 1}));
-    EXPECT_EQ(o.node_strahler[0], 1); // of what enters; nothing leaves
 }
 
 TEST(Order, EqualsTheDefinitions) {
@@ -185,6 +224,48 @@ TEST(Order, AChainOfAMillionArcs) {
     EXPECT_EQ(o.topological.back(), 1000000);
     EXPECT_EQ(o.strahler.front(), 1);
     EXPECT_EQ(o.node_dist_out_m.back(), 1e6);
+}
+
+TEST(Streams, EmptyAndOneArc) {
+    EXPECT_TRUE(streams_of(StreamNetwork()).empty());
+    EXPECT_TRUE(streams_of(test::network_of({{0, 0}, {1, 1}}, {})).empty());
+    EXPECT_EQ(streams_of(test::network_of({{0, 0}, {3, 4}, {9, 9}}, {{1, 0}})), (Labels{1}));
+}
+
+TEST(Streams, RefusesOrdersOfAnotherNetworkAndWhatIsNoTree) {
+    StreamNetwork const two = test::chain(2);
+    EXPECT_THROW(streams(two, {}), BadInput);
+    EXPECT_THROW(streams(two, order(test::chain(3))), BadInput);
+    NetworkOrders const orders = order(two);
+    EXPECT_THROW(streams(test::network_of({{0, 0}, {1, 2}, {5, 5}}, {{1, 0}, {1, 2}}), orders), BadInput);
+    EXPECT_THROW(streams(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), orders), BadInput);
+}
+
+TEST(Streams, FollowTheDefinition) {
+    ASSERT_TRUE(rc::check("forests of any shape, pseudo nodes among them", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto const nodes = *rc::gen::inRange<std::size_t>(0, 120);
+        auto const basins = *rc::gen::inRange<std::size_t>(1, 5);
+        check(test::random_forest(seed, nodes, basins));
+    }));
+}
+
+TEST(Streams, AreAsManyAsTheTreeHas) {
+    network::TokunagaTree const tree = network::grow_tokunaga({.generator = 3, .order = 4});
+    network::EmbeddedTree const embedded = network::embed_tree(
+        tree, {.region = {{0, 0}, {1000, 0}, {1000, 1000}, {0, 1000}}, .mouth = {500, 0}, .clearance = 0.1});
+    ASSERT_EQ(embedded.dropped, 0);
+    NetworkOrders const orders = order(embedded.network);
+    Labels const labels = streams(embedded.network, orders);
+    std::map<int, std::set<std::int64_t>> of_order;
+    for (std::size_t a = 0; a < labels.size(); ++a) {
+        of_order[orders.strahler[a]].insert(labels[a]);
+    }
+    auto const counted = test::plain_streams(test::down_of(tree)).streams;
+    ASSERT_EQ(of_order.size(), counted.size());
+    for (auto const& [w, count] : counted) {
+        EXPECT_EQ(static_cast<double>(of_order[w].size()), count) << w;
+    }
 }
 
 } // namespace order_test

@@ -36,15 +36,6 @@ double by_steps(Segment const& s, Segment const& t, int steps) {
 
 } // namespace
 
-TEST(SegmentGrid, DistanceOfPointsAndCrossings) {
-    EXPECT_EQ(squared_distance(Segment{{0, 0}, {0, 0}}, Segment{{3, 4}, {3, 4}}), 25.0);
-    EXPECT_EQ(squared_distance(Segment{{0, 0}, {2, 2}}, Segment{{0, 2}, {2, 0}}), 0.0);
-    EXPECT_EQ(squared_distance(Segment{{0, 0}, {2, 0}}, Segment{{2, 0}, {3, 5}}), 0.0);
-    EXPECT_EQ(squared_distance(Segment{{0, 0}, {2, 0}}, Segment{{4, 0}, {9, 0}}), 4.0);
-    EXPECT_EQ(squared_distance(Segment{{0, 0}, {9, 0}}, Segment{{3, 2}, {5, 2}}), 4.0);
-    EXPECT_EQ(squared_distance(Vec2{3, 4}, Segment{{0, 0}, {0, 0}}), 25.0);
-}
-
 TEST(SegmentGrid, DistanceAgainstSteps) {
     ASSERT_TRUE(rc::check("distance of segments", [] {
         Segment const s = any_segment();

@@ -86,13 +86,10 @@ TEST(Rasterise, AnEmptyNetworkIsAnEmptyValley) {
 TEST(Rasterise, OutsideTheGrid) {
     Grid const grid = test::frame(4, 4);
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {2.5, 2.5}, {5, 1}}, {{1, 0}, {2, 1}});
-    EXPECT_EQ(refusal(raised(net, {{1, 0}, {2, 1}}), grid),
-              "core.cells_along: vertex 0 of arc 2 at (5.000, 1.000) lies outside the grid (x 0.000 to 4.000, y 0.000 "
-              "to 4.000); enlarge the grid or clip the rivers");
-    EXPECT_NE(refusal(raised(test::network_of({{1, 1}, {NAN, 1}}, {{1, 0}}), {{1, 0}}), grid).find("outside"),
-              std::string::npos);
-    EXPECT_NE(refusal(raised(test::network_of({{1, 1}, {1e300, 1}}, {{1, 0}}), {{1, 0}}), grid).find("outside"),
-              std::string::npos);
+    EXPECT_TRUE(test::has(refusal(raised(net, {{1, 0}, {2, 1}}), grid), "vertex 0 of arc 2 at"));
+    EXPECT_TRUE(test::has(refusal(raised(test::network_of({{1, 1}, {NAN, 1}}, {{1, 0}}), {{1, 0}}), grid), "outside"));
+    EXPECT_TRUE(
+        test::has(refusal(raised(test::network_of({{1, 1}, {1e300, 1}}, {{1, 0}}), {{1, 0}}), grid), "outside"));
 }
 
 TEST(Rasterise, HeightsThatDoNotFit) {
@@ -100,7 +97,7 @@ TEST(Rasterise, HeightsThatDoNotFit) {
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {2.5, 2.5}}, {{1, 0}});
     EXPECT_NE(refusal(raised(net, {}), grid), "");
     EXPECT_NE(refusal(raised(net, {{1.0}}), grid), "");
-    EXPECT_NE(refusal(raised(net, {{NAN, 1.0}}), grid).find("not a number"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(raised(net, {{NAN, 1.0}}), grid), "not a number"));
 }
 
 TEST(Rasterise, TheOuterEdgesBelongToTheOutermostCells) {

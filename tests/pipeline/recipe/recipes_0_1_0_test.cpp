@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recipe.toml files that version 0.1.0 wrote, one of each method: they list every key of their sections, used or not.
+// Five recipe.toml files that version 0.1.0 wrote: they list every key of their sections, used or not.
 #include <thalweg/pipeline/make/make.hpp>
 
 #include <algorithm>

@@ -4,14 +4,25 @@
 
 #include <algorithm>
 #include <cmath>
+#include <fstream>
+#include <iterator>
 #include <limits>
+#include <numeric>
+#include <stdexcept>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
+#include <measure/dems.hpp>
 #include <nlohmann/json.hpp>
+#include <pipeline/awkward.hpp>
 #include <pipeline/page_decoder.hpp>
+#include <rapidcheck.h>
+#include <support.hpp>
 #include <unpacked.hpp>
 
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/pipeline/report/internal/page_template.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace page_test {
@@ -19,8 +30,16 @@ namespace page_test {
 using namespace thalweg;
 using namespace thalweg::pipeline;
 using nlohmann::json;
+using pipeline::page_cells;
+using pipeline::page_heights;
+using pipeline::page_lines;
+using pipeline::PageHeights;
+using pipeline::PageLines;
 
 namespace {
+
+using test::has;
+using test::message_of;
 
 enum class Land { with, without };
 
@@ -53,13 +72,98 @@ json row(json const& data, std::string const& name) {
     return {};
 }
 
+/// Decodes the page's heights and holds each to the mean of its square.
+void hold_to_means(Raster<float> const& dem) {
+    auto const page = page_heights(dem);
+    ASSERT_TRUE(page.has_value());
+    std::int64_t const k = page->cells;
+    ASSERT_EQ(page->width, (dem.width() + k - 1) / k);
+    ASSERT_EQ(page->height, (dem.height() + k - 1) / k);
+    auto const decoded = page_decoder::heights(page->bytes, page->width, page->height, page->min, page->max);
+    double const nearest = (page->max - page->min) / 65534.0 / 2.0;
+    double const rounding = 1e-12 * (std::fabs(page->max) + std::fabs(page->min));
+    std::int64_t nodata = 0;
+    for (std::int64_t v = 0; v < page->width * page->height; ++v) {
+        double sum = 0.0;
+        int count = 0;
+        for (std::int64_t r = v / page->width * k; r < (v / page->width + 1) * k && r < dem.height(); ++r) {
+            for (std::int64_t c = v % page->width * k; c < (v % page->width + 1) * k && c < dem.width(); ++c) {
+                if (!std::isnan(dem[Cell{c, r}])) {
+                    sum += static_cast<double>(dem[Cell{c, r}]);
+                    ++count;
+                }
+            }
+        }
+        double const z = decoded[static_cast<std::size_t>(v)];
+        nodata += count == 0;
+        ASSERT_EQ(std::isnan(z), count == 0) << v;
+        if (count > 0) {
+            ASSERT_LE(std::fabs(z - sum / count), nearest + rounding) << v;
+        }
+    }
+    ASSERT_EQ(page->nodata, nodata);
+}
+
+using Line = std::vector<Vec2>;
+
+PageLines page_of(std::vector<Line> const& lines, Grid const& grid) {
+    std::vector<std::span<Vec2 const>> const spans(lines.begin(), lines.end());
+    return page_lines(spans, grid);
+}
+
+Grid const grid{100, 80, 30.0, 500000.0, 4000000.0, ""};
+
+Vec2 in_steps(Vec2 at, PageLines const& page, Grid const& frame) {
+    double const step_m = page.step * frame.cell_m;
+    return {(at.x - frame.west) / step_m, (frame.north - at.y) / step_m};
+}
+
+bool near(Vec2 a, Vec2 b) {
+    constexpr double half = 0.5 + 1e-9;
+    return std::fabs(a.x - b.x) <= half && std::fabs(a.y - b.y) <= half;
+}
+
+/// The direction of a way between whole steps, as short as it can be written.
+std::pair<std::int64_t, std::int64_t> heading(Vec2 from, Vec2 to) {
+    auto const dx = static_cast<std::int64_t>(to.x - from.x);
+    auto const dy = static_cast<std::int64_t>(to.y - from.y);
+    std::int64_t const common = std::gcd(dx, dy);
+    return {dx / common, dy / common};
+}
+
+/// A line's vertices in whole steps without those that turn nothing.
+Line turns_of(Line const& line, PageLines const& page, Grid const& frame) {
+    Line distinct;
+    for (Vec2 const vertex : line) {
+        Vec2 const at = in_steps(vertex, page, frame);
+        Vec2 const whole{std::floor(at.x + 0.5), std::floor(at.y + 0.5)};
+        RC_ASSERT(near(whole, at));
+        if (distinct.empty() || !(distinct.back() == whole)) {
+            distinct.push_back(whole);
+        }
+    }
+    if (distinct.size() == 1) {
+        return {distinct[0], distinct[0]};
+    }
+    Line turns{distinct.front()};
+    for (std::size_t i = 1; i + 1 < distinct.size(); ++i) {
+        if (heading(distinct[i - 1], distinct[i]) != heading(distinct[i], distinct[i + 1])) {
+            turns.push_back(distinct[i]);
+        }
+    }
+    turns.push_back(distinct.back());
+    return turns;
+}
+
+std::string const bare = "@@TITLE@@@@DATA@@@@HEIGHTS@@@@LINES@@";
+
 } // namespace
 
 TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     Made const terrain = small_terrain(Land::with);
     std::string const html = page(terrain, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"});
     for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
-        EXPECT_EQ(html.find(marker), std::string::npos) << marker;
+        EXPECT_FALSE(test::has(html, marker));
     }
     json const data = data_of(html);
     json const& h = data["heights"];
@@ -231,7 +335,7 @@ TEST(Page, NoTextLeavesItsPlace) {
     terrain.assessment.findings.push_back({"uphill", 1, {}, std::numeric_limits<double>::quiet_NaN(), hostile});
     terrain.assessment.checks.push_back({hostile, std::numeric_limits<double>::quiet_NaN(), 0.0, false});
     std::string const html = page(terrain, {.contour_interval_m = 0.0, .recipe = hostile});
-    EXPECT_EQ(html.find("<script>alert"), std::string::npos);
+    EXPECT_FALSE(test::has(html, "<script>alert"));
     EXPECT_EQ(page_decoder::part(html, "@@DATA@@").find('<'), std::string::npos);
     EXPECT_EQ(page_decoder::part(html, "@@TITLE@@"),
               "&lt;/script&gt;&lt;script&gt;alert(1)&lt;/script&gt; &lt;!-- &quot;quoted&quot; &#39;it&#39; &amp; "
@@ -256,6 +360,171 @@ TEST(Page, LargeGridsAreShownByMeansAndSaySo) {
     EXPECT_EQ(data["rivers"]["step"], 0.125);
     ASSERT_EQ(data["notes"].size(), 1U);
     EXPECT_EQ(data["notes"][0], "heights are shown as means of 2x2 cells");
+}
+
+TEST(PageHeights, WithoutAHeightThereIsNoBlob) {
+    EXPECT_FALSE(page_heights(Raster<float>{}).has_value());
+    EXPECT_FALSE(page_heights(dem_of(2, {hole, hole, hole, hole})).has_value());
+}
+
+TEST(PageHeights, OneHeightIsExact) {
+    Raster<float> dem = dem_of(3, std::vector<float>(12, -0.7F));
+    dem[4] = hole;
+    auto const page = page_heights(dem);
+    ASSERT_TRUE(page.has_value());
+    EXPECT_EQ(page->nodata, 1);
+    auto const decoded = page_decoder::heights(page->bytes, 3, 4, page->min, page->max);
+    for (std::size_t i = 0; i < decoded.size(); ++i) {
+        EXPECT_TRUE(i == 4 ? std::isnan(decoded[i]) : decoded[i] == static_cast<double>(-0.7F)) << i;
+    }
+}
+
+TEST(PageHeights, AnInfiniteHeightIsRefusedByItsPlace) {
+    Raster<float> dem = dem_of(2, {1.0F, 2.0F, 3.0F, 4.0F});
+    dem[3] = std::numeric_limits<float>::infinity();
+    EXPECT_TRUE(has(message_of<BadInput>([&] { page_heights(dem); }), "column 1, row 1"));
+}
+
+TEST(PageHeights, TheSmallestSquaresThatAreFewEnough) {
+    EXPECT_EQ(page_cells(frame(1, 1)), 1);
+    EXPECT_EQ(page_cells(frame(1024, 1024)), 1);
+    EXPECT_EQ(page_cells(frame(1500, 1000)), 1);
+    EXPECT_EQ(page_cells(frame(1500, 1001)), 2);
+    EXPECT_EQ(page_cells(frame(4096, 1)), 1);
+    EXPECT_EQ(page_cells(frame(4097, 1)), 2);
+    EXPECT_EQ(page_cells(frame(1, 9000)), 3);
+    EXPECT_EQ(page_cells(frame(10000, 10000)), 9);
+}
+
+TEST(PageHeights, AnyDem) {
+    ASSERT_TRUE(rc::check("every height within half a step of its cell", [] {
+        hold_to_means([] {
+            Raster<float> dem = *gen_dem(20, 70);
+            dem[dem.cells() / 2] = 3.0F;
+            return dem;
+        }());
+        RC_ASSERT(!testing::Test::HasFatalFailure());
+    }));
+}
+
+TEST(PageHeights, RoughAndSmoothAndOneRowWithMeans) {
+    hold_to_means(rough_dem(frame(300, 200), 3));
+    hold_to_means(rough_dem(frame(1, 300), 4));
+    Raster<float> smooth =
+        test::raster_of(frame(200, 100), [&](Cell c) { return 1e4F - static_cast<float>(c.col * c.row) * 0.1F; });
+    hold_to_means(smooth);
+    for (auto const& grid : {frame(1301, 1277), frame(9001, 2), frame(1, 12300)}) {
+        Raster<float> dem = rough_dem(grid, 5);
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            Cell const c = grid.at(i);
+            if ((c.col / 5 + c.row / 3) % 4 == 0) { // whole squares and parts of them
+                dem[i] = hole;
+            }
+        }
+        hold_to_means(dem);
+    }
+}
+
+TEST(PageHeights, APlaneCostsNextToNothing) {
+    Raster<float> plane = test::raster_of(frame(256, 256), [&](Cell c) { return c.col + 2 * c.row; });
+    auto const page = page_heights(plane);
+    std::size_t small = 0;
+    for (std::size_t i = 256; i < page->bytes.size(); ++i) {
+        small += page->bytes[i] <= 4;
+    }
+    EXPECT_GT(small, page->bytes.size() * 98 / 100) << "residuals of a plane are its roundings";
+}
+
+TEST(PageLines, NoLines) {
+    PageLines const page = page_of({}, grid);
+    EXPECT_TRUE(page.vertices.empty());
+    EXPECT_TRUE(page.bytes.empty());
+    EXPECT_EQ(page.step, 0.0625);
+}
+
+TEST(PageLines, RefusesWhatIsNoLineHere) {
+    EXPECT_THROW(page_of({{}}, grid), BadInput);
+    EXPECT_THROW(page_of({{{500000.0, 4000000.0}}}, grid), BadInput);
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    EXPECT_THROW(page_of({{{500000.0, 4000000.0}, {nan, 4000000.0}}}, grid), BadInput);
+    EXPECT_TRUE(
+        has(message_of<BadInput>([&] {
+                page_of({{{500000.0, 4000000.0}, {500001.0, 4000000.0}}, {{500000.0, 4000000.0}, {1e300, 0.0}}}, grid);
+            }),
+            "vertex 1 of line 2"));
+}
+
+TEST(PageLines, BytesOfASmallOne) {
+    PageLines const page =
+        page_of({{{500000.0, 4000000.0}, {500007.5, 3999700.0}}, {{500000.0, 4000007.5}, {500000.0, 3999700.0}}}, grid);
+    EXPECT_EQ(page.vertices, (std::vector<std::int64_t>{2, 2}));
+    // 0 0, 4 160, -4 -164, 0 164
+    EXPECT_EQ(page.bytes, (std::vector<std::uint8_t>{0, 0, 8, 0xC0, 2, 7, 0xC7, 2, 0, 0xC8, 2}));
+}
+
+TEST(PageLines, EveryVertexWithinHalfAStepAndNoDrift) {
+    ASSERT_TRUE(rc::check("the decoded lines are the nearest whole steps, without what turns nothing", [] {
+        Grid frame = grid;
+        frame.width = *rc::gen::element(100, 3000, 20000);
+        frame.height = *rc::gen::element(80, 4000);
+        double const pace = *rc::gen::element(0.4, 7.0, 300.0, 20000.0);
+        std::vector<Line> lines(*rc::gen::inRange<std::size_t>(1, 6));
+        for (Line& line : lines) {
+            auto const n = *rc::gen::inRange(2, 60);
+            Vec2 at{500000.0 + *rc::gen::inRange(0, 3000), 4000000.0 - *rc::gen::inRange(0, 2400)};
+            for (int i = 0; i < n; ++i) {
+                line.push_back(at);
+                at.x += pace * *rc::gen::inRange(-4, 9) / 4.0;
+                at.y -= pace * *rc::gen::inRange(-4, 9) / 4.0;
+            }
+        }
+        PageLines const page = page_of(lines, frame);
+        RC_ASSERT(page.step == static_cast<double>(pipeline::page_cells(frame)) / 16.0);
+        auto const decoded = page_decoder::lines(page.bytes, page.vertices);
+        RC_ASSERT(decoded.size() == lines.size());
+        for (std::size_t l = 0; l < lines.size(); ++l) {
+            RC_ASSERT(decoded[l] == turns_of(lines[l], page, frame));
+        }
+    }));
+}
+
+TEST(FillPage, EachPartWhereItsMarkerStands) {
+    PageParts const parts{"t", "d", "h", "l"};
+    EXPECT_EQ(fill_page(bare, parts), "tdhl");
+    EXPECT_EQ(fill_page("0@@LINES@@1@@HEIGHTS@@2@@DATA@@3@@TITLE@@4", parts), "0l1h2d3t4");
+    EXPECT_EQ(fill_page(bare, {}), "");
+}
+
+TEST(FillPage, WhatLooksLikeAMarkerInAPartStays) {
+    EXPECT_EQ(fill_page(bare, {"@@DATA@@", "@@TITLE@@$1\\1", "@@LINES@@", "@@"}), "@@DATA@@@@TITLE@@$1\\1@@LINES@@@@");
+}
+
+TEST(FillPage, AMissingOrSecondMarkerIsAnErrorOfTheBuild) {
+    for (std::string const marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
+        std::string missing = bare;
+        missing.erase(missing.find(marker), marker.size());
+        EXPECT_THROW(fill_page(missing, {}), std::logic_error) << marker;
+        EXPECT_THROW(fill_page(bare + marker, {}), std::logic_error) << marker;
+    }
+}
+
+TEST(FillPage, TheBuiltInPageIsTheFileAndHoldsEachMarkerOnce) {
+    std::ifstream file(THALWEG_SOURCE_DIR "/web/dist/report.html", std::ios::binary);
+    std::string const bytes{std::istreambuf_iterator<char>(file), {}};
+    EXPECT_FALSE(bytes.empty());
+    EXPECT_TRUE(page_template() == bytes);
+    EXPECT_NO_THROW(fill_page(page_template(), {}));
+}
+
+TEST(Embed, AnyByteSurvives) {
+    std::string_view const bytes = thalweg::pipeline::awkward_bytes();
+    std::ifstream file(THALWEG_SOURCE_DIR "/tests/data/awkward.bin", std::ios::binary);
+    EXPECT_TRUE(bytes == std::string(std::istreambuf_iterator<char>(file), {}));
+    ASSERT_GT(bytes.size(), 256U);
+    for (int i = 0; i < 256; ++i) {
+        EXPECT_EQ(bytes[static_cast<std::size_t>(i)], static_cast<char>(i));
+    }
+    EXPECT_TRUE(test::has(bytes, "@@DATA@@)\"R\"(;[=[${x}@y@\\\\;]]"));
 }
 
 } // namespace page_test

@@ -9,6 +9,7 @@
 #include <io/sample_networks.hpp>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
 #include "command.hpp"
 
@@ -77,24 +78,18 @@ TEST(Check, TauDemsLinksWithoutLengthAreBridged) {
                                .c_str());
     };
     ASSERT_EQ(packed("net.gpkg"), 0);
-    Outcome const o = thalweg_run("check net.gpkg", place.path());
-    EXPECT_EQ(o.code, 0) << o.out << o.err;
-    EXPECT_NE(o.out.find("note: arc 1 has no length: what flows into it flows into arc 0"), std::string::npos) << o.out;
-    Outcome const fixed = thalweg_run("check net.gpkg --fix mended.gpkg --json", place.path());
-    EXPECT_EQ(fixed.code, 0) << fixed.out << fixed.err;
+    Outcome const o = expect_run(place, "check net.gpkg", 0);
+    EXPECT_TRUE(test::has(o.out, "note: arc 1 has no length: what flows into it flows into arc 0"));
+    expect_run(place, "check net.gpkg --fix mended.gpkg --json", 0);
     EXPECT_EQ(json::parse(thalweg_run("check mended.gpkg --json", place.path()).out)["arcs"], 4);
-    Outcome const converted = thalweg_run("convert net.gpkg -o native.gpkg --json", place.path());
-    EXPECT_EQ(converted.code, 0) << converted.out << converted.err;
+    Outcome const converted = expect_run(place, "convert net.gpkg -o native.gpkg --json", 0);
     EXPECT_EQ(json::parse(converted.out)["arcs"], 4);
     // Messages name the file's own ids, which begin at 0.
     place.write("net.csv", "WKT,LINKNO,DSLINKNO\n\"LINESTRING (500000 5000000,500000 5005000)\",0,-1\n"
                            "\"LINESTRING (500000 5005000,500000 5010000)\",1,-1\n");
     ASSERT_EQ(packed("wrong.gpkg"), 0);
-    Outcome const refused = thalweg_run("convert wrong.gpkg -o a.gpkg", place.path());
-    EXPECT_EQ(refused.code, 2);
-    EXPECT_NE(refused.err.find("arc 1 says that none is downstream of it, but its node"), std::string::npos)
-        << refused.err;
-    EXPECT_NE(refused.err.find("leads to 0;"), std::string::npos) << refused.err;
+    expect_run(place, "convert wrong.gpkg -o a.gpkg", 2, "arc 1 says that none is downstream of it, but its node",
+               "leads to 0;");
 }
 
 TEST(Check, FixMovesOpenEndsOnly) {
@@ -118,8 +113,7 @@ TEST(Check, FixMovesOpenEndsOnly) {
         EXPECT_NE(f["kind"], "removed") << f;
     }
     EXPECT_EQ(moved, 1) << report["mended"];
-    Outcome const again = thalweg_run("check mended.gpkg --json", place.path());
-    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    Outcome const again = expect_run(place, "check mended.gpkg --json", 0);
     EXPECT_EQ(json::parse(again.out)["arcs"], 7);
 }
 
@@ -134,11 +128,9 @@ TEST(Check, AMendedCopyKeepsEveryCurve) {
                            "' && ogr2ogr rivers.gpkg rivers.csv -a_srs EPSG:32632 -nlt GEOMETRY -nln rivers")
                               .c_str()),
               0);
-    Outcome const o = thalweg_run("check rivers.gpkg --fix mended.gpkg --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.out << o.err;
+    Outcome const o = expect_run(place, "check rivers.gpkg --fix mended.gpkg --json", 0);
     EXPECT_EQ(json::parse(o.out)["arcs"], 3);
-    Outcome const again = thalweg_run("check mended.gpkg --json", place.path());
-    EXPECT_EQ(again.code, 0) << again.out << again.err;
+    Outcome const again = expect_run(place, "check mended.gpkg --json", 0);
     EXPECT_EQ(json::parse(again.out)["arcs"], 3);
     EXPECT_EQ(json::parse(again.out)["nodes"], 4);
 }
@@ -148,8 +140,7 @@ TEST(Check, ACleanFileIsOk) {
     write_network(place);
     auto const before = all_of(place.path());
     for (std::string const name : {"net.gpkg", "net_arcs.shp", "net_nodes.shp"}) {
-        Outcome const o = thalweg_run("check --json " + name, place.path());
-        EXPECT_EQ(o.code, 0) << o.out << o.err;
+        Outcome const o = expect_run(place, "check --json " + name, 0);
         json const report = json::parse(o.out);
         EXPECT_EQ(report["ok"], true);
         EXPECT_EQ(report["arcs"], 3);
@@ -166,8 +157,7 @@ TEST(Check, AFaultIsToldMendedAndDrawn) {
     write_network(place);
     change(place / "net.gpkg", "UPDATE arcs SET strahler = 7 WHERE arc_id = 2");
     auto const before = all_of(place.path());
-    Outcome const o = thalweg_run("check net.gpkg --json --fix sound.gpkg --findings check.gpkg", place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
+    Outcome const o = expect_run(place, "check net.gpkg --json --fix sound.gpkg --findings check.gpkg", 3);
     json const report = json::parse(o.out);
     EXPECT_EQ(report["ok"], false);
     EXPECT_EQ(kinds(report["findings"]), std::vector<std::string>{"strahler_mismatch"});
@@ -199,11 +189,8 @@ TEST(Check, AMendedShapefile) {
     Workplace const place;
     write_network(place);
     change(place / "net.gpkg", "UPDATE arcs SET to_node = 1 WHERE arc_id = 3");
-    Outcome const o = thalweg_run("check net.gpkg --fix sound.shp", place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
-    EXPECT_NE(o.out.find("FAILED"), std::string::npos) << o.out;
-    EXPECT_NE(o.out.find("mended: "), std::string::npos) << o.out;
-    EXPECT_NE(o.out.find("sound_arcs.shp"), std::string::npos) << o.out;
+    Outcome const o = expect_run(place, "check net.gpkg --fix sound.shp", 3);
+    EXPECT_TRUE(test::has(o.out, "FAILED", "mended: ", "sound_arcs.shp"));
     EXPECT_EQ(thalweg_run("check sound_arcs.shp", place.path()).code, 0);
 }
 
@@ -211,8 +198,7 @@ TEST(Check, WhatCannotBeMendedIsNotWritten) {
     Workplace const place;
     write_network(place);
     change(place / "net.gpkg", "DELETE FROM arcs");
-    Outcome const o = thalweg_run("check net.gpkg --json --fix sound.gpkg", place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
+    Outcome const o = expect_run(place, "check net.gpkg --json --fix sound.gpkg", 3);
     json const report = json::parse(o.out);
     EXPECT_EQ(kinds(report["mended"]), std::vector<std::string>{"not_mended"});
     EXPECT_TRUE(report["written"].empty());
@@ -229,8 +215,7 @@ TEST(Check, TheInputIsNeverAnOutput) {
           "net_arcs.shp --fix net.shp --overwrite", "net_nodes.shp --fix net_arcs.shp --overwrite",
           "net.gpkg --fix there.gpkg", "net.gpkg --fix sound.tif", "net.gpkg --findings sound.shp",
           "net.gpkg --near -1", "net.gpkg --schema wombat", "net.gpkg --field arc_id"}) {
-        Outcome const o = thalweg_run("check " + arguments, place.path());
-        EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
+        Outcome const o = expect_run(place, "check " + arguments, 2);
         EXPECT_EQ(o.out, "") << arguments;
         EXPECT_EQ(all_of(place.path()), before) << arguments;
     }
@@ -253,10 +238,9 @@ TEST(Check, ForgedColumnsAreFound) {
             fs::copy_file(place / "net.gpkg", place / "forged.gpkg", fs::copy_options::overwrite_existing);
             std::string const by = column == "us_area" ? " + 1e9" : " + 7";
             change(place / "forged.gpkg", "UPDATE " + layer + " SET " + column + " = " + column + by);
-            Outcome const o = thalweg_run("check forged.gpkg --json", place.path());
-            EXPECT_EQ(o.code, 3) << column;
+            Outcome const o = expect_run(place, "check forged.gpkg --json", 3);
             std::string const kind = layer == "arcs" ? "column_mismatch" : "node_column_mismatch";
-            EXPECT_NE(o.out.find(kind), std::string::npos) << column;
+            EXPECT_TRUE(test::has(o.out, kind)) << column;
             bool const named = o.out.find("its " + column + " is") != std::string::npos ||
                                (column == "us_area" && o.out.find("its ds_area is") != std::string::npos);
             EXPECT_TRUE(named) << column;

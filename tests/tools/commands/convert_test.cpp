@@ -8,6 +8,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "refused.hpp"
@@ -107,14 +108,13 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     for (std::string const schema : {"native", "taudem", "nhdplus", "hydrorivers", "grass"}) {
         for (std::string const ending : {"gpkg", "shp", "fgb", "geojson", "graphml", "csv", "edges", "tif"}) {
             std::string const name = schema + "." + ending;
-            Outcome const outcome = thalweg_run("convert " + read_lines + "-o " + name + " --schema " + schema +
-                                                    " --max-upstream 2 --cell 10 -q",
-                                                place.path());
-            ASSERT_EQ(outcome.code, 0) << name << outcome.err;
+            Outcome const outcome = expect_run(
+                place,
+                "convert " + read_lines + "-o " + name + " --schema " + schema + " --max-upstream 2 --cell 10 -q", 0);
             EXPECT_EQ(outcome.err, "");
             bool const two_files = schema == "native" && (ending == "shp" || ending == "fgb" || ending == "geojson");
             std::string const first = two_files ? schema + "_arcs." + ending : name;
-            EXPECT_NE(outcome.out.find(first + "\n"), std::string::npos) << outcome.out;
+            EXPECT_TRUE(test::has(outcome.out, first + "\n"));
             if (ending == "graphml" || ending == "csv" || ending == "edges" || ending == "tif") {
                 continue;
             }
@@ -144,8 +144,7 @@ TEST(Convert, FilesWithTheColumnsOfAnotherSchemaAreRecognised) {
     std::vector<std::string> const schemas{"native", "taudem", "nhdplus", "hydrorivers", "grass"};
     std::string const options = " --max-upstream 2 -q --json --schema ";
     auto const converted_from = [&](std::string const& input, std::string const& schema, std::string const& output) {
-        Outcome const o = thalweg_run("convert " + input + " -o " + output + options + schema, place.path());
-        EXPECT_EQ(o.code, 0) << input << " to " << output << "\n" << o.err;
+        Outcome const o = expect_run(place, "convert " + input + " -o " + output + options + schema, 0);
         return o.code == 0 ? nlohmann::json::parse(o.out).at("schema").get<std::string>() : "";
     };
     for (std::string const& first : schemas) {
@@ -170,8 +169,7 @@ TEST(Convert, ColumnsOfNhdPlusKeepTheirValuesUnderAnotherName) {
     std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
     ASSERT_EQ(thalweg_run("convert '" + walker + "' -o net.shp --schema taudem --max-upstream 2 -q", place.path()).code,
               0);
-    Outcome const back = thalweg_run("convert net.shp -o back.gpkg --json -q", place.path());
-    ASSERT_EQ(back.code, 0) << back.err;
+    Outcome const back = expect_run(place, "convert net.shp -o back.gpkg --json -q", 0);
     EXPECT_EQ(nlohmann::json::parse(back.out).at("schema"), "taudem");
     std::map<std::string, int> comids;
     GDALAllRegister();
@@ -194,28 +192,26 @@ TEST(Convert, ColumnsOfNhdPlusKeepTheirValuesUnderAnotherName) {
 TEST(Convert, JsonTellsWhatBecameOfIt) {
     Workplace const place;
     place.write("rivers.geojson", lines);
-    Outcome const outcome = thalweg_run("convert " + read_lines + "-o a.gpkg --max-upstream 2 --json", place.path());
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    Outcome const outcome = expect_run(place, "convert " + read_lines + "-o a.gpkg --max-upstream 2 --json", 0);
     auto const json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json.at("written"), (std::vector<std::string>{"a.gpkg"}));
     EXPECT_EQ(json.at("split"), 1);
     EXPECT_EQ(json.at("arcs"), 7);
     EXPECT_EQ(json.at("heights"), "none");
     EXPECT_EQ(json.at("areas"), "none");
-    EXPECT_NE(outcome.err.find("--dem"), std::string::npos);
+    EXPECT_TRUE(test::has(outcome.err, "--dem"));
 }
 
 TEST(Convert, HeightsAndAreasComeFromADem) {
     Workplace const place;
     place.write("rivers.geojson", lines);
     write_plane(place);
-    Outcome const outcome = thalweg_run("convert " + read_lines + "-o a.csv --dem dem.asc --json", place.path());
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
+    Outcome const outcome = expect_run(place, "convert " + read_lines + "-o a.csv --dem dem.asc --json", 0);
     auto const json = nlohmann::json::parse(outcome.out);
     EXPECT_EQ(json.at("heights"), "dem");
     EXPECT_EQ(json.at("areas"), "d8");
     std::string const csv = file_bytes(place / "a.csv");
-    EXPECT_NE(csv.find("LINESTRING Z (500 300 30, 500 100 10)"), std::string::npos) << csv;
+    EXPECT_TRUE(test::has(csv, "LINESTRING Z (500 300 30, 500 100 10)"));
     ASSERT_EQ(thalweg_run("convert " + read_lines + "-o a.gpkg --dem dem.asc", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("check a.gpkg", place.path()).code, 0);
     ASSERT_EQ(thalweg_run("convert " + read_lines + "-o a.tif --dem dem.asc", place.path()).code, 0);
@@ -247,10 +243,8 @@ TEST(Convert, WhatIsNoTreeIsSentToCheck) {
 TEST(Convert, ADatabaseThatDoesNotAnswerIsAFailure) {
     Workplace const place;
     place.write("rivers.geojson", lines);
-    Outcome const outcome = thalweg_run(
-        "convert " + read_lines + "-o \"PG:host='" + place.path().string() + "' dbname=none\"", place.path());
-    EXPECT_EQ(outcome.code, 1) << outcome.err;
-    EXPECT_NE(outcome.err.find("cannot be reached"), std::string::npos) << outcome.err;
+    expect_run(place, "convert " + read_lines + "-o \"PG:host='" + place.path().string() + "' dbname=none\"", 1,
+               "cannot be reached");
 }
 
 TEST(Convert, MakeLeavesItsRiversInAnotherSchemaToo) {
@@ -259,11 +253,9 @@ TEST(Convert, MakeLeavesItsRiversInAnotherSchemaToo) {
         std::string(THALWEG_SOURCE_DIR) +
         "/samples/tokunaga.toml --set network.tokunaga.order=3 --set grid.width=100 --set grid.height=100";
     for (std::string const schema : {"taudem", "nhdplus", "hydrorivers", "grass"}) {
-        Outcome const made = thalweg_run("make " + small + " -q --schema " + schema + " -o " + schema, place.path());
-        ASSERT_EQ(made.code, 0) << made.err;
+        expect_run(place, "make " + small + " -q --schema " + schema + " -o " + schema, 0);
         std::string const file = schema + "/network_" + schema + ".gpkg";
-        Outcome const checked = thalweg_run("check " + file + " --json", place.path());
-        EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
+        Outcome const checked = expect_run(place, "check " + file + " --json", 0);
         auto const report = nlohmann::json::parse(checked.out);
         EXPECT_EQ(report["schema"], schema);
         auto const native = nlohmann::json::parse(file_bytes(place / (schema + "/report.json")));

@@ -14,6 +14,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogr_spatialref.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "refused.hpp"
@@ -106,8 +107,7 @@ void expect_well_formed(fs::path const& path) {
 TEST(Draw, AFolderThatMakeLeftInEveryFormat) {
     Workplace const place;
     ASSERT_EQ(thalweg_run(small, place.path()).code, 0);
-    Outcome const o = thalweg_run("draw made -o out --format png,svg,pdf --title '谷 & <valley>'", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "draw made -o out --format png,svg,pdf --title '谷 & <valley>'", 0);
     std::string lines;
     for (std::string const what : {"map", "profile", "curve", "hypsometry", "sections", "wireframe"}) {
         for (std::string const ending : {"png", "svg", "pdf"}) {
@@ -123,8 +123,7 @@ TEST(Draw, EachPictureByItself) {
     Workplace const place;
     ASSERT_EQ(thalweg_run(small, place.path()).code, 0);
     for (std::string const what : {"map", "profile", "curve", "hypsometry", "sections", "wireframe"}) {
-        Outcome const o = thalweg_run("draw made -q -o one/" + what + "_x.svg --what " + what, place.path());
-        ASSERT_EQ(o.code, 0) << o.err;
+        Outcome const o = expect_run(place, "draw made -q -o one/" + what + "_x.svg --what " + what, 0);
         EXPECT_EQ(o.out, "one/" + what + "_x.svg\n");
         EXPECT_EQ(o.err, "");
         expect_well_formed(place / ("one/" + what + "_x.svg"));
@@ -142,8 +141,7 @@ TEST(Draw, EachPictureByItself) {
 TEST(Draw, OfARasterWhatNeedsNoRivers) {
     Workplace const place;
     make_dem(place, "hill.tif", {}, hill);
-    Outcome const o = thalweg_run("draw hill.tif -o out --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "draw hill.tif -o out --json", 0);
     auto const said = nlohmann::json::parse(o.out);
     EXPECT_EQ(said["files"].size(), 4U);
     EXPECT_EQ(names_in(place / "out"), "hypsometry.png map.png sections.png wireframe.png");
@@ -162,13 +160,11 @@ TEST(Draw, RiversFromAnyLineFile) {
         R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
         R"("features":[{"type":"Feature","id":1,"properties":{},"geometry":{"type":"LineString",)"
         R"("coordinates":[[500600,4999500],[500600,4990000]]}}]})");
-    Outcome const o = thalweg_run("draw hill.tif --network rivers.geojson -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "draw hill.tif --network rivers.geojson -o out", 0);
     EXPECT_EQ(names_in(place / "out"), "hypsometry.png map.png profile.png sections.png wireframe.png");
     make_dem(place, "far.tif", {40, 30, 32631, 30.0, 600000.0, 5000000.0}, hill);
-    Outcome const far = thalweg_run("draw far.tif --network rivers.geojson -o far", place.path());
-    EXPECT_EQ(far.code, 0);
-    EXPECT_NE(far.err.find("no river of rivers.geojson runs on the DEM"), std::string::npos) << far.err;
+    Outcome const far = expect_run(place, "draw far.tif --network rivers.geojson -o far", 0,
+                                   "no river of rivers.geojson runs on the DEM");
     EXPECT_FALSE(fs::exists(place / "far/profile.png"));
     expect_refused(place, "draw far.tif --network rivers.geojson --what profile -o p", "no profile can be drawn");
 }
@@ -176,17 +172,16 @@ TEST(Draw, RiversFromAnyLineFile) {
 TEST(Draw, AReportPageOfAnyRaster) {
     Workplace const place;
     make_dem(place, "it's.tif", {}, hill);
-    Outcome const o = thalweg_run("draw \"it's.tif\" -o hill.html --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "draw \"it's.tif\" -o hill.html --json", 0);
     EXPECT_EQ(nlohmann::json::parse(o.out)["files"][0], "hill.html");
     std::string const page = file_bytes(place / "hill.html");
-    EXPECT_NE(page.find(R"("command":"thalweg draw 'it'\\''s.tif' -o hill.html --what page")"), std::string::npos);
-    EXPECT_EQ(page.find("@@"), std::string::npos);
+    EXPECT_TRUE(test::has(page, R"("command":"thalweg draw 'it'\\''s.tif' -o hill.html --what page")"));
+    EXPECT_FALSE(test::has(page, "@@"));
 
     ASSERT_EQ(thalweg_run(small, place.path()).code, 0);
     ASSERT_EQ(thalweg_run("draw made -o made --what page,map", place.path()).code, 2); // map.png is there
     ASSERT_EQ(thalweg_run("draw made -o made --what page", place.path()).code, 0);
-    EXPECT_NE(file_bytes(place / "made/page.html").find("\"strahler\":["), std::string::npos);
+    EXPECT_TRUE(test::has(file_bytes(place / "made/page.html"), "\"strahler\":["));
     expect_refused(place, "draw made -o made --what page", "already exists");
     expect_refused(place, "draw made -o x.html --what map", "name of a page");
     expect_refused(place, "draw made -o x.png --what page", "name of one picture");
@@ -203,8 +198,7 @@ TEST(Draw, LandThatIsHardlyLand) {
     make_dem(place, "row.tif", {50, 1}, [](int x, int) { return 3.0 * x; });
     make_dem(place, "level.tif", {}, [](int, int) { return 8848.0; });
     for (std::string const name : {"holes", "cell", "row", "level"}) {
-        Outcome const o = thalweg_run("draw " + name + ".tif -o " + name + " --format svg,png", place.path());
-        ASSERT_EQ(o.code, 0) << name << "\n" << o.err;
+        expect_run(place, "draw " + name + ".tif -o " + name + " --format svg,png", 0);
         for (std::string const what : {"map", "hypsometry", "sections", "wireframe"}) {
             expect_well_formed(place / (name + "/" + what + ".svg"));
             expect_well_formed(place / (name + "/" + what + ".png"));
@@ -217,13 +211,9 @@ TEST(Draw, LandThatIsHardlyLand) {
 TEST(Draw, GeographicRastersAreWarpedAndItIsSaid) {
     Workplace const place;
     make_dem(place, "globe.tif", {40, 30, 4326, 0.001, 3.0, 45.0}, hill);
-    Outcome const o = thalweg_run("draw globe.tif -o out", place.path());
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("UTM zone 31N"), std::string::npos) << o.err;
+    Outcome const o = expect_run(place, "draw globe.tif -o out", 0, "UTM zone 31N");
     make_dem(place, "plain.tif", {40, 30, 0}, hill);
-    Outcome const plain = thalweg_run("draw plain.tif -o plain", place.path());
-    EXPECT_EQ(plain.code, 0) << plain.err;
-    EXPECT_NE(plain.err.find("drawn as metres"), std::string::npos) << plain.err;
+    expect_run(place, "draw plain.tif -o plain", 0, "drawn as metres");
 }
 
 TEST(Draw, LargeRastersAreDecimatedWithinMemory) {
@@ -235,9 +225,7 @@ TEST(Draw, LargeRastersAreDecimatedWithinMemory) {
                 "<SimpleSource><SourceFilename relativeToVRT='1'>hill.tif</SourceFilename><SourceBand>1</SourceBand>"
                 "<SrcRect xOff='0' yOff='0' xSize='40' ySize='30'/><DstRect xOff='0' yOff='0' xSize='20000' "
                 "ySize='20000'/></SimpleSource></VRTRasterBand></VRTDataset>");
-    Outcome const o = thalweg_run("draw large.vrt --what map -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("means of 5x5 cells"), std::string::npos) << o.err;
+    expect_run(place, "draw large.vrt --what map -o out", 0, "means of 5x5 cells");
     rusage used{};
     getrusage(RUSAGE_CHILDREN, &used);
     EXPECT_LT(used.ru_maxrss, 2L << 20) << "kilobytes";
@@ -274,8 +262,7 @@ TEST(Draw, NothingIsOverwrittenUnasked) {
     expect_refused(place, "draw hill.tif -o out", "already exists");
     expect_refused(place, "draw hill.tif -o out/map.png", "already exists");
     EXPECT_EQ(names_in(place / "out"), "letter.txt map.png");
-    Outcome const o = thalweg_run("draw hill.tif -o out --what map,wireframe --overwrite", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "draw hill.tif -o out --what map,wireframe --overwrite", 0);
     expect_well_formed(place / "out/map.png");
     EXPECT_EQ(file_bytes(place / "out/letter.txt"), "mine");
     EXPECT_EQ(names_in(place / "out"), "letter.txt map.png wireframe.png");
@@ -289,8 +276,7 @@ TEST(Draw, AFolderWithoutASurfaceHasItsProfile) {
     Workplace const place;
     place.write("r.toml", "[network]\nprune = 4\n[network.dla]\nparticles = 400\n");
     ASSERT_EQ(thalweg_run("make r.toml -q -o made", place.path()).code, 0);
-    Outcome const o = thalweg_run("draw made -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "draw made -o out", 0);
     EXPECT_EQ(names_in(place / "out"), "profile.png");
     expect_refused(place, "draw made -o map.png", "there is no DEM");
 }

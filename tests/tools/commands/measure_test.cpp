@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "refused.hpp"
@@ -60,8 +61,7 @@ void write_plane(Workplace const& place) {
 TEST(Measure, AreasAndDirectionsOfADem) {
     Workplace const place;
     write_plane(place);
-    Outcome const o = thalweg_run("measure dem.asc --what d8,dinf,directions -o out --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "measure dem.asc --what d8,dinf,directions -o out --json", 0);
     auto const json = nlohmann::json::parse(o.out);
     EXPECT_EQ(json["cells"], 11);
     EXPECT_EQ(json["area_m2"], 1100.0);
@@ -85,10 +85,10 @@ TEST(Measure, CatchmentsOfAnyonesRivers) {
     ASSERT_EQ(std::system(
                   ("cd " + place.path().string() + " && gdal_translate -q -a_srs EPSG:32631 dem.asc dem.tif").c_str()),
               0);
-    Outcome const o = thalweg_run("measure dem.tif rivers.geojson --field arc_id=line --field ds_arc=next --what "
-                                  "catchments -o out --json",
-                                  place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place,
+                                 "measure dem.tif rivers.geojson --field arc_id=line --field ds_arc=next --what "
+                                 "catchments -o out --json",
+                                 0);
     auto const json = nlohmann::json::parse(o.out)["catchments"];
     EXPECT_EQ(json["count"], 2);
     EXPECT_EQ(json["arcs_cut"], 1);
@@ -108,23 +108,22 @@ TEST(Measure, CatchmentsOfAnyonesRivers) {
         std::system(
             ("cd " + place.path().string() + " && ogr2ogr -t_srs EPSG:3857 mercator.gpkg rivers.geojson").c_str()),
         0);
-    Outcome const far = thalweg_run("measure dem.tif mercator.gpkg --field arc_id=line --field ds_arc=next --what "
-                                    "catchments -o far --json",
-                                    place.path());
-    ASSERT_EQ(far.code, 0) << far.err;
+    Outcome const far = expect_run(place,
+                                   "measure dem.tif mercator.gpkg --field arc_id=line --field ds_arc=next --what "
+                                   "catchments -o far --json",
+                                   0);
     EXPECT_EQ(nlohmann::json::parse(far.out)["catchments"], json);
-    EXPECT_NE(nlohmann::json::parse(far.out)["notes"].dump().find("were reprojected from"), std::string::npos);
+    EXPECT_TRUE(test::has(nlohmann::json::parse(far.out)["notes"].dump(), "were reprojected from"));
 }
 
 TEST(Measure, CatchmentsOfAFolderAreThoseThatMakeLeft) {
     Workplace const place;
-    Outcome const made = thalweg_run("make -q --set grid.width=64 --set grid.height=64 --set "
-                                     "network.dla.particles=400 --set network.prune=4 --set output.accumulation=true "
-                                     "-o land",
-                                     place.path());
-    ASSERT_EQ(made.code, 0) << made.err;
-    Outcome const o = thalweg_run("measure land -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    expect_run(place,
+               "make -q --set grid.width=64 --set grid.height=64 --set "
+               "network.dla.particles=400 --set network.prune=4 --set output.accumulation=true "
+               "-o land",
+               0);
+    Outcome const o = expect_run(place, "measure land -o out", 0);
     EXPECT_EQ(o.out, "out/area_d8.tif\nout/area_dinf.tif\nout/catchments.gpkg\n");
     for (std::string const name : {"area_d8.tif", "area_dinf.tif", "catchments.gpkg"}) {
         EXPECT_TRUE(file_bytes(place / ("land/" + name)) == file_bytes(place / ("out/" + name))) << name;

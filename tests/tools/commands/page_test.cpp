@@ -6,6 +6,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <pipeline/page_decoder.hpp>
+#include <support.hpp>
 #include <unpacked.hpp>
 
 #include "command.hpp"
@@ -27,12 +28,11 @@ nlohmann::json data_of(std::string const& page) {
 
 TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
     Workplace const place;
-    Outcome const o = thalweg_run(small + "-o out --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("open       out/report.html   (no internet needed)\n"), std::string::npos) << o.err;
+    Outcome const o =
+        expect_run(place, small + "-o out --json", 0, "open       out/report.html   (no internet needed)\n");
     std::string const page = file_bytes(place / "out/report.html");
     for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
-        EXPECT_EQ(page.find(marker), std::string::npos) << marker;
+        EXPECT_FALSE(test::has(page, marker));
     }
     auto const report = nlohmann::json::parse(o.out);
     auto const& files = report["files"];
@@ -55,9 +55,8 @@ TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
 
     // Times differ: replay looks at neither report.
     place.write("out/report.html", page + "<!-- -->");
-    Outcome const replay = thalweg_run("replay out", place.path());
-    EXPECT_EQ(replay.code, 0) << replay.out;
-    EXPECT_EQ(replay.out.find("report."), std::string::npos) << replay.out;
+    Outcome const replay = expect_run(place, "replay out", 0);
+    EXPECT_FALSE(test::has(replay.out, "report."));
 
     // The command on the page makes the same land again.
     auto const command = data["command"].get<std::string>();
@@ -71,10 +70,9 @@ TEST(ReportPage, ATitleCannotLeaveItsPlace) {
     Workplace const place;
     place.write("r.toml", "[grid]\nwidth = 64\nheight = 48\n[network]\nprune = 4\n[network.dla]\nparticles = 400\n"
                           "[surface]\n[output]\ntitle = '''</script><script>alert(1) \"q\" 'q' & 流域'''\n");
-    Outcome const o = thalweg_run("make r.toml -o out -q", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    expect_run(place, "make r.toml -o out -q", 0);
     std::string const page = file_bytes(place / "out/report.html");
-    EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+    EXPECT_FALSE(test::has(page, "<script>alert"));
     EXPECT_EQ(page_decoder::part(page, "@@TITLE@@"),
               "&lt;/script&gt;&lt;script&gt;alert(1) &quot;q&quot; &#39;q&#39; &amp; 流域");
     EXPECT_EQ(data_of(page)["title"], "</script><script>alert(1) \"q\" 'q' & 流域");
@@ -83,8 +81,7 @@ TEST(ReportPage, ATitleCannotLeaveItsPlace) {
 TEST(ReportPage, WithoutASurface) {
     Workplace const place;
     place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
-    Outcome const o = thalweg_run("make r.toml -o out -q", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    expect_run(place, "make r.toml -o out -q", 0);
     std::string const page = file_bytes(place / "out/report.html");
     EXPECT_TRUE(data_of(page)["heights"].is_null());
     EXPECT_EQ(page_decoder::part(page, "@@HEIGHTS@@"), "");
@@ -92,8 +89,7 @@ TEST(ReportPage, WithoutASurface) {
 
 TEST(ReportPage, TheSampleStaysBelowThreeMegabytes) {
     Workplace const place;
-    Outcome const o = thalweg_run("make " THALWEG_SOURCE_DIR "/samples/dla.toml -o out -q", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    expect_run(place, "make " THALWEG_SOURCE_DIR "/samples/dla.toml -o out -q", 0);
     EXPECT_LT(fs::file_size(place / "out/report.html"), 3'000'000U);
 }
 

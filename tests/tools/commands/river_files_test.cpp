@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
 #include <thalweg/core/numbers/random.hpp>
 
@@ -140,8 +141,7 @@ void mended(Workplace const& place, std::string const& input, std::int64_t count
 
 /// make, check, check --fix: exit 0, 0, and a mended copy without faults. Gives the report.
 json made(Workplace const& place, std::string const& input, std::int64_t count, std::string const& options = "") {
-    Outcome const o = thalweg_run("make '" + input + "' -o out" + options, place.path());
-    EXPECT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "make '" + input + "' -o out" + options, 0);
     if (o.code != 0) {
         return {};
     }
@@ -149,11 +149,9 @@ json made(Workplace const& place, std::string const& input, std::int64_t count, 
     expect_checks_hold(report);
     expect_all_found(place / "out/network.gpkg", count);
     expect_sources_cover_arcs(place / "out/network.gpkg");
-    Outcome const split = thalweg_run("convert out -o split.gpkg --max-upstream 2", place.path());
-    EXPECT_EQ(split.code, 0) << split.err;
+    Outcome const split = expect_run(place, "convert out -o split.gpkg --max-upstream 2", 0);
     expect_sources_cover_arcs(place / "split.gpkg");
-    Outcome const checked = thalweg_run("check out --dem out/dem.tif", place.path());
-    EXPECT_EQ(checked.code, 0) << checked.out;
+    expect_run(place, "check out --dem out/dem.tif", 0);
     mended(place, input, count);
     return report;
 }
@@ -372,14 +370,10 @@ TEST(RiverFiles, OutletsOfAFileWithoutCoastlinesAreCarriedWithAWarningOrMakeACoa
     Workplace const place;
     std::string const coastal = THALWEG_SOURCE_DIR "/samples/coastal_nhdplus.gpkg";
     std::string const without = "make '" + coastal + "' --set grid.cell=90 --set network.lines.coastlines=none -o ";
-    Outcome const carried = thalweg_run(without + "carried", place.path());
-    EXPECT_EQ(carried.code, 0);
-    EXPECT_NE(carried.err.find("29 rivers end inside the grid"), std::string::npos) << carried.err;
-    EXPECT_NE(carried.err.find("network.inland=coast"), std::string::npos) << carried.err;
-    Outcome const coast = thalweg_run(without + "coast --set network.inland=coast", place.path());
-    EXPECT_EQ(coast.code, 0) << coast.err;
-    EXPECT_EQ(coast.err.find("were extended by"), std::string::npos) << coast.err;
-    EXPECT_EQ(coast.err.find("are not in the network"), std::string::npos) << coast.err;
+    expect_run(place, without + "carried", 0, "29 rivers end inside the grid", "network.inland=coast");
+    Outcome const coast = expect_run(place, without + "coast --set network.inland=coast", 0);
+    EXPECT_FALSE(test::has(coast.err, "were extended by"));
+    EXPECT_FALSE(test::has(coast.err, "are not in the network"));
     EXPECT_NEAR(share_without_data(place / "coast/dem.tif"), 0.37, 0.04); // as the coastlines say
     EXPECT_EQ(thalweg_run("check coast/network.gpkg --dem coast/dem.tif", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("replay coast --verify", place.path()).code, 0);
@@ -409,7 +403,7 @@ TEST(RiverFiles, ABraidedRiver) {
     Outcome const strict =
         thalweg_run("make braided.geojson -o no --set network.lines.divergences=error", place.path());
     EXPECT_EQ(strict.code, 2);
-    EXPECT_NE(strict.err.find("cycle"), std::string::npos) << strict.err;
+    EXPECT_TRUE(test::has(strict.err, "cycle"));
 }
 
 TEST(RiverFiles, WaysOfOpenStreetMap) {
@@ -428,9 +422,7 @@ TEST(RiverFiles, WaysOfOpenStreetMap) {
         EXPECT_EQ(reasons["tunnel flooded"], 1);
         EXPECT_EQ(reasons["closed ring"], 1);
         // Without a mended copy the links are asked for.
-        Outcome const asked = thalweg_run("check osm.geojson", place.path());
-        EXPECT_EQ(asked.code, 2);
-        EXPECT_NE(asked.err.find("match no schema"), std::string::npos) << asked.err;
+        expect_run(place, "check osm.geojson", 2, "match no schema");
     }
 }
 

@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "report.hpp"
@@ -128,16 +129,12 @@ void same_bytes(fs::path const& a, fs::path const& b) {
 void sample(std::string const& name) {
     Workplace const place;
     std::string const recipe = THALWEG_SOURCE_DIR "/samples/" + name + ".toml";
-    Outcome const one = thalweg_run("make " + recipe + " -o one --threads 1", place.path());
-    ASSERT_EQ(one.code, 0) << one.err;
-    Outcome const two = thalweg_run("make " + recipe + " -o two --threads 2", place.path());
-    ASSERT_EQ(two.code, 0) << two.err;
+    Outcome const one = expect_run(place, "make " + recipe + " -o one --threads 1", 0);
+    Outcome const two = expect_run(place, "make " + recipe + " -o two --threads 2", 0);
     hold_to_contract(place / "one");
     same_bytes(place / "one", place / "two");
-    Outcome const replay = thalweg_run("replay one --verify", place.path());
-    EXPECT_EQ(replay.code, 0) << replay.out << replay.err;
-    Outcome const check = thalweg_run("check one", place.path());
-    EXPECT_EQ(check.code, 0) << check.out << check.err;
+    expect_run(place, "replay one --verify", 0);
+    expect_run(place, "check one", 0);
 }
 
 } // namespace
@@ -167,13 +164,13 @@ TEST(Samples, EveryIncrementAndMetric) {
     Workplace const place;
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "'3-0.01*x'"}) {
         for (char const* metric : {"cityblock", "euclid"}) {
-            Outcome const o = thalweg_run(
+            expect_run(
+                place,
                 std::string("make --set grid.width=120 --set grid.height=90 "
                             "--set network.dla.particles=2000 --set network.prune=20 --set surface.method=dilate "
                             "--set surface.metric=") +
                     metric + " --set surface.increment=" + increment + " --overwrite -o out -q",
-                place.path());
-            EXPECT_EQ(o.code, 0) << o.err;
+                0);
             hold_to_contract(place / "out");
         }
     }
@@ -183,11 +180,11 @@ TEST(Samples, EveryBranchAndHeight) {
     Workplace const place;
     for (char const* branch : {"largest", "north", "east", "south", "west", "all"}) {
         for (char const* heights : {"straight_repaired", "along_stream"}) {
-            Outcome const o = thalweg_run(std::string("make --set network.dla.particles=3000 --set network.prune=8 "
-                                                      "--set surface.method=dilate --set network.dla.branch=") +
-                                              branch + " --set network.heights=" + heights + " --overwrite -o out -q",
-                                          place.path());
-            EXPECT_EQ(o.code, 0) << branch << o.err;
+            expect_run(place,
+                       std::string("make --set network.dla.particles=3000 --set network.prune=8 "
+                                   "--set surface.method=dilate --set network.dla.branch=") +
+                           branch + " --set network.heights=" + heights + " --overwrite -o out -q",
+                       0);
             hold_to_contract(place / "out");
         }
     }
@@ -195,11 +192,10 @@ TEST(Samples, EveryBranchAndHeight) {
 
 TEST(Samples, EvenSlopesInEquilibriumTerrainStandOnWalls) {
     Workplace const place;
-    Outcome const o = thalweg_run("make --set network.dla.particles=3000 --set network.prune=8 "
-                                  "--set network.heights=along_stream -o out",
-                                  place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
-    EXPECT_NE(o.err.find("river cells stand on walls"), std::string::npos) << o.err;
+    expect_run(place,
+               "make --set network.dla.particles=3000 --set network.prune=8 "
+               "--set network.heights=along_stream -o out",
+               3, "river cells stand on walls");
     auto const report = report_of(place / "out");
     for (auto const& check : report["checks"]) {
         EXPECT_EQ(check["ok"].get<bool>(), check["name"] != "walled_cells") << check;
@@ -216,8 +212,7 @@ TEST(Samples, FrameLeftOutReplaysToTheSameBytes) {
 TEST(Samples, WithoutASurfaceOnlyTheNetworkIsMade) {
     Workplace const place;
     place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
-    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "make r.toml -o out -q --json", 0);
     auto const report = nlohmann::json::parse(o.out);
     EXPECT_FALSE(report.contains("dem"));
     EXPECT_EQ(report["network"]["area_from"], "nearest");
@@ -252,8 +247,7 @@ TEST(Samples, HeightsOfTheFileAreKeptAndTheOutletGoesOnDown) {
     Workplace const place;
     place.write("r.geojson", rivers_with_heights);
     place.write("r.toml", lines_recipe("", ""));
-    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, "make r.toml -o out -q --json", 0);
     hold_to_contract(place / "out");
     auto const report = nlohmann::json::parse(o.out);
     EXPECT_EQ(report["recipe"]["network"]["heights"], "file");
@@ -278,8 +272,7 @@ TEST(Samples, ClippedRiversAndAMask) {
     place.write("r.toml", lines_recipe(grid, ""));
     EXPECT_EQ(thalweg_run("make r.toml -o out -q", place.path()).code, 2);
     place.write("r.toml", lines_recipe(grid + "clip = true\n", ""));
-    Outcome const clipped = thalweg_run("make r.toml -o out -q", place.path());
-    ASSERT_EQ(clipped.code, 0) << clipped.err;
+    expect_run(place, "make r.toml -o out -q", 0);
     hold_to_contract(place / "out");
 
     // A mask that leaves out the outermost column in the east, where no river runs.
@@ -299,8 +292,7 @@ TEST(Samples, ClippedRiversAndAMask) {
             CE_None);
     }
     place.write("r.toml", lines_recipe(grid + "clip = true\n", "mask = \"mask.tif\"\n"));
-    Outcome const masked = thalweg_run("make r.toml --set network.heights=graded -o masked -q --json", place.path());
-    ASSERT_EQ(masked.code, 0) << masked.err;
+    Outcome const masked = expect_run(place, "make r.toml --set network.heights=graded -o masked -q --json", 0);
     EXPECT_EQ(nlohmann::json::parse(masked.out)["dem"]["nodata"], 39);
     hold_to_contract(place / "masked");
     EXPECT_EQ(thalweg_run("replay masked", place.path()).code, 0);

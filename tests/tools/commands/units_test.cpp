@@ -11,6 +11,7 @@
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <ogrsf_frmts.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "report.hpp"
@@ -31,8 +32,7 @@ void run_gdal(std::string const& command, Workplace const& place) {
 }
 
 json made(Workplace const& place, std::string const& arguments, std::string const& folder) {
-    Outcome const o = thalweg_run("make " + arguments + " -o " + folder, place.path());
-    EXPECT_EQ(o.code, 0) << arguments << "\n" << o.err;
+    Outcome const o = expect_run(place, "make " + arguments + " -o " + folder, 0);
     if (o.code != 0) {
         return {};
     }
@@ -179,20 +179,18 @@ TEST(Units, WideExtentsAreWarnedOfOrGetAnotherProjection) {
     place.write("wide.geojson", along_parallel(0.0, 20.0));
     place.write("wider.geojson", along_parallel(-10.0, 40.0));
     auto const words_of = [&](std::string const& name) {
-        Outcome const o = thalweg_run("make " + name + ".geojson -o " + name + " --set grid.cell=10000", place.path());
-        EXPECT_EQ(o.code, 0) << o.err;
+        Outcome const o = expect_run(place, "make " + name + ".geojson -o " + name + " --set grid.cell=10000", 0);
         EXPECT_EQ(thalweg_run("check " + name + " --dem " + name + "/dem.tif", place.path()).code, 0) << name;
         EXPECT_EQ(thalweg_run("replay " + name + " --verify", place.path()).code, 0) << name;
         return o.err;
     };
-    EXPECT_EQ(words_of("narrow").find("beyond its UTM zone"), std::string::npos);
+    EXPECT_FALSE(test::has(words_of("narrow"), "beyond its UTM zone"));
     std::string const wide = words_of("wide");
-    EXPECT_NE(wide.find("warning: the grid reaches far beyond its UTM zone EPSG:32632"), std::string::npos) << wide;
-    EXPECT_NE(wide.find("--crs"), std::string::npos) << wide;
+    EXPECT_TRUE(test::has(wide, "warning: the grid reaches far beyond its UTM zone EPSG:32632", "--crs"));
     EXPECT_TRUE(tells(report_of(place / "wide"), "too long there"));
     std::string const wider = words_of("wider");
-    EXPECT_NE(wider.find("reprojected into Equal area around 15, 48"), std::string::npos) << wider;
-    EXPECT_EQ(wider.find("beyond its UTM zone"), std::string::npos) << wider;
+    EXPECT_TRUE(test::has(wider, "reprojected into Equal area around 15, 48"));
+    EXPECT_FALSE(test::has(wider, "beyond its UTM zone"));
     // The folder's own rivers make the same terrain, and other formats hold the projection.
     EXPECT_EQ(thalweg_run("make wider -o again --set grid.cell=10000", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("convert wider -o wider.shp --schema hydrorivers", place.path()).code, 0);
@@ -205,8 +203,7 @@ TEST(Units, WhatIsInFeetIsReadAsSuch) {
     made(place, rivers, "m");
     made(place, rivers + " --units ft", "ft");
     for (std::string const network : {"ft", "ft/network_arcs.shp"}) {
-        Outcome const check = thalweg_run("check " + network + " --dem ft/dem.tif --json", place.path());
-        EXPECT_EQ(check.code, 0) << network << check.out << check.err;
+        Outcome const check = expect_run(place, "check " + network + " --dem ft/dem.tif --json", 0);
         json const found = json::parse(check.out);
         json const other = json::parse(thalweg_run("check m --dem m/dem.tif --json", place.path()).out);
         EXPECT_EQ(found["certificate"]["traced"][1], other["certificate"]["traced"][1]) << network;
@@ -278,10 +275,7 @@ TEST(Units, RiversInSurveyFeetWithHeightsInSurveyFeet) {
 TEST(Units, DegreesAreSaid) {
     Workplace const place;
     run_gdal("ogr2ogr -t_srs EPSG:4326 d.gpkg '" + walker + "'", place);
-    Outcome const o = thalweg_run("make d.gpkg --set grid.cell=90 -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("coordinates in WGS 84 (degrees) are reprojected into EPSG:32610"), std::string::npos)
-        << o.err;
+    expect_run(place, "make d.gpkg --set grid.cell=90 -o out", 0, "coordinates in WGS 84");
     // A DEM in feet that is pasted comes in metres.
     run_gdal("gdal_translate -co COMPRESS=DEFLATE '" THALWEG_SOURCE_DIR
              "/samples/bigtujunga_srtm1_utm11.tif' piece.tif && gdal_edit.py -units ft piece.tif",
@@ -296,49 +290,36 @@ TEST(Units, DegreesAreSaid) {
 TEST(Units, MetresOfWebMercatorAreNone) {
     Workplace const place;
     run_gdal("ogr2ogr -t_srs EPSG:3857 w.gpkg '" + walker + "'", place);
-    Outcome const o = thalweg_run("make w.gpkg --set grid.cell=90 -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(
-        o.err.find("coordinates in WGS 84 / Pseudo-Mercator (metres of 0.786 m on the ground) are reprojected into "
-                   "EPSG:32610"),
-        std::string::npos)
-        << o.err;
+    Outcome const o = expect_run(place, "make w.gpkg --set grid.cell=90 -o out", 0);
+    EXPECT_TRUE(test::has(o.err, "coordinates in WGS 84 / Pseudo-Mercator"));
     json const own = made(place, "'" + walker + "' --set grid.cell=90", "own");
     double const length = own["network"]["length_m"];
     EXPECT_NEAR(report_of(place / "out")["network"]["length_m"].get<double>(), length, 0.03 * length);
     // A CRS that is named stays, with a warning, and the folder is read as it was made.
-    Outcome const named = thalweg_run("make w.gpkg --crs EPSG:3857 --set grid.cell=115 -o named", place.path());
-    EXPECT_EQ(named.code, 0) << named.err;
-    EXPECT_NE(named.err.find("warning: metres of the grid's CRS, EPSG:3857, are 0.786 m on the ground"),
-              std::string::npos)
-        << named.err;
+    Outcome const named = expect_run(place, "make w.gpkg --crs EPSG:3857 --set grid.cell=115 -o named", 0,
+                                     "warning: metres of the grid's CRS");
     EXPECT_EQ(thalweg_run("check named --dem named/dem.tif", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("replay named --verify", place.path()).code, 0);
     EXPECT_EQ(thalweg_run("draw named -o pictures", place.path()).code, 0);
 
     // A DEM is warped where the cells are not returned, else refused with the command that warps it.
     run_gdal("gdalwarp -t_srs EPSG:3857 -dstnodata -9999 out/dem.tif w.tif", place);
-    Outcome const stats = thalweg_run("stats w.tif --json", place.path());
-    ASSERT_EQ(stats.code, 0) << stats.err;
-    EXPECT_NE(stats.err.find("EPSG:3857, whose metres are 0.79 m on the ground, are reprojected into EPSG:32610"),
-              std::string::npos)
-        << stats.err;
+    Outcome const stats = expect_run(place, "stats w.tif --json", 0);
+    EXPECT_TRUE(test::has(stats.err, "EPSG:3857, whose metres are 0.79 m on the ground"));
     double const slope = json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out)["slope_true_deg"];
     EXPECT_NEAR(json::parse(stats.out)["slope_true_deg"].get<double>(), slope, 0.15 * slope);
     Outcome const recipe = thalweg_run("stats w.tif --recipe", place.path());
-    EXPECT_EQ(recipe.out.find("3857"), std::string::npos) << recipe.out;
+    EXPECT_FALSE(test::has(recipe.out, "3857"));
     for (std::string const arguments :
          {"measure w.tif -o m", "points w.tif -o p.xyz", "tin w.tif -o t.obj", "check out --dem w.tif"}) {
-        Outcome const refused = thalweg_run(arguments, place.path());
-        EXPECT_EQ(refused.code, 2) << arguments;
-        EXPECT_NE(refused.err.find("gdalwarp -t_srs EPSG:32610 w.tif"), std::string::npos) << refused.err;
+        expect_run(place, arguments, 2, "gdalwarp -t_srs EPSG:32610 w.tif");
     }
     // Pasted it is warped to the target, which tells where it lies; laid elsewhere its size would be unknown.
     EXPECT_EQ(thalweg_run("blend out/dem.tif w.tif -o b.tif --window 20,20,30,30", place.path()).code, 0);
     Outcome const far =
         thalweg_run("blend w.tif '" THALWEG_SOURCE_DIR "/samples/bigtujunga_srtm1_utm11.tif' -o c.tif", place.path());
     EXPECT_EQ(far.code, 2);
-    EXPECT_NE(far.err.find("gdalwarp -t_srs EPSG:32610"), std::string::npos) << far.err;
+    EXPECT_TRUE(test::has(far.err, "gdalwarp -t_srs EPSG:32610"));
 }
 
 TEST(Units, ACrsWithoutACodeIsKeptWithoutAWord) {
@@ -351,7 +332,7 @@ TEST(Units, ACrsWithoutACodeIsKeptWithoutAWord) {
         place);
     json const report = made(place, "albers.gpkg --set grid.cell=80", "out");
     EXPECT_FALSE(tells(report, "reprojected"));
-    EXPECT_NE(report["recipe"]["grid"]["crs"].get<std::string>().find("Albers"), std::string::npos);
+    EXPECT_TRUE(test::has(report["recipe"]["grid"]["crs"].get<std::string>(), "Albers"));
     json const utm = made(place, "albers.gpkg --set grid.cell=80 --crs EPSG:32610", "utm");
     EXPECT_TRUE(tells(utm, "are reprojected into EPSG:32610"));
 }

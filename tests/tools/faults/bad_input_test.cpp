@@ -35,11 +35,11 @@ std::string lines_recipe(std::string const& path, std::string const& more = "") 
 
 TEST(BadInput, CommandLine) {
     Workplace const place;
-    expect_refused(place, "mak", "thalweg has no command 'mak'. Did you mean 'make'?");
+    expect_refused(place, "mak", "thalweg has no command 'mak'");
     expect_refused(place, "wombat", "Its commands are make, check");
-    expect_refused(place, "make --overwrit", "thalweg make has no option '--overwrit'. Did you mean '--overwrite'?");
+    expect_refused(place, "make --overwrit", "thalweg make has no option '--overwrit'");
     expect_refused(place, "make --theads=3", "Did you mean '--threads'? See thalweg make --help.");
-    expect_refused(place, "make -seed 3", "thalweg make has no option '-seed'. Did you mean '--seed'?");
+    expect_refused(place, "make -seed 3", "thalweg make has no option '-seed'");
     expect_refused(place, "make -Q", "Did you mean '-q'?");
     expect_refused(place, "--seed 3 make", "Options follow the command.");
     expect_refused(place, "--sed 3 make", "thalweg has no option '--sed'.");
@@ -50,8 +50,7 @@ TEST(BadInput, CommandLine) {
     expect_refused(place, "recipe all", "unknown key 'all'.");
     expect_refused(place, "recipe grid network", "'network' is one word too many for thalweg recipe");
     expect_refused(place, "make --threads -1", "--threads");
-    expect_refused(place, "make --device nonsense",
-                   "--device is one of cpu, opencl, not 'nonsense'. See thalweg make --help.");
+    expect_refused(place, "make --device nonsense", "--device is one of cpu, opencl, not 'nonsense'");
     expect_refused(place, "make --device opncl", "Did you mean 'opencl'?");
     expect_refused(place, "make nowhere.toml", "nowhere.toml");
     expect_refused(place, "make .", "");
@@ -64,13 +63,10 @@ TEST(BadInput, CommandLine) {
 TEST(BadInput, OpenClDevices) {
     Workplace const place;
     setenv("THALWEG_OPENCL_DEVICE", "9:9", 1);
-    expect_refused(place, small + "--device opencl",
-                   "THALWEG_OPENCL_DEVICE='9:9' names no device: write platform:device as in 0:0");
+    expect_refused(place, small + "--device opencl", "THALWEG_OPENCL_DEVICE='9:9' names no device");
     unsetenv("THALWEG_OPENCL_DEVICE");
     setenv("OCL_ICD_VENDORS", "/nonexistent", 1); // where the loader looks for platforms
-    expect_refused(place, small + "--device opencl",
-                   "no OpenCL platform with a device was found; install an OpenCL driver (Debian: "
-                   "pocl-opencl-icd) or leave --device out");
+    expect_refused(place, small + "--device opencl", "no OpenCL platform with a device was found");
     EXPECT_EQ(thalweg_run(small + "-q --device cpu", place.path()).code, 0) << "the processor needs no platform";
     unsetenv("OCL_ICD_VENDORS");
 }

@@ -6,6 +6,7 @@
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
+#include <support.hpp>
 
 #include "command.hpp"
 
@@ -26,15 +27,12 @@ std::size_t entries(fs::path const& folder) {
 
 TEST(Manners, HelpAndVersionGoToStdout) {
     Workplace const place;
-    Outcome const help = thalweg_run("--help", place.path());
-    EXPECT_EQ(help.code, 0);
-    EXPECT_NE(help.out.find("make"), std::string::npos);
-    Outcome const version = thalweg_run("--version", place.path());
-    EXPECT_EQ(version.code, 0);
+    Outcome const help = expect_run(place, "--help", 0);
+    EXPECT_TRUE(test::has(help.out, "make"));
+    Outcome const version = expect_run(place, "--version", 0);
     EXPECT_EQ(version.out.rfind("thalweg 0.", 0), 0U) << version.out;
-    Outcome const of_make = thalweg_run("make --help", place.path());
-    EXPECT_EQ(of_make.code, 0);
-    EXPECT_NE(of_make.out.find("Examples:\n  thalweg make"), std::string::npos);
+    Outcome const of_make = expect_run(place, "make --help", 0);
+    EXPECT_TRUE(test::has(of_make.out, "Examples:\n  thalweg make"));
     EXPECT_EQ(thalweg_run("help make", place.path()).out, of_make.out);
     EXPECT_EQ(thalweg_run("help", place.path()).out, help.out);
     EXPECT_EQ(thalweg_run("help make", place.path()).err, "");
@@ -42,21 +40,18 @@ TEST(Manners, HelpAndVersionGoToStdout) {
 
 TEST(Manners, WithoutAWordHelpGoesToStderr) {
     Workplace const place;
-    Outcome const o = thalweg_run("", place.path());
-    EXPECT_EQ(o.code, 2);
+    Outcome const o = expect_run(place, "", 2);
     EXPECT_EQ(o.out, "");
     EXPECT_EQ(o.err, thalweg_run("--help", place.path()).out);
 }
 
 TEST(Manners, RecipeListsKeysAndItsDumpCanBeMade) {
     Workplace const place;
-    Outcome const keys = thalweg_run("recipe", place.path());
-    EXPECT_EQ(keys.code, 0);
-    EXPECT_NE(keys.out.find("sticking"), std::string::npos);
+    Outcome const keys = expect_run(place, "recipe", 0);
+    EXPECT_TRUE(test::has(keys.out, "sticking"));
     Outcome const dump = thalweg_run("recipe --dump", place.path());
     place.write("r.toml", dump.out);
-    Outcome const made = thalweg_run("make r.toml --set grid.width=256 --set grid.height=256 -o out -q", place.path());
-    EXPECT_EQ(made.code, 0) << made.err;
+    Outcome const made = expect_run(place, "make r.toml --set grid.width=256 --set grid.height=256 -o out -q", 0);
     EXPECT_EQ(made.err, "");
 }
 
@@ -64,27 +59,24 @@ TEST(Manners, NumbersAreWrittenAsTheyWereGiven) {
     Workplace const place;
     std::regex const drawn_out("[0-9]*\\.[0-9]{12,}");
     EXPECT_FALSE(std::regex_search(thalweg_run("recipe --dump", place.path()).out, drawn_out));
-    Outcome const made = thalweg_run(small + "-q -o out --set network.slope=0.087 --set grid.cell=0.1 --set "
-                                             "network.heights=straight_repaired --set surface.method=dilate",
-                                     place.path());
-    ASSERT_EQ(made.code, 0) << made.err;
+    expect_run(place,
+               small + "-q -o out --set network.slope=0.087 --set grid.cell=0.1 --set "
+                       "network.heights=straight_repaired --set surface.method=dilate",
+               0);
     std::string const recipe = file_bytes(place / "out/recipe.toml");
-    EXPECT_NE(recipe.find("\nslope = 0.087\n"), std::string::npos) << recipe;
-    EXPECT_NE(recipe.find("\ncell = 0.1\n"), std::string::npos) << recipe;
+    EXPECT_TRUE(test::has(recipe, "\nslope = 0.087\n", "\ncell = 0.1\n"));
 }
 
 TEST(Manners, NoEscapeCodesInAPipe) {
     Workplace const place;
-    Outcome const o = thalweg_run(small + "-o out", place.path());
-    EXPECT_EQ(o.code, 0) << o.err;
+    Outcome const o = expect_run(place, small + "-o out", 0);
     EXPECT_EQ((o.out + o.err).find('\033'), std::string::npos);
     EXPECT_EQ(o.out, "out\n");
 }
 
 TEST(Manners, JsonIsExactlyOneObject) {
     Workplace const place;
-    Outcome const made = thalweg_run(small + "-o out --json -q", place.path());
-    ASSERT_EQ(made.code, 0) << made.err;
+    Outcome const made = expect_run(place, small + "-o out --json -q", 0);
     auto const report = nlohmann::json::parse(made.out);
     EXPECT_EQ(report["recipe"]["grid"]["width"], 64);
     EXPECT_GT(report["network"]["arcs"], 0);
@@ -102,7 +94,7 @@ TEST(Manners, JsonIsExactlyOneObject) {
     EXPECT_GT(stats["dimension"], 2.0);
     std::string const text = thalweg_run("stats out/dem.tif", place.path()).out;
     for (char const* word : {"shape ", "roughness ", "length ", "dimension "}) {
-        EXPECT_NE(text.find(word), std::string::npos) << text;
+        EXPECT_TRUE(test::has(text, word));
     }
 }
 
@@ -113,8 +105,7 @@ TEST(Manners, OverwriteReplacesOnlyItsOwn) {
     place.write("out/mine.txt", "mine");
     EXPECT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 2);
     EXPECT_EQ(file_bytes(place / "out/dem.tif"), before);
-    Outcome const again = thalweg_run(small + "--seed 8 -o out -q --overwrite", place.path());
-    EXPECT_EQ(again.code, 0) << again.err;
+    expect_run(place, small + "--seed 8 -o out -q --overwrite", 0);
     EXPECT_NE(file_bytes(place / "out/dem.tif"), before);
     EXPECT_EQ(file_bytes(place / "out/mine.txt"), "mine");
     EXPECT_EQ(entries(place.path()), 1U) << "nothing temporary stays";
@@ -128,7 +119,7 @@ TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
                     place.path());
     EXPECT_EQ(o.code, 3) << o.err;
     EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
-    EXPECT_NE(o.err.find("uphill_arcs"), std::string::npos) << o.err;
+    EXPECT_TRUE(test::has(o.err, "uphill_arcs"));
     EXPECT_EQ(thalweg_run("check out", place.path()).code, 3);
 }
 
@@ -140,17 +131,14 @@ TEST(Manners, ATamperedFileIsFoundByReplay) {
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     place.write("out/network.tif", bytes);
     fs::remove(place / "out/map.png");
-    Outcome const o = thalweg_run("replay out --verify", place.path());
-    EXPECT_EQ(o.code, 3);
-    EXPECT_NE(o.out.find("DIFFERS  network.tif"), std::string::npos) << o.out;
-    EXPECT_NE(o.out.find("MISSING  map.png"), std::string::npos) << o.out;
+    Outcome const o = expect_run(place, "replay out --verify", 3);
+    EXPECT_TRUE(test::has(o.out, "DIFFERS  network.tif", "MISSING  map.png"));
 }
 
 TEST(Manners, TheOpenClDeviceIsNamed) {
     Workplace const place;
-    Outcome const there = thalweg_run(small + "-o out --device opencl", place.path());
-    ASSERT_EQ(there.code, 0) << there.err;
-    EXPECT_NE(("\n" + there.err).find("\ndevice "), std::string::npos) << there.err;
+    Outcome const there = expect_run(place, small + "-o out --device opencl", 0);
+    EXPECT_TRUE(test::has(("\n" + there.err), "\ndevice "));
     EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0) << "a device is no part of a recipe";
 }
 

@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "spawned.hpp"
@@ -40,7 +41,7 @@ protected:
         }
         Ended const ended = spawn(words, place().path());
         EXPECT_EQ(ended.code, 2) << line << ended.err;
-        EXPECT_NE(ended.err.find("a pipe or a device"), std::string::npos) << line << ended.err;
+        EXPECT_TRUE(test::has(ended.err, "a pipe or a device")) << line;
         EXPECT_FALSE(fs::exists(place() / "out")) << line;
     }
 };

@@ -8,8 +8,6 @@
 #include <complex>
 #include <cstddef>
 #include <cstdint>
-#include <map>
-#include <numeric>
 #include <utility>
 #include <vector>
 
@@ -97,23 +95,6 @@ std::vector<Bin> unit_step_hits(std::vector<Cell> const& cluster, std::int64_t w
 
 } // namespace
 
-TEST(ExitLaw, smallest_square_is_a_unit_step) {
-    EXPECT_EQ(exit_probabilities(1).size(), 1U);
-    EXPECT_NEAR(exit_probabilities(1)[0], 0.25, 1e-15);
-    ExitLaw law;
-    law.prepare(1);
-    std::map<std::pair<int, int>, int> seen;
-    RandomStream random(1, 1, 1);
-    for (int i = 0; i < 1000; ++i) {
-        auto const step = law.leave(1, random);
-        ++seen[{step.x, step.y}];
-    }
-    EXPECT_EQ(seen.size(), 4U);
-    for (auto const& [step, times] : seen) {
-        EXPECT_EQ(std::abs(step.first) + std::abs(step.second), 1);
-    }
-}
-
 TEST(ExitLaw, closed_form_equals_stepping_the_distribution) {
     for (int const half : {1, 2, 3, 5, 8, 16}) {
         auto const closed = exit_probabilities(half);
@@ -180,16 +161,6 @@ TEST(ExitLaw, tables_sample_the_closed_form) {
         }
         EXPECT_GT(chi_squared::against(likely, shares).p, 0.01) << half;
     }
-}
-
-TEST(FreeSquares, around_a_single_site) {
-    FreeSquares squares;
-    squares.occupy({0, 0});
-    EXPECT_TRUE(squares.occupied({0, 0}));
-    EXPECT_FALSE(squares.occupied({1, 0}));
-    EXPECT_EQ(squares.free_half({1, 1}), 0);
-    EXPECT_EQ(squares.free_half({-2, 1}), 1);
-    EXPECT_EQ(squares.free_half({15, -15}), 14);
 }
 
 // Laws: the square is free; up to distance 15 it is the largest; it is never smaller than 15 beyond.
@@ -275,21 +246,6 @@ TEST(LaunchCircle, return_from_afar_keeps_means_of_harmonic_functions) {
 
 TEST(FirstArrivals, need_a_cluster) {
     EXPECT_THROW(first_arrivals({}, 1, 1), thalweg::BadInput);
-}
-
-TEST(FirstArrivals, four_sites_around_a_single_cell_are_alike) {
-    std::vector<Cell> const seed = {{0, 0}};
-    std::map<Bin, std::int64_t> seen;
-    for (Bin const& b : bins_of(first_arrivals(seed, 100000, 1))) {
-        ++seen[b];
-    }
-    ASSERT_EQ(seen.size(), 4U);
-    std::vector<std::int64_t> counts;
-    for (auto const& [bin, n] : seen) {
-        EXPECT_EQ(std::abs(bin.first) + std::abs(bin.second), 1);
-        counts.push_back(n);
-    }
-    EXPECT_GT(chi_squared::against(counts, {0.25, 0.25, 0.25, 0.25}).p, 0.01);
 }
 
 // Law: on a frozen cluster the fast walk and the walk by unit steps have one hit distribution; the test would see it if

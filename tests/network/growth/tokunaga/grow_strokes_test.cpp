@@ -11,6 +11,7 @@
 
 #include <gtest/gtest.h>
 #include <rapidcheck/gtest.h>
+#include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
@@ -61,7 +62,7 @@ void refused(RiverLines const& strokes, std::string const& words, StrokesParams 
         grow_strokes(strokes, grid, params);
         FAIL() << "not refused: " << words;
     } catch (Fault const& e) {
-        EXPECT_NE(std::string(e.what()).find(words), std::string::npos) << e.what();
+        EXPECT_TRUE(test::has(std::string(e.what()), words));
         EXPECT_STREQ(e.where(), "network.grow_strokes");
     }
 }

@@ -2,18 +2,33 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
+#include <cmath>
+#include <string>
+#include <utility>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <network/plain_streams.hpp>
 #include <rapidcheck/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
 
 namespace lsystem_test {
 
 using namespace thalweg;
+using namespace thalweg::network;
 using network::BankRule;
 using network::lsystem;
 using network::write_lsystem;
 
 namespace {
+
+using test::message_of;
+
+std::string refusal_of(std::string const& text) {
+    return message_of<BadInput>([&] { read_rules(text, "r.txt"); });
+}
 
 /// By link of a word, in its order: the link downstream, -1 for the outlet.
 std::vector<std::int64_t> down_of_word(std::string const& word) {
@@ -41,6 +56,89 @@ std::string rewritten(std::string const& word, std::string const& f, std::string
         out += sign == 'F' ? f : sign == 'G' ? g : std::string(1, sign);
     }
     return out;
+}
+
+} // namespace
+
+TEST(Rewrite, RefusesWhatIsNoSystem) {
+    for (auto const& [text, words] :
+         std::vector<std::pair<std::string, std::string>>{{"", "no axiom"},
+                                                          {"axiom\n", "no axiom"},
+                                                          {"axiom F\nFF -> F", "r.txt, line 2"},
+                                                          {"axiom F\n[ -> F", "other than [ and ]"},
+                                                          {"axiom F\nF -> F]F[", "brackets"},
+                                                          {"axiom F\nF -> F[", "brackets"},
+                                                          {"axiom F\niterations 2.5", "whole number from 0 to 60"},
+                                                          {"axiom F\niterations -1", "whole number"},
+                                                          {"axiom F\nangle 200", "0 to 180"},
+                                                          {"axiom F\nangle nan", "0 to 180"},
+                                                          {"axiom F\nangel 20", "'angel 20' is not one of"},
+                                                          {"axiom F\xff", "ASCII"}}) {
+        EXPECT_TRUE(test::has(refusal_of(text), words));
+    }
+    EXPECT_THROW(rewrite({"F]", 1, 30.0, {}}), BadParameter);
+    EXPECT_THROW(rewrite({"[F", 1, 30.0, {}}), BadParameter);
+    EXPECT_THROW(rewrite({"F", 40, 30.0, {{'F', {"FF"}}}}), BadParameter);
+    EXPECT_THROW(rewrite({"F", 61, 30.0, {}}), BadParameter);
+}
+
+TEST(Rewrite, TheRulesOfTheThesisGiveTheWordsOfTokunaga) {
+    for (int order = 1; order <= 5; ++order) {
+        LSystem system =
+            read_rules("# lambda = 2\naxiom G\nangle 30\nG -> F[--G]F[-G][+G]\nF -> F [++G] F # mu = 1\n", "");
+        system.iterations = order - 1;
+        TokunagaParams params;
+        params.generator = 2;
+        params.order = order;
+        params.banks = BankRule::alternating;
+        EXPECT_EQ(rewrite(system), lsystem(params)) << order;
+    }
+}
+
+TEST(Rewrite, FFHalvesLinksAndAddsNoBranch) {
+    LSystem const system = read_rules("axiom F[-G][+G]\niterations 3\nF -> FF\n", "");
+    EXPECT_EQ(rewrite(system), "FFFFFFFF[-G][+G]");
+}
+
+TEST(Rewrite, SeveralRulesAreAsLikelyAndFollowTheSeed) {
+    LSystem const system = read_rules("axiom A\niterations 13\nA -> AA\nA -> AA", "");
+    EXPECT_EQ(rewrite(system).size(), 8192U);
+    LSystem choice = read_rules("axiom " + std::string(4000, 'A') + "\nA -> B\nA -> C\nA ->\n", "");
+    std::string const word = rewrite(choice, 5);
+    EXPECT_EQ(word, rewrite(choice, 5));
+    EXPECT_NE(word, rewrite(choice, 6));
+    EXPECT_NEAR(static_cast<double>(word.size()), 4000.0 * 2.0 / 3.0, 120.0);
+}
+
+TEST(Rewrite, TheTurtleDrawsWhatTheWordSays) {
+    std::vector<std::vector<Vec2>> steps;
+    for (auto const& line : draw_word("F[--G]F[-G][+G]", 30.0)) {
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            steps.push_back({line[i - 1], line[i]});
+        }
+    }
+    double const root = std::sqrt(0.75); // cosine of 30 degrees
+    std::vector<std::vector<Vec2>> const wanted{{{0.0, 0.0}, {0.0, 1.0}},
+                                                {{0.0, 1.0}, {root, 1.5}},
+                                                {{0.0, 1.0}, {0.0, 2.0}},
+                                                {{0.0, 2.0}, {0.5, 2.0 + root}},
+                                                {{0.0, 2.0}, {-0.5, 2.0 + root}}};
+    ASSERT_EQ(steps.size(), wanted.size());
+    for (std::size_t i = 0; i < steps.size(); ++i) {
+        EXPECT_LT(distance(steps[i][0], wanted[i][0]), 1e-12) << i;
+        EXPECT_LT(distance(steps[i][1], wanted[i][1]), 1e-12) << i;
+    }
+    auto const square = draw_word("F+F+F+F", 90.0);
+    ASSERT_EQ(square.size(), 1U);
+    ASSERT_EQ(square[0].size(), 5U);
+    EXPECT_NEAR(square[0][4].x, 0.0, 1e-12);
+    EXPECT_NEAR(square[0][4].y, 0.0, 1e-12);
+    auto const gap = draw_word("FfF|fX", 90.0);
+    ASSERT_EQ(gap.size(), 3U);
+    EXPECT_NEAR(gap[1][0].y, 2.0, 1e-12);
+    EXPECT_NEAR(gap[2][0].y, 2.0, 1e-12);
+    EXPECT_NEAR(gap[2][1].y, 1.0, 1e-12);
+    EXPECT_TRUE(draw_word("+-[]!", 90.0).empty());
 }
 
 TEST(LSystem, GeneratorTwoFollowsThePapersRules) {
@@ -78,7 +176,5 @@ RC_GTEST_PROP(LSystem, TheWordKeepsTheTree, ()) {
     RC_ASSERT(a.streams == b.streams);
     RC_ASSERT(a.branches == b.branches);
 }
-
-} // namespace
 
 } // namespace lsystem_test

@@ -9,11 +9,12 @@
 
 #include <gtest/gtest.h>
 #include <network/masks.hpp>
+#include <network/plain_thinning.hpp>
 #include <rapidcheck.h>
 
 #include <thalweg/core/run/error.hpp>
 
-namespace trace_test {
+namespace vectorise_test {
 
 namespace {
 
@@ -109,6 +110,21 @@ Mask any_skeleton() {
     }
 }
 
+bool same(Mask const& a, Mask const& b) {
+    return a.grid() == b.grid() && std::equal(a.values().begin(), a.values().end(), b.values().begin());
+}
+
+/// A mask of either kind, its width around the multiples of 64 and far from them.
+Mask any_mask() {
+    auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+    auto const width = *rc::gen::element<std::int64_t>(1, 2, 3, 17, 63, 64, 65, 127, 128, 130, 200);
+    auto const height = *rc::gen::inRange<std::int64_t>(1, 40);
+    if (*rc::gen::arbitrary<bool>()) {
+        return test::random_mask(seed, width, height, *rc::gen::element(0.2, 0.5, 0.7, 0.9, 0.98));
+    }
+    return test::random_blob(seed, width, height, *rc::gen::inRange(1, 12), *rc::gen::inRange(1, 8));
+}
+
 } // namespace
 
 TEST(Trace, NothingToTrace) {
@@ -116,29 +132,6 @@ TEST(Trace, NothingToTrace) {
     EXPECT_THROW(trace(Mask(test::frame(5, 5)), {Vec2{}}), BadInput);
     EXPECT_THROW(trace(test::mask_of({"#....", "..#..", "....#"}), {Vec2{}}), BadInput);
     EXPECT_THROW(trace(test::mask_of({"##"}), {Vec2{NAN, 0.0}}), BadParameter);
-}
-
-TEST(Trace, TwoCells) {
-    StreamNetwork const net = trace(test::mask_of({"##", "..", ".#"}), {Vec2{0.0, 3.0}});
-    ASSERT_EQ(net.arc_count(), 1U);
-    ASSERT_EQ(net.node_count(), 2U); // the lone cell is left out
-    EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{1.5, 2.5}, {0.5, 2.5}}));
-}
-
-TEST(Trace, ArcsOfASmallTree) {
-    Mask const mask = test::mask_of({"#...#", //
-                                     ".#.#.", //
-                                     "..#..", //
-                                     "..#..", //
-                                     "..#.."});
-    StreamNetwork const net = trace(mask, {Vec2{2.5, 0.0}});
-    ASSERT_EQ(net.arc_count(), 3U);
-    EXPECT_EQ(net.arc(0).line, (std::vector<Vec2>{{0.5, 4.5}, {1.5, 3.5}, {2.5, 2.5}}));
-    EXPECT_EQ(net.arc(1).line, (std::vector<Vec2>{{4.5, 4.5}, {3.5, 3.5}, {2.5, 2.5}}));
-    EXPECT_EQ(net.arc(2).line, (std::vector<Vec2>{{2.5, 2.5}, {2.5, 1.5}, {2.5, 0.5}}));
-    EXPECT_EQ(kind_of(net, 0), NodeKind::source);
-    EXPECT_EQ(kind_of(net, 2), NodeKind::confluence);
-    EXPECT_EQ(kind_of(net, 3), NodeKind::outlet);
 }
 
 TEST(Trace, TheMouthChoosesTheOutletAndTiesGoToTheLowerCell) {
@@ -149,13 +142,6 @@ TEST(Trace, TheMouthChoosesTheOutletAndTiesGoToTheLowerCell) {
     ASSERT_EQ(net.outlets().size(), 1U);
     EXPECT_EQ(net.node(net.outlets()[0]).at, (Vec2{1.5, 0.5}));
     EXPECT_EQ(net.in(net.outlets()[0]).size(), 2U);
-}
-
-TEST(Trace, CornersMakeNoFalseJunctions) {
-    // With plain 8-adjacency the corner cell would have a short cut past it and hang as a leaf.
-    StreamNetwork const net = trace(test::mask_of({"##.", ".##", "..#"}), {Vec2{0.0, 3.0}});
-    EXPECT_EQ(net.arc_count(), 1U);
-    EXPECT_EQ(net.arc(0).line.size(), 5U);
 }
 
 TEST(Trace, LoopsAreCutWhereTheWaysMeet) {
@@ -229,4 +215,34 @@ TEST(Trace, InMetres) {
               (std::vector<Vec2>{{500075.0, 3999985.0}, {500045.0, 3999985.0}, {500015.0, 3999985.0}}));
 }
 
-} // namespace trace_test
+TEST(Thin, EmptyAndFullAndSingle) {
+    EXPECT_EQ(thin(Mask()).cells(), 0);
+    EXPECT_TRUE(same(thin(Mask(test::frame(70, 3))), Mask(test::frame(70, 3))));
+    EXPECT_TRUE(same(thin(Mask(test::frame(1, 1), 1)), Mask(test::frame(1, 1), 1)));
+    EXPECT_EQ(test::components(thin(Mask(test::frame(130, 70), 1)), 1, 8), 1);
+}
+
+TEST(Thin, AnyValueButZeroIsInside) {
+    Mask mask(test::frame(70, 9), 255);
+    mask[Cell{3, 3}] = 128;
+    EXPECT_TRUE(same(thin(mask), thin(Mask(test::frame(70, 9), 1))));
+}
+
+TEST(Thin, EqualsGuoHallCellByCell) {
+    ASSERT_TRUE(rc::check("64 cells a word = cell by cell", [] {
+        Mask const mask = any_mask();
+        Mask const skeleton = thin(mask);
+        RC_ASSERT(same(skeleton, test::plain_thin(mask)));
+        RC_ASSERT(same(skeleton, test::table_thin(mask)));
+    }));
+}
+
+TEST(Thin, Stops) {
+    std::stop_source source;
+    source.request_stop();
+    thalweg::Run run;
+    run.stop = source.get_token();
+    EXPECT_THROW(thin(Mask(test::frame(8, 8), 1), run), Cancelled);
+}
+
+} // namespace vectorise_test

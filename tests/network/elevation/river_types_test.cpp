@@ -14,7 +14,9 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/order/order.hpp>
 
-namespace assign_types_test {
+namespace river_types_test {
+
+using namespace thalweg::network;
 
 namespace {
 
@@ -68,10 +70,9 @@ TEST(AssignTypes, EmptyAndBadInput) {
 
 TEST(AssignTypes, AnUnknownTypeIsNamedWithItsPlace) {
     std::string const said = refusal(y_river("", "da"));
-    EXPECT_TRUE(has(said, "'da', the type of arc 3 (feature 9) at (0.000, 100.000)")) << said;
-    EXPECT_TRUE(has(said, "Aa+, A, B, C, D, DA, E, F, G")) << said;
-    EXPECT_TRUE(has(said, "Did you mean 'DA'?")) << said;
-    EXPECT_TRUE(has(refusal(y_river("stream")), "'stream', the type of arc 1 (feature 7) at (-60.000, 180.000)"));
+    EXPECT_TRUE(has(said, "'da', the type of arc 3 (feature 9) at (0.000, 100.000)", "Aa+, A, B, C, D, DA, E, F, G",
+                    "Did you mean 'DA'?"));
+    EXPECT_TRUE(has(refusal(y_river("stream")), "'stream', the type of arc 1"));
 }
 
 TEST(AssignTypes, OwnTypesComeFirst) {
@@ -144,4 +145,45 @@ TEST(AssignTypes, Laws) {
     }));
 }
 
-} // namespace assign_types_test
+TEST(Rosgen, NamesReadBackAndNothingElseIsAName) {
+    std::string all;
+    for (Rosgen const type : rosgen_types) {
+        EXPECT_EQ(rosgen_of(name_of(type)), type);
+        all += std::string(name_of(type)) + " ";
+    }
+    EXPECT_EQ(all, "Aa+ A B C D DA E F G ");
+    EXPECT_EQ(rosgen_of("A+"), Rosgen::aa_plus); // as the paper's text has it
+    for (char const* const wrong : {"", "a", "AA+", "aa+", "Aa", "H", "A ", "DAD", "none"}) {
+        EXPECT_FALSE(rosgen_of(wrong)) << wrong;
+    }
+}
+
+TEST(Rosgen, SlopesAreTheTables) {
+    struct Row {
+        double low;
+        double high;
+        double usual;
+    };
+    Row const table[] = {{0.10, 0.20, 0.12},  {0.04, 0.10, 0.07},  {0.02, 0.04, 0.03},
+                         {0.001, 0.02, 0.01}, {0.001, 0.04, 0.02}, {0.001, 0.005, 0.003},
+                         {0.001, 0.02, 0.01}, {0.001, 0.02, 0.01}, {0.02, 0.04, 0.03}};
+    for (std::size_t i = 0; Rosgen const type : rosgen_types) {
+        SlopeRange const range = slope_range(type);
+        EXPECT_EQ(range.low, table[i].low) << name_of(type);
+        EXPECT_EQ(range.high, table[i].high) << name_of(type);
+        EXPECT_EQ(range.usual, table[i].usual) << name_of(type);
+        EXPECT_LE(range.low, range.usual);
+        EXPECT_LE(range.usual, range.high);
+        ++i;
+    }
+}
+
+TEST(Rosgen, OnlyTypesDAreBraided) {
+    std::string braided;
+    for (Rosgen const type : rosgen_types) {
+        braided += is_braided(type) ? std::string(name_of(type)) + " " : "";
+    }
+    EXPECT_EQ(braided, "D DA ");
+}
+
+} // namespace river_types_test

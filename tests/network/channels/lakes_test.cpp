@@ -16,13 +16,14 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
-namespace flood_lakes_test {
+namespace lakes_test {
 
 namespace {
 
 using namespace thalweg;
 using network::channels;
 using network::ChannelsOfArcs;
+using network::choose_lakes;
 using network::flood_lakes;
 using network::Flooded;
 
@@ -77,6 +78,59 @@ ChannelsOfArcs one_river(std::int64_t height) {
     auto const top = static_cast<double>(height);
     return channels(test::network_of({{5.5, 0.5}, {5.5, top - 0.5}}, {{1, 0}}), test::frame(11, height));
 }
+
+/// What holds of lakes in channels.
+void require_lakes(Flooded const& out, Raster<std::int32_t> const& labels) {
+    Channels const& rivers = out.drawn.channels;
+    test::require_law(rivers, test::Diagonals::may_cross);
+    RC_ASSERT(rivers.level.size() == rivers.cell.size());
+    std::map<std::int64_t, std::int64_t> number;
+    std::vector<std::int64_t> outlet(rivers.cell.size(), -1); // by level cell, of its lake
+    std::map<std::int64_t, std::int64_t> size;
+    for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
+        number[rivers.cell[i]] = static_cast<std::int64_t>(i);
+        if (rivers.level[i] != 0) {
+            auto const to = static_cast<std::size_t>(rivers.receiver[i]);
+            outlet[i] = rivers.level[to] != 0 ? outlet[to] : rivers.receiver[i];
+            ++size[outlet[i]];
+            RC_ASSERT(labels[rivers.cell[i]] > 0);
+            RC_ASSERT(!rivers.grid.on_border(rivers.grid.at(rivers.cell[i])));
+        }
+    }
+    RC_ASSERT(size.size() == out.lakes.size());
+    for (network::Lake const& lake : out.lakes) {
+        RC_ASSERT(size[lake.outlet] == lake.cells);
+        RC_ASSERT(lake.cells >= 4);
+        RC_ASSERT(labels[rivers.cell[static_cast<std::size_t>(lake.outlet)]] == lake.label);
+    }
+    auto const lake_below = [&](std::int64_t i, std::int64_t which) {
+        for (; i >= 0; i = rivers.receiver[static_cast<std::size_t>(i)]) {
+            if (i == which || outlet[static_cast<std::size_t>(i)] == which) {
+                return true;
+            }
+        }
+        return false;
+    };
+    for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
+        if (outlet[i] < 0) {
+            continue;
+        }
+        Cell const c = rivers.grid.at(rivers.cell[i]);
+        RC_ASSERT(labels[rivers.cell[i]] == labels[rivers.cell[static_cast<std::size_t>(outlet[i])]]);
+        for (Cell const step : d8_steps) {
+            auto const n = number.find(rivers.grid.index({c.col + step.col, c.row + step.row}));
+            if (n != number.end() && n->second != outlet[i]) {
+                RC_ASSERT(lake_below(n->second, outlet[i])); // no other way out
+            }
+        }
+    }
+}
+
+ChannelsOfArcs river_of_one_arc() {
+    return channels(test::network_of({{50.5, 0.5}, {50.5, 99.5}}, {{1, 0}}), test::frame(100, 100));
+}
+
+} // namespace
 
 TEST(FloodLakes, RefusesWhatIsNotOnTheGrid) {
     EXPECT_THROW(flood_lakes(one_river(8), Raster<std::int32_t>(test::frame(3, 3))), BadInput);
@@ -181,53 +235,6 @@ TEST(FloodLakes, GivenHeightsAreRaisedToTheLake) {
     }
 }
 
-/// What holds of lakes in channels.
-void require_lakes(Flooded const& out, Raster<std::int32_t> const& labels) {
-    Channels const& rivers = out.drawn.channels;
-    test::require_law(rivers, test::Diagonals::may_cross);
-    RC_ASSERT(rivers.level.size() == rivers.cell.size());
-    std::map<std::int64_t, std::int64_t> number;
-    std::vector<std::int64_t> outlet(rivers.cell.size(), -1); // by level cell, of its lake
-    std::map<std::int64_t, std::int64_t> size;
-    for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
-        number[rivers.cell[i]] = static_cast<std::int64_t>(i);
-        if (rivers.level[i] != 0) {
-            auto const to = static_cast<std::size_t>(rivers.receiver[i]);
-            outlet[i] = rivers.level[to] != 0 ? outlet[to] : rivers.receiver[i];
-            ++size[outlet[i]];
-            RC_ASSERT(labels[rivers.cell[i]] > 0);
-            RC_ASSERT(!rivers.grid.on_border(rivers.grid.at(rivers.cell[i])));
-        }
-    }
-    RC_ASSERT(size.size() == out.lakes.size());
-    for (network::Lake const& lake : out.lakes) {
-        RC_ASSERT(size[lake.outlet] == lake.cells);
-        RC_ASSERT(lake.cells >= 4);
-        RC_ASSERT(labels[rivers.cell[static_cast<std::size_t>(lake.outlet)]] == lake.label);
-    }
-    auto const lake_below = [&](std::int64_t i, std::int64_t which) {
-        for (; i >= 0; i = rivers.receiver[static_cast<std::size_t>(i)]) {
-            if (i == which || outlet[static_cast<std::size_t>(i)] == which) {
-                return true;
-            }
-        }
-        return false;
-    };
-    for (std::size_t i = 0; i < rivers.cell.size(); ++i) {
-        if (outlet[i] < 0) {
-            continue;
-        }
-        Cell const c = rivers.grid.at(rivers.cell[i]);
-        RC_ASSERT(labels[rivers.cell[i]] == labels[rivers.cell[static_cast<std::size_t>(outlet[i])]]);
-        for (Cell const step : d8_steps) {
-            auto const n = number.find(rivers.grid.index({c.col + step.col, c.row + step.row}));
-            if (n != number.end() && n->second != outlet[i]) {
-                RC_ASSERT(lake_below(n->second, outlet[i])); // no other way out
-            }
-        }
-    }
-}
-
 TEST(FloodLakes, WhateverIsDrawn) {
     ASSERT_TRUE(rc::check("channels keep their law, lakes have one way out", [] {
         auto const [seed, on_lattice, net, grid] = test::some_rivers();
@@ -262,6 +269,55 @@ TEST(FloodLakes, WhateverIsDrawn) {
     }));
 }
 
-} // namespace
+TEST(ChooseLakes, RefusesBadParameters) {
+    EXPECT_THROW(choose_lakes(river_of_one_arc(), {1.0}, {.share = 1.1}), BadParameter);
+    EXPECT_THROW(choose_lakes(river_of_one_arc(), {1.0}, {.min_area_cells = -1.0}), BadParameter);
+    EXPECT_THROW(choose_lakes(river_of_one_arc(), {1.0}, {.max_cells = 3}), BadParameter);
+    EXPECT_THROW(choose_lakes(river_of_one_arc(), {}), BadInput);
+}
 
-} // namespace flood_lakes_test
+TEST(ChooseLakes, NoShareAndNoAreaAreNoLake) {
+    auto const count = [](Raster<std::int32_t> const& labels) {
+        return std::count_if(labels.values().begin(), labels.values().end(), [](std::int32_t v) { return v != 0; });
+    };
+    EXPECT_EQ(count(choose_lakes(river_of_one_arc(), {1e5}, {.share = 0.0})), 0);
+    EXPECT_EQ(count(choose_lakes(river_of_one_arc(), {1999.0}, {.share = 1.0})), 0);
+    EXPECT_GE(count(choose_lakes(river_of_one_arc(), {2000.0}, {.share = 1.0})), 8);
+}
+
+TEST(ChooseLakes, AShareOfReaches) {
+    ASSERT_TRUE(rc::check("lakes keep apart and from the edge, and can be flooded", [] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        StreamNetwork const net = test::random_skeleton(seed, 90);
+        Grid const grid = test::frame(90, 90);
+        ChannelsOfArcs const drawn = channels(net, grid);
+        std::vector<double> const areas(drawn.of_arc.size(), 5e4);
+        auto const labels =
+            choose_lakes(drawn, areas, {.share = *rc::gen::element(0.3, 1.0), .max_cells = 150, .seed = seed});
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            if (labels[i] == 0) {
+                continue;
+            }
+            Cell const c = grid.at(i);
+            RC_ASSERT(c.col >= 3);
+            RC_ASSERT(c.row >= 3);
+            RC_ASSERT(c.col < 87);
+            RC_ASSERT(c.row < 87);
+            for (std::int64_t dr = -2; dr <= 2; ++dr) {
+                for (std::int64_t dc = -2; dc <= 2; ++dc) {
+                    std::int32_t const other = labels[Cell{c.col + dc, c.row + dr}];
+                    RC_ASSERT((other == 0 || other == labels[i]));
+                }
+            }
+        }
+        network::Flooded const flooded = network::flood_lakes(drawn, labels);
+        std::int32_t const chosen = *std::max_element(labels.values().begin(), labels.values().end());
+        RC_ASSERT(static_cast<std::int32_t>(flooded.lakes.size()) <= 2 * chosen);
+        RC_ASSERT((chosen == 0) == (flooded.lakes.empty()));
+        for (network::Lake const& lake : flooded.lakes) {
+            RC_ASSERT(lake.cells <= 250);
+        }
+    }));
+}
+
+} // namespace lakes_test

@@ -1,0 +1,199 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/internal/file_values.hpp>
+
+#include <cmath>
+#include <limits>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <network/networks.hpp>
+#include <rapidcheck/gtest.h>
+
+#include <thalweg/core/stream_network.hpp>
+#include <thalweg/network/order/order.hpp>
+
+namespace file_values_test {
+
+using namespace thalweg;
+using pipeline::Made;
+
+namespace {
+
+/// Rivers of 10, 20, 30, ... m2 that meet; the river that leaves has their sum and a cell of 1 m2; or none leaves.
+struct Star {
+    ElevatedNetwork network;
+    std::vector<double> us_area_m2;
+    std::vector<double> ds_area_m2;
+};
+
+Star star(int rivers, bool outlet) {
+    Star made;
+    NetworkDraft plan;
+    auto const node = [&](Vec2 at, double z) {
+        made.network.node_z.push_back(z);
+        return plan.add_node(at);
+    };
+    auto const arc = [&](NodeId from, NodeId to, double us, double ds) {
+        made.network.arc_z.push_back({made.network.node_z[from], made.network.node_z[to]});
+        plan.add_arc(from, to);
+        made.us_area_m2.push_back(us);
+        made.ds_area_m2.push_back(ds);
+    };
+    NodeId const centre = node({0.0, 0.0}, 1.0);
+    double sum = 1.0;
+    for (int i = 1; i <= rivers; ++i) {
+        double const x = -50.0 + 100.0 * i / (rivers + 1);
+        arc(node({x, 80.0}, 2.0), centre, 5.0 * i, 10.0 * i);
+        sum += 10.0 * i;
+    }
+    if (!outlet) {
+        arc(centre, node({0.0, -100.0}, 0.0), sum, sum + 7.0);
+    }
+    made.network.plan = std::move(plan);
+    return made;
+}
+
+/// The rivers 1 and 2 of a file, which go on as 3.
+Made terrain() {
+    Made t;
+    t.terrain.network.plan =
+        test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
+                         {{.from = 0, .to = 2, .between = {}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
+    t.terrain.network.node_z = {4.0, 4.0, 2.0, 0.0};
+    t.terrain.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
+    t.terrain.orders = network::order(t.terrain.network.plan);
+    t.assessment.areas.us_area_m2 = t.assessment.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
+    t.assessment.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
+    t.rivers.file.attributes.columns = {{"name", AttributeTable::Type::text},
+                                        {"name_of_the_river", AttributeTable::Type::text}};
+    for (std::string const name : {"one", "two", "three", "four", "five"}) {
+        t.rivers.file.attributes.rows.push_back({name, name});
+    }
+    t.rivers.file.sources =
+        pipeline::LineSources(t.terrain.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    return t;
+}
+
+Raster<float> row_of(std::vector<float> const& heights) {
+    Raster<float> dem(Grid{static_cast<std::int64_t>(heights.size()), 1, 1.0, 0.0, 1.0, ""});
+    for (std::size_t i = 0; i < heights.size(); ++i) {
+        dem[static_cast<std::int64_t>(i)] = heights[i];
+    }
+    return dem;
+}
+
+} // namespace
+
+// Law: what arrives at a node that was made leaves it, and the node that was split keeps its own cell.
+TEST(SplitAreas, WhatArrivesLeaves) {
+    for (bool const outlet : {false, true}) {
+        for (int rivers = 3; rivers <= 7; ++rivers) {
+            Star made = star(rivers, outlet);
+            network::Split const split = network::split_confluences(made.network, {.distance_m = 2.0});
+            pipeline::add_pieces(split.pieces, made.us_area_m2, made.ds_area_m2);
+            ASSERT_EQ(made.us_area_m2.size(), split.network.plan.arc_count());
+            for (NodeId n = 0; n < split.network.plan.node_count(); ++n) {
+                if (split.network.plan.in(n).empty() || split.network.plan.out(n) == no_arc) {
+                    continue;
+                }
+                double arriving = 0.0;
+                for (ArcId const a : split.network.plan.in(n)) {
+                    arriving += made.ds_area_m2[a];
+                }
+                double const own = n == 0 ? 1.0 : 0.0;
+                EXPECT_DOUBLE_EQ(made.us_area_m2[split.network.plan.out(n)], arriving + own) << n;
+            }
+            if (outlet) {
+                double arriving = 0.0;
+                for (ArcId const a : split.network.plan.in(0)) {
+                    arriving += made.ds_area_m2[a];
+                }
+                EXPECT_DOUBLE_EQ(arriving, 5.0 * rivers * (rivers + 1));
+            }
+        }
+    }
+}
+
+TEST(SplitAreas, UnknownStaysUnknown) {
+    std::vector<double> us{-1.0, -1.0};
+    std::vector<double> ds{-1.0, -1.0};
+    pipeline::add_pieces({{0, 1, false}, {0, 1, true}}, us, ds);
+    EXPECT_EQ(us, (std::vector<double>{-1.0, -1.0, -1.0, -1.0}));
+    EXPECT_EQ(ds, us);
+}
+
+TEST(UserData, GrownRiversHaveNone) {
+    Made t = terrain();
+    t.rivers.file.sources = {};
+    EXPECT_FALSE(pipeline::user_data(t, t.terrain.network.plan));
+    EXPECT_TRUE(pipeline::shortened_names(t).empty());
+}
+
+TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
+    Made const t = terrain();
+    auto const user = pipeline::user_data(t, t.terrain.network.plan);
+    ASSERT_TRUE(user);
+    EXPECT_EQ(user->record, (std::vector<std::int64_t>{1, 2, 3}));
+    EXPECT_EQ(user->attributes.rows.size(), 5U);
+    ASSERT_EQ(user->sources.size(), 3U);
+    EXPECT_EQ(user->sources[2].front().feature, 3);
+    // A side valley of the terrain's own has none.
+    StreamNetwork const more = test::network_of({{0, 20}, {0, 0}, {70, 0}}, {{0, 1, {}, 3}, {2, 1, {}, 0}});
+    auto const beside = pipeline::user_data(t, more);
+    ASSERT_TRUE(beside);
+    EXPECT_EQ(beside->record, (std::vector<std::int64_t>{3, 0}));
+    EXPECT_TRUE(beside->sources[1].empty());
+}
+
+TEST(UserData, ShortenedNamesAreThoseOfTheShapefile) {
+    auto const names = pipeline::shortened_names(terrain());
+    ASSERT_EQ(names.size(), 1U);
+    EXPECT_EQ(names[0].name, "name_of_the_river");
+    EXPECT_EQ(names[0].in_shapefile, "name_of_th");
+}
+
+TEST(InUnit, NoHeights) {
+    float const nan = std::numeric_limits<float>::quiet_NaN();
+    EXPECT_TRUE(std::isnan(pipeline::in_unit(row_of({nan}), HeightUnit::foot)[0]));
+}
+
+TEST(InUnit, MetresStay) {
+    EXPECT_EQ(pipeline::in_unit(row_of({1.5F, -2.0F}), HeightUnit::metre)[1], -2.0F);
+}
+
+TEST(InUnit, ExactFeet) {
+    Raster<float> const feet = pipeline::in_unit(row_of({0.3048F, 304.8F, -0.3048F, 0.0F}), HeightUnit::foot);
+    EXPECT_FLOAT_EQ(feet[0], 1.0F);
+    EXPECT_FLOAT_EQ(feet[1], 1000.0F); // 304.8 is not a float
+    EXPECT_FLOAT_EQ(feet[2], -1.0F);
+    EXPECT_EQ(feet[3], 0.0F);
+}
+
+TEST(InUnit, NeighboursOneUlpApartStayApart) {
+    std::vector<float> chain{1.99F}; // floats lie closer together here than at 6.53
+    for (int i = 0; i < 1000; ++i) {
+        chain.push_back(std::nextafterf(chain.back(), 10.0F));
+    }
+    Raster<float> const feet = pipeline::in_unit(row_of(chain), HeightUnit::foot);
+    for (std::int64_t i = 1; i < feet.cells(); ++i) {
+        EXPECT_LT(feet[i - 1], feet[i]);
+    }
+}
+
+RC_GTEST_PROP(InUnit, TheOrderStays, (std::vector<int> numbers)) {
+    std::vector<float> heights{0.0F};
+    for (int const n : numbers) {
+        heights.push_back(static_cast<float>(n % 100000) * 0.37F);
+    }
+    Raster<float> const dem = row_of(heights);
+    Raster<float> const feet = pipeline::in_unit(dem, HeightUnit::foot);
+    for (std::int64_t i = 1; i < dem.cells(); ++i) {
+        RC_ASSERT((dem[i - 1] < dem[i]) == (feet[i - 1] < feet[i]));
+        RC_ASSERT((dem[i - 1] == dem[i]) == (feet[i - 1] == feet[i]));
+        RC_ASSERT(std::fabs(static_cast<double>(feet[i]) * 0.3048 - static_cast<double>(dem[i])) < 0.01);
+    }
+}
+
+} // namespace file_values_test
