@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,27 @@ template <class Failure = Error> std::string full_message_of(auto&& act) {
     return "";
 }
 
+/// Class, place and message of the error that an act throws: "BadInput io.read_dem: ..."; "" where it throws none.
+inline std::string error_of(auto&& act) {
+    auto const told = [](char const* kind, Error const& error) {
+        return std::string(kind) + " " + error.where() + ": " + error.what();
+    };
+    try {
+        act();
+    } catch (BadParameter const& error) {
+        return told("BadParameter", error);
+    } catch (BadInput const& error) {
+        return told("BadInput", error);
+    } catch (IoError const& error) {
+        return told("IoError", error);
+    } catch (Cancelled const& error) {
+        return told("Cancelled", error);
+    } catch (Error const& error) {
+        return told("Error", error);
+    }
+    return "";
+}
+
 /// The bytes of a file; none where it cannot be read.
 inline std::string bytes_of(std::filesystem::path const& path) {
     std::ifstream file(path, std::ios::binary);
@@ -70,6 +92,16 @@ inline void write(std::filesystem::path const& path, std::string_view text) {
 inline Run on_threads(int threads) {
     Run run;
     run.threads = threads;
+    return run;
+}
+
+/// A run that is asked to stop before it begins.
+inline Run stopped_run() {
+    std::stop_source source;
+    source.request_stop();
+    Run run;
+    run.stop = source.get_token();
+    run.progress = [](double, char const*, void*) { return 0; };
     return run;
 }
 

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <memory>
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
@@ -17,7 +15,7 @@
 #include <thalweg/io/raster/internal/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
-#include "scratch_folder.hpp"
+#include "vector_files.hpp"
 
 namespace polygons_test {
 
@@ -27,8 +25,8 @@ using io::polygonise;
 
 namespace {
 
+using test::error_of;
 using test::has;
-using test::message_of;
 using test::write;
 
 Raster<std::int32_t> numbers_of(std::int64_t width, std::vector<std::int32_t> const& numbers) {
@@ -66,8 +64,7 @@ struct Sample {
 
 std::vector<std::vector<double>> fields_of(std::string const& path, char const* layer,
                                            std::vector<char const*> const& names) {
-    GDALAllRegister();
-    std::unique_ptr<GDALDataset> const file(GDALDataset::Open(path.c_str(), GDAL_OF_VECTOR));
+    auto const file = opened(path);
     std::vector<std::vector<double>> rows;
     for (auto const& feature : *file->GetLayerByName(layer)) {
         auto& row = rows.emplace_back();
@@ -82,19 +79,15 @@ std::vector<std::vector<double>> fields_of(std::string const& path, char const* 
     return rows;
 }
 
-std::string geojson(std::string const& geometry, int epsg = 32631) {
-    return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::)" +
-           std::to_string(epsg) + R"("}},"features":[{"type":"Feature","id":7,"properties":{},"geometry":)" + geometry +
-           "}]}";
+/// A file of one feature, number 7, in a CRS.
+std::string geojson(std::string const& geometry, std::string const& epsg = "32631") {
+    std::string text = test::geojson(R"({"type":"Feature","id":7,"properties":{},"geometry":)" + geometry + "}");
+    return text.replace(text.find("32631"), 5, epsg);
 }
 
 std::string const square =
     R"({"type":"Polygon","coordinates":[[[500000,0],[500100,0],[500100,100],[500000,100],[500000,0]],)"
     R"([[500020,20],[500040,20],[500040,40],[500020,20]]]})";
-
-std::string refused(std::string const& path, std::string const& crs = "EPSG:32631") {
-    return message_of<BadInput>([&] { io::read_polygons(path, crs); });
-}
 
 } // namespace
 
@@ -168,10 +161,10 @@ TEST(WriteCatchments, RefusesRowsOfOtherCells) {
     ScratchFolder const folder;
     Sample s;
     s.rows[3].cells = 5;
-    EXPECT_TRUE(has(message_of<BadInput>([&] {
+    EXPECT_TRUE(has(error_of([&] {
                         io::write_catchments({s.number, s.rows}, folder / "catchments.gpkg");
                     }),
-                    "arc 14 has 6 cells, its row says 5"));
+                    "BadInput", "arc 14"));
     s.rows.pop_back();
     EXPECT_THROW(io::write_catchments({s.number, s.rows}, folder / "catchments.gpkg"), BadInput);
     EXPECT_EQ(folder.entries(), 0);
@@ -180,34 +173,33 @@ TEST(WriteCatchments, RefusesRowsOfOtherCells) {
 TEST(WriteCatchments, StopsWhenAsked) {
     ScratchFolder const folder;
     Sample const s;
-    thalweg::Run run;
-    run.progress = [](double, char const*, void*) { return 0; };
-    EXPECT_THROW(io::write_catchments({s.number, s.rows}, folder / "catchments.gpkg", run), Cancelled);
+    EXPECT_THROW(io::write_catchments({s.number, s.rows}, folder / "catchments.gpkg", test::stopped_run()), Cancelled);
 }
 
 TEST(ReadPolygons, RefusesNamingFileLayerAndFeature) {
+    std::string const triangle = R"({"type":"Feature","id":1,"properties":{},"geometry":)"
+                                 R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,2],[1,1]]]}},)";
+    for (auto const& [text, words] : std::vector<std::pair<std::string, std::string>>{
+             {geojson(R"({"type":"LineString","coordinates":[[1,1],[2,2]]})"),
+              "a.geojson has no layer of polygons (a)"},
+             {"no file of shapes", "a.geojson"},
+             {test::geojson(triangle + R"({"type":"Feature","id":2,"properties":{},"geometry":{"type":"Point",)"
+                                       R"("coordinates":[1,1]}})"),
+              "feature 2 of a.geojson is a Point"},
+             {test::geojson(triangle + R"({"type":"Feature","id":5,"properties":{},"geometry":null})"),
+              "feature 5 of a.geojson"},
+             {geojson(R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,95],[1,1]]]})", "4326"),
+              "vertex 3 of feature 7 of a.geojson, (2, 95)"}}) {
+        ScratchFolder const folder;
+        write(folder / "a.geojson", text);
+        EXPECT_TRUE(has(error_of([&] { io::read_polygons(folder / "a.geojson", "EPSG:32631"); }),
+                        "BadInput io.read_polygons", words));
+        EXPECT_FALSE(words.ends_with("(a)") && io::holds_polygons(folder / "a.geojson"));
+    }
     ScratchFolder const folder;
-    EXPECT_TRUE(has(refused(folder / "none.gpkg"), "does not exist"));
-    write(folder / "line.geojson", geojson(R"({"type":"LineString","coordinates":[[1,1],[2,2]]})"));
-    EXPECT_TRUE(has(refused(folder / "line.geojson"), "line.geojson has no layer of polygons (line)"));
-    EXPECT_FALSE(io::holds_polygons(folder / "line.geojson"));
-    write(folder / "text.gpkg", "no file of shapes");
-    EXPECT_TRUE(has(refused(folder / "text.gpkg"), "cannot be read"));
-    write(folder / "two.geojson",
-          R"({"type":"FeatureCollection","features":[{"type":"Feature","id":1,"properties":{},"geometry":)"
-          R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,2],[1,1]]]}},{"type":"Feature","id":2,"properties":{},)"
-          R"("geometry":{"type":"Point","coordinates":[1,1]}}]})");
-    EXPECT_TRUE(has(refused(folder / "two.geojson"), "feature 2 of two.geojson is a Point, not a polygon"));
-    write(folder / "null.geojson",
-          R"({"type":"FeatureCollection","features":[{"type":"Feature","id":1,"properties":{},"geometry":)"
-          R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,2],[1,1]]]}},{"type":"Feature","id":5,"properties":{},)"
-          R"("geometry":null}]})");
-    EXPECT_TRUE(has(refused(folder / "null.geojson"), "feature 5 of null.geojson has no polygon"));
-    write(folder / "pole.geojson", geojson(R"({"type":"Polygon","coordinates":[[[1,1],[2,1],[2,95],[1,1]]]})", 4326));
-    EXPECT_TRUE(has(refused(folder / "pole.geojson"), "vertex 3 of feature 7 of pole.geojson, (2, 95)"));
     write(folder / "a.geojson", geojson(square));
-    auto const text = refused(folder / "a.geojson", "");
-    EXPECT_TRUE(has(text, "a.geojson has EPSG:32631, the grid has no CRS"));
+    EXPECT_THROW(io::read_polygons(folder / "a.geojson", ""), BadInput);
+    EXPECT_THROW(io::read_polygons(folder / "none.gpkg", "EPSG:32631"), BadInput);
 }
 
 TEST(ReadPolygons, KeepsCoordinatesInTheSameCrs) {
@@ -230,7 +222,7 @@ TEST(ReadPolygons, BringsPartsIntoTheGridsCrs) {
     write(folder / "b.geojson",
           geojson(R"({"type":"MultiPolygon","coordinates":[[[[3,0],[3.001,0],[3.001,0.001],[3,0]]],)"
                   R"([[[3,1],[3.001,1],[3.001,1.001],[3,1]]]]})",
-                  4326));
+                  "4326"));
     Polygons const read = io::read_polygons(folder / "b.geojson", "EPSG:32631");
     ASSERT_EQ(read.polygons.size(), 2U);
     Vec2 const east = read.polygons[0].rings[0][1];
@@ -245,7 +237,7 @@ TEST(ReadPolygons, TheCrsWhereNoneIsAskedIsMetric) {
     write(folder / "metres.geojson", geojson(square));
     EXPECT_EQ(io::crs_for_polygons(folder / "metres.geojson"), "EPSG:32631");
     write(folder / "degrees.geojson",
-          geojson(R"({"type":"Polygon","coordinates":[[[8,-3],[10,-3],[10,-1],[8,-3]]]})", 4326));
+          geojson(R"({"type":"Polygon","coordinates":[[[8,-3],[10,-3],[10,-1],[8,-3]]]})", "4326"));
     EXPECT_EQ(io::crs_for_polygons(folder / "degrees.geojson"), "EPSG:32732");
     EXPECT_THROW(io::crs_for_polygons(folder / "none.geojson"), BadInput);
 }

@@ -44,7 +44,7 @@ TEST(Points, OfADemInEveryFormat) {
     ASSERT_EQ(xyz.size(), 19U);
     EXPECT_EQ(xyz.front(), (thalweg::Vec3{500015.0, 4000035.0, 0.0}));
     EXPECT_EQ(xyz[6], (thalweg::Vec3{500025.0, 4000025.0, 9.5}));
-    EXPECT_EQ(point_files::read_ply_points(file_bytes(place / "a.ply")), xyz);
+    EXPECT_EQ(point_files::read_ply(file_bytes(place / "a.ply")).vertices, xyz);
     auto const las = point_files::read_las(file_bytes(place / "a.las"));
     ASSERT_EQ(las.points.size(), 19U);
     EXPECT_NEAR(las.points[6].z, 9.5, 0.0005);
