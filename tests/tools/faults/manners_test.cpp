@@ -5,7 +5,6 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <support.hpp>
 
 #include "command.hpp"
@@ -15,9 +14,6 @@ namespace manners_test {
 namespace fs = std::filesystem;
 
 namespace {
-
-std::string const small = "make --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 "
-                          "--set network.prune=4 ";
 
 std::size_t entries(fs::path const& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
@@ -60,7 +56,7 @@ TEST(Manners, NumbersAreWrittenAsTheyWereGiven) {
     std::regex const drawn_out("[0-9]*\\.[0-9]{12,}");
     EXPECT_FALSE(std::regex_search(thalweg_run("recipe --dump", place.path()).out, drawn_out));
     expect_run(place,
-               small + "-q -o out --set network.slope=0.087 --set grid.cell=0.1 --set "
+               small + "out --set network.slope=0.087 --set grid.cell=0.1 --set "
                        "network.heights=straight_repaired --set surface.method=dilate",
                0);
     std::string const recipe = file_bytes(place / "out/recipe.toml");
@@ -69,43 +65,60 @@ TEST(Manners, NumbersAreWrittenAsTheyWereGiven) {
 
 TEST(Manners, NoEscapeCodesInAPipe) {
     Workplace const place;
-    Outcome const o = expect_run(place, small + "-o out", 0);
-    EXPECT_EQ((o.out + o.err).find('\033'), std::string::npos);
+    Outcome const o = expect_run(place, small.substr(0, small.size() - 6) + "-o out", 0); // without -q
+    EXPECT_FALSE(test::has(o.out + o.err, "\033"));
     EXPECT_EQ(o.out, "out\n");
 }
 
 TEST(Manners, JsonIsExactlyOneObject) {
     Workplace const place;
-    Outcome const made = expect_run(place, small + "-o out --json -q", 0);
-    auto const report = nlohmann::json::parse(made.out);
+    auto const report = expect_run(place, small + "out --json", 0).json();
     EXPECT_EQ(report["recipe"]["grid"]["width"], 64);
     EXPECT_GT(report["network"]["arcs"], 0);
     EXPECT_TRUE(report["dem"]["max"].contains("col"));
     for (auto const& name : report["files"]) {
         EXPECT_TRUE(fs::exists(place / "out" / name.get<std::string>())) << name;
     }
-    auto const check = nlohmann::json::parse(thalweg_run("check out --json", place.path()).out);
+    auto const check = thalweg_run("check out --json", place.path()).json();
     EXPECT_EQ(check["ok"], true);
-    auto const stats = nlohmann::json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out);
+    auto const stats = thalweg_run("stats out/dem.tif --json", place.path()).json();
     for (auto const& [key, value] : stats.items()) {
         EXPECT_EQ(value, report["dem"][key]) << key;
     }
     EXPECT_GT(stats["lx_cells"], 0.0);
     EXPECT_GT(stats["dimension"], 2.0);
-    std::string const text = thalweg_run("stats out/dem.tif", place.path()).out;
-    for (char const* word : {"shape ", "roughness ", "length ", "dimension "}) {
-        EXPECT_TRUE(test::has(text, word));
+}
+
+TEST(Manners, ADryRunWritesNothing) {
+    Workplace const place;
+    Outcome const o = expect_run(place, small + "out --dry-run", 0);
+    EXPECT_TRUE(test::has(o.out, "grow, thin, trace, prune, meander, channels, fill, carve, "));
+    EXPECT_TRUE(o.err.empty()) << o.err;
+    auto const json = expect_run(place, small + "out --dry-run --json", 0).json();
+    EXPECT_EQ(json["grid"]["width"], 64);
+    EXPECT_EQ(json["stages"][0], "grow");
+    EXPECT_EQ(json["cells"], 64 * 48);
+    expect_refused(place, small + "out --dry-run", {"--set network.source=lines", "-v"}); // -q and -v
+    EXPECT_TRUE(fs::is_empty(place.path()));
+}
+
+TEST(Manners, VerboseShowsEveryStageAndTheMemory) {
+    Workplace const place;
+    std::string const verbose = small.substr(0, small.size() - 6) + "-v -o out"; // without -q
+    Outcome const o = expect_run(place, verbose, 0);
+    for (char const* stage : {"\nthalweg ", "\ngrow ", "\ncertify ", "\nmemory ", "\ntotal "}) {
+        EXPECT_TRUE(test::has("\n" + o.err, stage));
     }
 }
 
 TEST(Manners, OverwriteReplacesOnlyItsOwn) {
     Workplace const place;
-    ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
+    expect_run(place, small + "out", 0);
     std::string const before = file_bytes(place / "out/dem.tif");
     place.write("out/mine.txt", "mine");
-    EXPECT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 2);
+    expect_run(place, small + "out", 2);
     EXPECT_EQ(file_bytes(place / "out/dem.tif"), before);
-    expect_run(place, small + "--seed 8 -o out -q --overwrite", 0);
+    expect_run(place, small + "out --seed 8 --overwrite", 0);
     EXPECT_NE(file_bytes(place / "out/dem.tif"), before);
     EXPECT_EQ(file_bytes(place / "out/mine.txt"), "mine");
     EXPECT_EQ(entries(place.path()), 1U) << "nothing temporary stays";
@@ -113,20 +126,20 @@ TEST(Manners, OverwriteReplacesOnlyItsOwn) {
 
 TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
     Workplace const place;
-    Outcome const o =
-        thalweg_run("make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
-                    "network.prune=3 --set network.heights=straight --set surface.method=dilate -o out",
-                    place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
+    expect_run(place,
+               "make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
+               "network.prune=3 --set network.heights=straight --set surface.method=dilate -o out",
+               3, "uphill_arcs");
     EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
-    EXPECT_TRUE(test::has(o.err, "uphill_arcs"));
-    EXPECT_EQ(thalweg_run("check out", place.path()).code, 3);
+    Outcome const check = expect_run(place, "check out", 3);
+    EXPECT_TRUE(test::has(check.out, "FAILED"));
+    EXPECT_TRUE(test::has(expect_run(place, "check out --json", 3).out, "\"ok\":false"));
 }
 
 TEST(Manners, ATamperedFileIsFoundByReplay) {
     Workplace const place;
-    ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    expect_run(place, small + "out", 0);
+    expect_run(place, "replay out --verify", 0);
     std::string bytes = file_bytes(place / "out/network.tif");
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     place.write("out/network.tif", bytes);
@@ -137,7 +150,7 @@ TEST(Manners, ATamperedFileIsFoundByReplay) {
 
 TEST(Manners, TheOpenClDeviceIsNamed) {
     Workplace const place;
-    Outcome const there = expect_run(place, small + "-o out --device opencl", 0);
+    Outcome const there = expect_run(place, small + "out --device opencl", 0);
     EXPECT_TRUE(test::has(("\n" + there.err), "\ndevice "));
     EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0) << "a device is no part of a recipe";
 }
