@@ -7,10 +7,11 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/access.hpp>
 
 #include "unpacked.hpp"
 
-namespace packed_test {
+namespace gdal_test {
 
 using namespace thalweg;
 using Bytes = std::vector<std::uint8_t>;
@@ -46,4 +47,20 @@ TEST(Packed, BeyondTwoGibibytesIsRefused) {
     EXPECT_THROW(io::packed(too_many), BadInput);
 }
 
-} // namespace packed_test
+TEST(NamesConnection, DatabasesAndFilesBehindAnAddress) {
+    for (auto const& [name, is_one] :
+         std::vector<std::pair<std::string, bool>>{{"PG:dbname=x", true},
+                                                   {"postgresql://h/x", true},
+                                                   {"postgres://h/x", true},
+                                                   {"/vsicurl/http://h/a.tif", true},
+                                                   {"/vsizip/vsicurl/http://h/a.zip", true},
+                                                   {"/vsistdin/", true},
+                                                   {"/vsizip/a.zip/a.gpkg", false},
+                                                   {"/vsimem/a.tif", false},
+                                                   {"PG.gpkg", false},
+                                                   {"a.gpkg", false}}) {
+        EXPECT_EQ(io::names_connection(name), is_one) << name;
+    }
+}
+
+} // namespace gdal_test
