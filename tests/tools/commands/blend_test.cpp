@@ -88,16 +88,6 @@ TEST(Blend, LiesWhereItsOwnCoordinatesSay) {
     EXPECT_EQ(file_bytes(place / "out.tif"), file_bytes(place / "c.tif"));
 }
 
-TEST(Blend, TheTargetInItselfIsTheTarget) {
-    Workplace const place;
-    write(place, "target.tif", land(target_grid, 1.0));
-    for (std::string const how : {"--window 5,6,30,20", "--window 0,0,30,20 --feather 4",
-                                  "--window 5,6,30,20 --mixed --feather 2.5", "--window 0,0,59,50 --fill-holes"}) {
-        expect_run(place, "blend target.tif target.tif -o out.tif --overwrite " + how, 0);
-        EXPECT_EQ(changed(read(place, "target.tif"), read(place, "out.tif")), 0) << how;
-    }
-}
-
 TEST(Blend, GoesWhereItIsAskedToAndElseToTheMiddle) {
     Workplace const place;
     write_lands(place);

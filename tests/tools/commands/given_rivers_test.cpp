@@ -135,24 +135,6 @@ TEST(GivenRivers, FoldersThatThalwegWrote) {
     }
 }
 
-TEST(GivenRivers, ALayerIsChosenByItsName) {
-    Workplace const place;
-    place.shell("ogr2ogr -nln NHDFlowline nhd.gpkg " + walker + " && ogr2ogr -update -nln NHDLine nhd.gpkg " + walker +
-                " -where 'COMID < 0' && ogr2ogr -update -nln roads nhd.gpkg " + walker + // NHDLine is empty
-                " && ogr2ogr -nln one two.gpkg " + walker + " && ogr2ogr -update -nln other two.gpkg " + walker);
-    made(place, "nhd.gpkg", coarse, "nhd");
-    expect_refused(place, "make two.gpkg -o out", {""});
-    made(place, "two.gpkg", coarse + " --set network.lines.layer=other", "out");
-}
-
-TEST(GivenRivers, OneShortLine) {
-    Workplace const place;
-    place.write("line.geojson", test::geojson(line_feature("[500000,4000000],[501000,4000300]")));
-    EXPECT_EQ(made(place, "line.geojson", "", "out")["recipe"]["grid"]["cell"], 1.25);
-    json const squared = made(place, "line.geojson", " --set grid.width=200 --set grid.height=200", "squared");
-    EXPECT_EQ(squared["recipe"]["grid"]["cell"], 6.0);
-}
-
 TEST(GivenRivers, WhatHoldsNoRiversIsRefused) {
     Workplace const place;
     place.write("empty.gpkg", "");

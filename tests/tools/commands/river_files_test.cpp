@@ -468,12 +468,6 @@ TEST(RiverFiles, NamesOfColumnsAndNull) {
     expect_all_found(place / "c.gpkg", 2);
 }
 
-TEST(RiverFiles, RiversThatMeanderAreMadeOfTheirLines) {
-    Workplace const place;
-    std::string const walker = samples + "walker_nhdplus.gpkg";
-    made(place, walker, 62, " --set network.meander=2");
-}
-
 TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
     Workplace const place;
     place.write("defects.geojson",
