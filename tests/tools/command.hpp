@@ -72,7 +72,8 @@ nlohmann::json report_of(std::filesystem::path const& folder);
 void expect_checks_hold(nlohmann::json const& report, std::string const& words = "");
 
 /// A feature of GeoJSON.
-inline std::string feature(std::string const& type, std::string const& coordinates, std::string const& properties = "") {
+inline std::string feature(std::string const& type, std::string const& coordinates,
+                           std::string const& properties = "") {
     return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
            R"(","coordinates":)" + coordinates + "}}";
 }
