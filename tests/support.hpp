@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -55,6 +56,20 @@ template <class Failure = Error> std::string full_message_of(auto&& act) {
     return "";
 }
 
+/// Whether an act fails with Failure, thrown by this function ("module.function"), with these words.
+template <class Failure = BadInput>
+testing::AssertionResult refused(std::string_view where, auto&& act, std::string_view words = "") {
+    try {
+        act();
+    } catch (Failure const& error) {
+        if (error.where() != where) {
+            return testing::AssertionFailure() << error.where() << " refuses it, not " << where << ": " << error.what();
+        }
+        return has(error.what(), words);
+    }
+    return testing::AssertionFailure() << where << " accepts it";
+}
+
 /// The bytes of a file; none where it cannot be read.
 inline std::string bytes_of(std::filesystem::path const& path) {
     std::ifstream file(path, std::ios::binary);
@@ -73,6 +88,15 @@ inline Run on_threads(int threads) {
     return run;
 }
 
+/// A run that is asked to stop before it begins.
+inline Run stopped() {
+    std::stop_source source;
+    source.request_stop();
+    Run run;
+    run.stop = source.get_token();
+    return run;
+}
+
 /// How many findings are of a kind.
 inline std::int64_t count(std::vector<Finding> const& findings, std::string_view kind) {
     return std::ranges::count(findings, kind, &Finding::kind);
@@ -83,6 +107,18 @@ inline std::string geojson(std::string const& features) {
     return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
            R"("features":[)" +
            features + "]}";
+}
+
+/// A feature in GeoJSON, with its coordinates and properties as they stand in the file.
+inline std::string feature(std::string const& type, std::string const& coordinates, std::string const& properties) {
+    return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
+           R"(","coordinates":)" + coordinates + "}}";
+}
+inline std::string line(std::string const& vertices, std::string const& properties = "") {
+    return feature("LineString", "[" + vertices + "]", properties);
+}
+inline std::string polygon(std::string const& ring, std::string const& properties = "") {
+    return feature("Polygon", "[[" + ring + "]]", properties);
 }
 
 /// A grid with its south-west corner at (0, 0).
