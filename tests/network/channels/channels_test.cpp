@@ -3,7 +3,6 @@
 #include <thalweg/network/channels/channels.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>

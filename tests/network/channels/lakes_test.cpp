@@ -3,7 +3,6 @@
 #include <thalweg/network/channels/lakes.hpp>
 
 #include <algorithm>
-#include <limits>
 #include <map>
 #include <set>
 #include <string>

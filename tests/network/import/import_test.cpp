@@ -317,6 +317,7 @@ TEST(AdoptOrients, TheOneReachDrawnTheWrongWay) {
     EXPECT_EQ(imported.network.node(imported.network.outlets().at(0)).at, (Vec2{0, 0}));
     EXPECT_EQ(count(imported.repairs, "reversed"), 1);
     EXPECT_EQ(first(imported, "reversed").feature, 2);
+    EXPECT_EQ(first(imported, "reversed").amount, 20.0);
 }
 
 TEST(AdoptOrients, ByTopologyToTheEndNearestTheBorder) {

@@ -3,7 +3,6 @@
 #include <thalweg/network/import/land_and_sea.hpp>
 
 #include <algorithm>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>

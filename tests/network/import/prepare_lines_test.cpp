@@ -3,7 +3,6 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>

@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <string>
 
 #include <gtest/gtest.h>
 #include <network/networks.hpp>

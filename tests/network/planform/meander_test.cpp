@@ -3,7 +3,6 @@
 #include <thalweg/network/planform/meander.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <tuple>
 
 #include <gtest/gtest.h>

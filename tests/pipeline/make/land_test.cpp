@@ -132,6 +132,15 @@ TEST(Land, ABaseOfTrianglesTakesTheScarpsAway) {
     }
 }
 
+TEST(Land, ClustersStopAtTheirRadius) {
+    Made const free = made(rivers);
+    Made const bound = made(rivers + "radius = 40\n");
+    EXPECT_FALSE(free.rivers.story.wide);
+    EXPECT_EQ(free.rivers.story.particles, 3000);
+    EXPECT_TRUE(bound.rivers.story.wide);
+    EXPECT_LT(bound.rivers.story.particles, 3000);
+}
+
 TEST(Land, IncrementsThatJumpAreWarnedOf) {
     EXPECT_TRUE(test::has(said("x<=10 ? 0.1*x : 6-0.1*x"), "jumps from 1 to 5 at x = 10"));
     EXPECT_FALSE(test::has(said("x<=30 ? 0.1*x : 6-0.1*x"), "jumps"));

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/laws.hpp>
 
-#include <cmath>
 #include <limits>
 #include <string>
 

@@ -50,6 +50,7 @@ TEST(Make, RiversAloneHaveNoTerrain) {
     Made const made = make(recipe_of_text(rivers_of));
     EXPECT_FALSE(made.terrain.surface);
     EXPECT_FALSE(made.terrain.drainage);
+    EXPECT_FALSE(made.assessment.given);
     EXPECT_GT(made.terrain.network.plan.arc_count(), 0U);
     EXPECT_TRUE(made.assessment.passed());
 }

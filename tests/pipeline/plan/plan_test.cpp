@@ -217,6 +217,13 @@ TEST(Frame, MemoryIsAskedBeforeTheWork) {
     EXPECT_THROW(check_memory_of_cluster(std::int64_t{1} << 50), BadInput);
 }
 
+TEST(Frame, OneCell) {
+    FramedBranch const framed = frame_branch({{{5, -7}}, false}, {});
+    EXPECT_EQ(framed.mask.width(), 5);
+    EXPECT_EQ(framed.mask.height(), 5);
+    EXPECT_EQ(framed.mouth, framed.mask.grid().centre({-3, 9}));
+}
+
 TEST(Frame, ABranchIsKeptWholeAndItsFrameGivesItselfAgain) {
     ASSERT_TRUE(rc::check("box and at least 5 % around it; the same grid when it is asked for", [] {
         network::Branch branch;

@@ -379,6 +379,12 @@ TEST(PageHeights, RoughAndSmoothAndOneRowWithMeans) {
     }
 }
 
+TEST(PageHeights, APlaneCostsNextToNothing) {
+    auto const page = page_heights(test::raster_of(frame(256, 256), [](Cell c) { return c.col + 2 * c.row; }));
+    auto const small = std::count_if(page->bytes.begin() + 256, page->bytes.end(), [](auto byte) { return byte <= 4; });
+    EXPECT_GT(small, std::ssize(page->bytes) * 98 / 100) << "residuals of a plane are its roundings";
+}
+
 TEST(PageLines, RefusesWhatIsNoLineHere) {
     EXPECT_TRUE(page_of({}, grid).vertices.empty());
     EXPECT_EQ(page_of({}, grid).step, 0.0625);

@@ -12,7 +12,6 @@
 #include <limits>
 #include <set>
 #include <span>
-#include <string>
 #include <utility>
 #include <vector>
 

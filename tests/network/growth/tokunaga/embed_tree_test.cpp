@@ -246,11 +246,11 @@ TEST(EmbedTree, StopsWhenAsked) {
     EXPECT_THROW(embed_tree(grow_tokunaga(), in_square(100), test::stopped()), Cancelled);
 }
 
-TEST(Polygon, OfThreeSquares) {
-    std::vector<Vec2> const ring{{1, 1}, {3, 1}, {3, 2}, {2, 2}, {2, 3}, {1, 3}};
-    EXPECT_EQ(network::area_of(ring), 3.0);
-    EXPECT_LT(distance(network::centroid_of(ring), {11.0 / 6.0, 11.0 / 6.0}), 1e-12);
-    EXPECT_EQ(network::lattice_in(ring, 1.0), (std::vector<Vec2>{{1.5, 1.5}, {2.5, 1.5}, {1.5, 2.5}}));
+TEST(Polygon, OfATriangle) {
+    std::vector<Vec2> const ring{{1, 0}, {5, 0}, {1, 2}};
+    EXPECT_EQ(network::area_of(ring), 4.0);
+    EXPECT_LT(distance(network::centroid_of(ring), {7.0 / 3.0, 2.0 / 3.0}), 1e-12);
+    EXPECT_EQ(network::lattice_in(ring, 1.0), (std::vector<Vec2>{{1.5, 0.5}, {2.5, 0.5}, {3.5, 0.5}, {1.5, 1.5}}));
 }
 
 TEST(EmbedTree, OutlineOfAGrid) {
