@@ -58,23 +58,37 @@ template <class Failure = Error> std::string full_message_of(auto&& act) {
 
 /// Class, place and message of the error that an act throws: "BadInput io.read_dem: ..."; "" where it throws none.
 inline std::string error_of(auto&& act) {
-    auto const told = [](char const* kind, Error const& error) {
+    auto const words = [](char const* kind, Error const& error) {
         return std::string(kind) + " " + error.where() + ": " + error.what();
     };
     try {
         act();
     } catch (BadParameter const& error) {
-        return told("BadParameter", error);
+        return words("BadParameter", error);
     } catch (BadInput const& error) {
-        return told("BadInput", error);
+        return words("BadInput", error);
     } catch (IoError const& error) {
-        return told("IoError", error);
+        return words("IoError", error);
     } catch (Cancelled const& error) {
-        return told("Cancelled", error);
+        return words("Cancelled", error);
     } catch (Error const& error) {
-        return told("Error", error);
+        return words("Error", error);
     }
     return "";
+}
+
+/// Whether an act fails with Failure, thrown by this function ("module.function"), with these words.
+template <class Failure = BadInput>
+testing::AssertionResult refused(std::string_view where, auto&& act, std::string_view words = "") {
+    try {
+        act();
+    } catch (Failure const& error) {
+        if (error.where() != where) {
+            return testing::AssertionFailure() << error.where() << " refuses it, not " << where << ": " << error.what();
+        }
+        return has(error.what(), words);
+    }
+    return testing::AssertionFailure() << where << " accepts it";
 }
 
 /// The bytes of a file; none where it cannot be read.
@@ -115,6 +129,18 @@ inline std::string geojson(std::string const& features) {
     return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
            R"("features":[)" +
            features + "]}";
+}
+
+/// A feature in GeoJSON, with its coordinates and properties as they stand in the file.
+inline std::string feature(std::string const& type, std::string const& coordinates, std::string const& properties) {
+    return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
+           R"(","coordinates":)" + coordinates + "}}";
+}
+inline std::string line(std::string const& vertices, std::string const& properties = "") {
+    return feature("LineString", "[" + vertices + "]", properties);
+}
+inline std::string polygon(std::string const& ring, std::string const& properties = "") {
+    return feature("Polygon", "[[" + ring + "]]", properties);
 }
 
 /// A grid with its south-west corner at (0, 0).

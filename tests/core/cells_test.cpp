@@ -35,8 +35,8 @@ TEST(CellsAlong, NothingAndOneVertex) {
 
 TEST(CellsAlong, RefusesWhatLiesOutside) {
     double const nan = std::numeric_limits<double>::quiet_NaN();
-    for (Vec2 const p :
-         {Vec2{499.0, 215.0}, Vec2{700.001, 215.0}, Vec2{505.0, 99.999}, Vec2{1e300, 215.0}, Vec2{nan, 215.0}}) {
+    for (Vec2 const p : {Vec2{499.0, 215.0}, Vec2{700.001, 215.0}, Vec2{505.0, 99.999}, Vec2{505.0, 220.001},
+                         Vec2{1e300, 215.0}, Vec2{nan, 215.0}}) {
         EXPECT_TRUE(has(message_of<BadInput>([&] { cells_along({{505.0, 215.0}, p}, grid); }), "vertex 1")) << p.x;
     }
 }

@@ -18,8 +18,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/internal/condition.hpp>
 
-#include "scenes.hpp"
 #include "plain_drainage.hpp"
+#include "scenes.hpp"
 
 namespace condition_test {
 

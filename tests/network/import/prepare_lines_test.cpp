@@ -3,7 +3,6 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <string>
 #include <utility>
@@ -81,13 +80,6 @@ using Kept = std::vector<std::pair<std::int64_t, double>>;
 
 std::string const ditch = "waterway ditch";
 
-RiverLines one(std::vector<Vec3> vertices) {
-    RiverLines lines;
-    lines.lines.push_back({4, std::move(vertices), "", 0});
-    lines.has_z = true;
-    return lines;
-}
-
 Grid const ten{10, 10, 1.0, 0.0, 10.0, ""};
 
 std::vector<double> heights(RiverLines const& lines, std::size_t line) {
@@ -112,6 +104,13 @@ TEST(KeepConnectors, ARiverContinuesThroughADitch) {
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 30}, {0, 50}}, ditch)})), (Kept{{3, 20.0}})) << "drawn against the flow";
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {0, 40}}, ditch), line(4, {{0, 40}, {0, 30}}, ditch)})),
               (Kept{{3, 10.0}, {4, 10.0}}));
+    // By the shorter of two ways.
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {15, 40}, {0, 30}}, ditch), line(4, {{0, 50}, {0, 30}}, ditch)})),
+              (Kept{{4, 20.0}}));
+    // Of a canal only the part that is needed.
+    EXPECT_EQ(kept(file({line(1, {{0, 100}, {0, 50}}), line(2, {{20, 50}, {20, 0}})},
+                        {line(3, {{-40, 50}, {0, 50}, {10, 50}, {20, 50}, {90, 50}}, ditch)})),
+              (Kept{{3, 20.0}}));
 }
 
 TEST(KeepConnectors, DitchesThatNoRiverNeedsAreLeftOut) {
@@ -120,18 +119,6 @@ TEST(KeepConnectors, DitchesThatNoRiverNeedsAreLeftOut) {
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {30, 40}}, ditch)})), Kept{}) << "it irrigates one";
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {80, 90}}, ditch)})), Kept{}) << "it feeds another river";
     EXPECT_EQ(kept(file(rivers, {line(3, {{0, 0}, {0, -50}}, ditch)})), Kept{}) << "it leads to no river";
-}
-
-TEST(KeepConnectors, OnlyTheNeededPartOfACanalIsKept) {
-    EXPECT_EQ(kept(file({line(1, {{0, 100}, {0, 50}}), line(2, {{20, 50}, {20, 0}})},
-                        {line(3, {{-40, 50}, {0, 50}, {10, 50}, {20, 50}, {90, 50}}, ditch)})),
-              (Kept{{3, 20.0}}));
-}
-
-TEST(KeepConnectors, TheShorterOfTwoWaysIsKept) {
-    EXPECT_EQ(kept(file({line(1, {{0, 100}, {0, 50}}), line(2, {{0, 30}, {0, 0}})},
-                        {line(3, {{0, 50}, {15, 40}, {0, 30}}, ditch), line(4, {{0, 50}, {0, 30}}, ditch)})),
-              (Kept{{4, 20.0}}));
 }
 
 TEST(KeepConnectors, RiversThatAreDrawnUpstreamEndWhereTheyBegin) {
@@ -163,36 +150,34 @@ TEST(KeepConnectors, EndsMeetWithinTheSnappingDistance) {
 
 TEST(ClipLines, NothingInside) {
     EXPECT_TRUE(network::clip_lines({}, ten).lines.empty());
-    EXPECT_TRUE(network::clip_lines(one({{-5, 5, 1}, {-1, 5, 0}}), ten).lines.empty());
-    EXPECT_TRUE(network::clip_lines(one({{-5, 0, 1}, {0, -5, 0}}), ten).lines.empty());
-    EXPECT_TRUE(network::clip_lines(one({{0, 5, 1}, {-3, 5, 0}}), ten).lines.empty())
+    EXPECT_TRUE(network::clip_lines(lines_of({{{-5, 5, 1}, {-1, 5, 0}}}), ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(lines_of({{{-5, 0, 1}, {0, -5, 0}}}), ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(lines_of({{{0, 5, 1}, {-3, 5, 0}}}), ten).lines.empty())
         << "touches the edge in one point";
 }
 
 TEST(ClipLines, AllInsideIsKeptBitForBit) {
-    RiverLines const lines = one({{0.1, 0.2, 3}, {5, 5, 2}, {10, 10, 1}});
+    RiverLines const lines = lines_of({{{0.1, 0.2, 3}, {5, 5, 2}, {10, 10, 1}}});
     RiverLines const out = network::clip_lines(lines, ten);
     ASSERT_EQ(out.lines.size(), 1U);
     EXPECT_EQ(out.lines[0].vertices, lines.lines[0].vertices);
 }
 
 TEST(ClipLines, LeavesAndReturns) {
-    RiverLines const out = network::clip_lines(one({{2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}}), ten);
+    RiverLines const out = network::clip_lines(lines_of({{{2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}}}), ten);
     ASSERT_EQ(out.lines.size(), 2U);
     EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{2, 5, 8}, {10, 5, 6.4}}));
     EXPECT_EQ(out.lines[1].vertices, (std::vector<Vec3>{{10, 7, 3.6}, {2, 7, 2}}));
-    EXPECT_EQ(out.lines[1].feature, 4);
-}
-
-TEST(ClipLines, CrossesWithoutAVertexInside) {
-    RiverLines const out = network::clip_lines(one({{-10, 5, 30}, {20, 5, 0}}), ten);
-    ASSERT_EQ(out.lines.size(), 1U);
-    EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{0, 5, 20}, {10, 5, 10}}));
+    EXPECT_EQ(out.lines[1].feature, 1);
+    // Without a vertex inside.
+    RiverLines const across = network::clip_lines(lines_of({{{-10, 5, 30}, {20, 5, 0}}}), ten);
+    ASSERT_EQ(across.lines.size(), 1U);
+    EXPECT_EQ(across.lines[0].vertices, (std::vector<Vec3>{{0, 5, 20}, {10, 5, 10}}));
 }
 
 // Law: every metre is inside or beyond.
 TEST(ClipLines, WhatLiesBeyondIsSecondary) {
-    auto const lines = one({{-10, 5, 30}, {2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}, {2, 20, 0}});
+    auto const lines = lines_of({{{-10, 5, 30}, {2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}, {2, 20, 0}}});
     RiverLines const out = network::clip_lines(lines, ten);
     double inside = 0.0;
     double beyond = 0.0;
@@ -206,8 +191,8 @@ TEST(ClipLines, WhatLiesBeyondIsSecondary) {
     }
     EXPECT_EQ(out.secondary.size(), 3U);
     EXPECT_NEAR(inside + beyond, length_in_plan(lines.lines.front().vertices), 1e-9);
-    EXPECT_TRUE(network::clip_lines(one({{2, 5, 8}, {3, 5, 6}}), ten).secondary.empty());
-    EXPECT_EQ(network::clip_lines(one({{-5, 0, 1}, {0, -5, 0}}), ten).secondary.size(), 1U);
+    EXPECT_TRUE(network::clip_lines(lines_of({{{2, 5, 8}, {3, 5, 6}}}), ten).secondary.empty());
+    EXPECT_EQ(network::clip_lines(lines_of({{{-5, 0, 1}, {0, -5, 0}}}), ten).secondary.size(), 1U);
 }
 
 TEST(FillHeights, NothingToFill) {
@@ -265,20 +250,15 @@ TEST(CutLoops, NothingToCut) {
     Line const bend{{0, 0, 3}, {1, 0, 2}, {1, 1, 1}};
     EXPECT_EQ(cut_loops(bend).line, bend);
     EXPECT_EQ(cut_loops(bend).cut_m, 0.0);
-}
-
-TEST(CutLoops, RepeatedVerticesGo) {
     EXPECT_EQ(cut_loops({{0, 0, 2}, {0, 0, 2}, {1, 0, 1}}).line, (Line{{0, 0, 2}, {1, 0, 1}}));
-}
-
-TEST(CutLoops, RefusesWhatIsNotFinite) {
     EXPECT_THROW(cut_loops({{0, 0, 0}, {std::numeric_limits<double>::infinity(), 0, 0}, {1, 1, 0}}), BadInput);
 }
 
-TEST(CutLoops, ACrossingBecomesAVertex) {
+TEST(CutLoops, ACrossingBecomesAVertexAndARingAPoint) {
     CutLine const cut = cut_loops({{0, 0, 5}, {4, 0, 4}, {4, 2, 3}, {2, 2, 2}, {2, -2, 1}});
     EXPECT_EQ(cut.line, (Line{{0, 0, 5}, {2, 0, 4.5}, {2, -2, 1}}));
     EXPECT_EQ(cut.cut_m, 8.0);
+    EXPECT_EQ(cut_loops({{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 0, 1}}).line.size(), 1U);
 }
 
 TEST(CutLoops, SpikesGo) {
@@ -290,10 +270,6 @@ TEST(CutLoops, SpikesGo) {
     Line const nearly{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {1.001, 0, 2}, {2, 0, 1}};
     EXPECT_EQ(cut_loops(nearly).line, nearly);
     EXPECT_EQ(cut_loops(nearly, 0.01).line, (Line{{0, 0, 2}, {1, 0, 2}, {1.001, 0, 2}, {2, 0, 1}}));
-}
-
-TEST(CutLoops, ARingIsAPoint) {
-    EXPECT_EQ(cut_loops({{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 0, 1}}).line.size(), 1U);
 }
 
 TEST(CutLoops, AnyLineBecomesSimple) {

@@ -120,7 +120,7 @@ ReliefRow const& row_of(std::vector<ReliefRow> const& rows, std::string_view key
 
 } // namespace
 
-// The committed figures of reference DEM are those that the code finds in the committed files.
+// The committed values of reference DEMs are those that the code finds in the committed files.
 TEST(ReferenceDems, AsMeasuredFromTheirFiles) {
     if (std::getenv("THALWEG_RENEW") != nullptr) {
         write_anew();
@@ -164,7 +164,7 @@ TEST(ReferenceDems, FormsAsGrassHasThem) {
     }
 }
 
-// Every reference DEM lies in the range that the others are judged by.
+// Every reference DEM lies in the range that terrains are compared with.
 TEST(ReferenceDems, LieInTheirOwnRange) {
     for (measure::ReferenceDem const& land : measure::reference_dems()) {
         for (std::size_t f = 0; f < measure::relief_metric_count; ++f) {
@@ -187,7 +187,7 @@ TEST(GrassForms, CellByCell) {
     EXPECT_EQ(cells_that_differ("jacksboro", "jacksboro_utm16.tif", {110, 120}), 0);
 }
 
-// A part of a reference DEM is taken for land by every figure but those that follow its extent.
+// A part of a reference DEM lies in the range of every metric but those that follow its extent.
 TEST(ReliefRows, APartOfRealLandIsLand) {
     auto const rows = relief_rows(relief_of_sample("bigtujunga_srtm1.tif"));
     EXPECT_EQ(rows.size(), measure::relief_metric_count + 1); // no rivers are drawn on it
@@ -202,7 +202,7 @@ TEST(ReliefRows, APartOfRealLandIsLand) {
     }
 }
 
-// Cells of degrees are measured on the ground: nearly as the same land in metres.
+// Cells of degrees are measured on the ground: nearly as the same terrain in metres.
 TEST(ReliefRows, GeographicLandHasItsSlopes) {
     TerrainRelief const degrees = relief_of_sample("jacksboro_srtm3.tif");
     EXPECT_NEAR(degrees.land.slopes.mean_deg, relief_of_sample("jacksboro_utm16.tif").land.slopes.mean_deg, 0.7);
@@ -220,9 +220,9 @@ TEST(ReliefRows, NoiseIsNotLand) {
     EXPECT_FALSE(row_of(rows, "peaks").ok());
     EXPECT_TRUE(row_of(rows, "pits_over_peaks").ok()); // judges nothing
     EXPECT_GT(*row_of(rows, "pits_over_peaks").value, 0.8);
-    std::string const told = unlike_land(rows, false);
-    EXPECT_TRUE(test::has(told, "gradient_correlation_720 ", "form_distance "));
-    EXPECT_FALSE(test::has(told, "peaks"));
+    std::string const unlike = unlike_land(rows, false);
+    EXPECT_TRUE(test::has(unlike, "gradient_correlation_720 ", "form_distance "));
+    EXPECT_FALSE(test::has(unlike, "peaks"));
     EXPECT_EQ(unlike_land(relief_rows(relief_of_sample("jacksboro_utm16.tif")), false), "");
 }
 

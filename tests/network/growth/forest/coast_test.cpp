@@ -45,10 +45,9 @@ TEST(SpreadOutlets, coast_touches_sea_or_border) {
 TEST(SpreadOutlets, refuses_what_it_cannot_do) {
     Mask const land(frame(9, 9), 1);
     EXPECT_THROW(spread_outlets(land, {}), BadInput);
-    EXPECT_THROW(spread_outlets(land, coast_cells(land), {-1, 60.0, 7}), BadParameter);
-    EXPECT_THROW(spread_outlets(land, coast_cells(land), {0, 0.0, 7}), BadParameter);
-    EXPECT_THROW(spread_outlets(land, coast_cells(land), {0, std::numeric_limits<double>::quiet_NaN(), 7}),
-                 BadParameter);
+    for (SpreadOutletsParams const& wrong : {SpreadOutletsParams{-1, 60.0, 7}, {0, 0.0, 7}, {0, std::nan(""), 7}}) {
+        EXPECT_THROW(spread_outlets(land, coast_cells(land), wrong), BadParameter);
+    }
 }
 
 // Laws: outlets are cells of the coast, three cells apart; as many as asked, or no other would be.
@@ -97,7 +96,7 @@ TEST(SpreadOutlets, distances_are_natural) {
     EXPECT_LT(deviation / mean, 0.7);
 }
 
-// Mouths lie rather in bays than on capes: a bay and a cape of the same shape.
+// There are more mouths in bays than on capes: a bay and a cape of the same shape.
 TEST(SpreadOutlets, bays_have_more_than_capes) {
     Mask land(frame(200, 120), 0);
     auto const wedge = [](Cell c, std::int64_t tip) { return 40 - std::abs(c.col - tip); };
@@ -146,7 +145,7 @@ TEST(ShapeIsland, laws) {
     }));
 }
 
-// The square of the coast's length over the area, which does not know how large an island is.
+// The square of the coast's length over the area does not depend on the size of the island.
 TEST(ShapeIsland, ruggedness_makes_the_coast_longer) {
     Grid const grid = frame(400, 400);
     double before = 0.0;
@@ -165,11 +164,9 @@ TEST(ShapeIsland, ruggedness_makes_the_coast_longer) {
 // Law: no field of Run changes a result; the seed does.
 TEST(ShapeIsland, same_mask_for_any_number_of_threads) {
     Grid const grid = frame(130, 90);
-    thalweg::Run const one = on_threads(1);
-    thalweg::Run const three = on_threads(3);
-    auto const cells = [](Mask const& m) { return std::vector<std::uint8_t>(m.values().begin(), m.values().end()); };
-    EXPECT_EQ(cells(shape_island(grid, {0.5, 7}, one)), cells(shape_island(grid, {0.5, 7}, three)));
-    EXPECT_NE(cells(shape_island(grid, {0.5, 7})), cells(shape_island(grid, {0.5, 8})));
+    Mask const one = shape_island(grid, {0.5, 7}, on_threads(1));
+    EXPECT_TRUE(test::same_bits(one, shape_island(grid, {0.5, 7}, on_threads(3))));
+    EXPECT_FALSE(test::same_bits(one, shape_island(grid, {0.5, 8})));
 }
 
 } // namespace coast_test
