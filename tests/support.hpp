@@ -9,6 +9,7 @@
 #include <filesystem>
 #include <fstream>
 #include <iterator>
+#include <stop_token>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -25,10 +26,14 @@ namespace test {
 
 using namespace thalweg;
 
-/// Whether a text has these words in it; a check that fails shows the text.
-inline testing::AssertionResult has(std::string_view text, std::string_view words) {
-    return text.find(words) != std::string_view::npos ? testing::AssertionSuccess()
-                                                      : testing::AssertionFailure() << "'" << text << "'";
+/// Whether a text has all of these words in it; a check that fails shows the text and the words it lacks.
+inline testing::AssertionResult has(std::string_view text, std::convertible_to<std::string_view> auto const&... words) {
+    for (std::string_view const one : {std::string_view(words)...}) {
+        if (text.find(one) == std::string_view::npos) {
+            return testing::AssertionFailure() << "'" << text << "' lacks '" << one << "'";
+        }
+    }
+    return testing::AssertionSuccess() << "'" << text << "'";
 }
 
 /// What an act that fails with Failure says; nothing where it does not fail.
@@ -51,6 +56,41 @@ template <class Failure = Error> std::string full_message_of(auto&& act) {
     return "";
 }
 
+/// Class, place and message of the error that an act throws: "BadInput io.read_dem: ..."; "" where it throws none.
+inline std::string error_of(auto&& act) {
+    auto const words = [](char const* kind, Error const& error) {
+        return std::string(kind) + " " + error.where() + ": " + error.what();
+    };
+    try {
+        act();
+    } catch (BadParameter const& error) {
+        return words("BadParameter", error);
+    } catch (BadInput const& error) {
+        return words("BadInput", error);
+    } catch (IoError const& error) {
+        return words("IoError", error);
+    } catch (Cancelled const& error) {
+        return words("Cancelled", error);
+    } catch (Error const& error) {
+        return words("Error", error);
+    }
+    return "";
+}
+
+/// Whether an act fails with Failure, thrown by this function ("module.function"), with these words.
+template <class Failure = BadInput>
+testing::AssertionResult refused(std::string_view where, auto&& act, std::string_view words = "") {
+    try {
+        act();
+    } catch (Failure const& error) {
+        if (error.where() != where) {
+            return testing::AssertionFailure() << error.where() << " refuses it, not " << where << ": " << error.what();
+        }
+        return has(error.what(), words);
+    }
+    return testing::AssertionFailure() << where << " accepts it";
+}
+
 /// The bytes of a file; none where it cannot be read.
 inline std::string bytes_of(std::filesystem::path const& path) {
     std::ifstream file(path, std::ios::binary);
@@ -69,6 +109,16 @@ inline Run on_threads(int threads) {
     return run;
 }
 
+/// A run that is asked to stop before it begins.
+inline Run stopped_run() {
+    std::stop_source source;
+    source.request_stop();
+    Run run;
+    run.stop = source.get_token();
+    run.progress = [](double, char const*, void*) { return 0; };
+    return run;
+}
+
 /// How many findings are of a kind.
 inline std::int64_t count(std::vector<Finding> const& findings, std::string_view kind) {
     return std::ranges::count(findings, kind, &Finding::kind);
@@ -79,6 +129,18 @@ inline std::string geojson(std::string const& features) {
     return R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32631"}},)"
            R"("features":[)" +
            features + "]}";
+}
+
+/// A feature in GeoJSON, with its coordinates and properties as they stand in the file.
+inline std::string feature(std::string const& type, std::string const& coordinates, std::string const& properties) {
+    return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
+           R"(","coordinates":)" + coordinates + "}}";
+}
+inline std::string line(std::string const& vertices, std::string const& properties = "") {
+    return feature("LineString", "[" + vertices + "]", properties);
+}
+inline std::string polygon(std::string const& ring, std::string const& properties = "") {
+    return feature("Polygon", "[[" + ring + "]]", properties);
 }
 
 /// A grid with its south-west corner at (0, 0).

@@ -48,16 +48,22 @@ def check_format(path, dataset, compression, data_type, report):
     report.unless(dataset.GetSpatialRef() is not None, "no_crs", path)
 
 
+def check_cog(path, report):
+    """A dataset that must be a COG of heights."""
+    dem = gdal.Open(path)
+    check_format(path, dem, "DEFLATE", gdal.GDT_Float32, report)
+    with contextlib.redirect_stdout(io.StringIO()):
+        _, errors, _ = validate_cloud_optimized_geotiff.validate(path, full_check=True)
+    report.unless(not errors and dem.GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE") == "COG", "not_a_cog", errors)
+    report.unless(dem.GetRasterBand(1).GetNoDataValue() is not None, "no_nodata", path)
+    return dem
+
+
 def main(dem_path, mask_path, network_path):
     report = Report()
-    dem, mask = gdal.Open(dem_path), gdal.Open(mask_path)
-    check_format(dem_path, dem, "DEFLATE", gdal.GDT_Float32, report)
+    dem, mask = check_cog(dem_path, report), gdal.Open(mask_path)
     check_format(mask_path, mask, "DEFLATE", gdal.GDT_Byte, report)
-    with contextlib.redirect_stdout(io.StringIO()):
-        _, errors, _ = validate_cloud_optimized_geotiff.validate(dem_path, full_check=True)
-    report.unless(not errors and dem.GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE") == "COG", "not_a_cog", errors)
     nodata = dem.GetRasterBand(1).GetNoDataValue()
-    report.unless(nodata is not None, "no_nodata", dem_path)
     place = dem.GetGeoTransform()
     same = mask.GetGeoTransform() == place and (mask.RasterXSize, mask.RasterYSize) == (dem.RasterXSize, dem.RasterYSize)
     report.unless(same, "mask_on_another_grid", mask_path)

@@ -7,10 +7,9 @@ Every feature of every layer and every cell of every band is read, and the file 
 a layer that gives fewer features than it says. Of a folder, what lies in it by itself, not the copies in inputs/.
 Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
 import pathlib
-import sys
 
 from osgeo import gdal
-from report import Report
+from report import Report, run
 
 gdal.DontUseExceptions()  # a warning must reach the handler as one
 ENDINGS = {".gpkg", ".shp", ".dbf", ".fgb", ".geojson", ".json", ".tif", ".csv"}
@@ -36,7 +35,7 @@ def read(source, report):
     return figures
 
 
-def main(sources):
+def main(*sources):
     report = Report()
     files = []
     for source in sources:
@@ -44,8 +43,7 @@ def main(sources):
         inside = path.is_dir() and not source.startswith("PG:")
         files += [str(p) for p in sorted(path.iterdir()) if p.suffix in ENDINGS and p.name not in NOT_FOR_GDAL] if inside else [source]
     if not files:
-        print(f"check_gdal.py: nothing for GDAL in {' '.join(sources)}", file=sys.stderr)
-        return 2
+        raise RuntimeError(f"nothing for GDAL in {' '.join(sources)}")
     figures = {}
     for source in files:
         gdal.PushErrorHandler(lambda level, number, text, source=source: report.unless(
@@ -56,6 +54,4 @@ def main(sources):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 2:
-        sys.exit(__doc__)
-    sys.exit(main(sys.argv[1:]))
+    run(main, __doc__)

@@ -18,7 +18,7 @@ import tempfile
 
 import numpy as np
 from osgeo import gdal
-from report import Report, run
+from report import Report, command, run
 from scipy.ndimage import distance_transform_edt
 
 gdal.UseExceptions()
@@ -44,11 +44,8 @@ def score(truth, found):
 def session(dem, folder):
     """A location in the DEM's CRS, for as long as the block runs."""
     place = folder / "location"
-    made = subprocess.run(["grass", "-c", dem, "-e", str(place)], capture_output=True, text=True, check=False)
-    if made.returncode != 0:
-        raise RuntimeError(f"GRASS makes no location for {dem}: {made.stderr.strip()[-300:]}")
-    python = subprocess.run(["grass", "--config", "python_path"], capture_output=True, text=True, check=True).stdout.strip()
-    sys.path.insert(0, python)
+    command("grass", "-c", dem, "-e", place)
+    sys.path.insert(0, command("grass", "--config", "python_path").stdout.strip())
     from grass.script import setup  # GRASS says only when asked where its modules are
 
     with setup.init(str(folder), "location", "PERMANENT"):

@@ -8,17 +8,14 @@ dem.tif alone as docs/statistics.md defines it, within 1 % (the dimension within
 else. Points of a file, where statistics start from them: each is its cell's height. tin.ply with a network: every
 segment of every arc runs along edges of triangles, at its heights. Nothing of thalweg is used.
 Prints one JSON object and exits with 1 on any violation, 2 when there is nothing to check."""
-import contextlib
 import csv
-import io
 import pathlib
 import tomllib
 
 import meshio
 import numpy as np
-from check_dem import check_format
+from check_dem import check_cog
 from osgeo import gdal, ogr
-from osgeo_utils.samples import validate_cloud_optimized_geotiff
 from report import Report, run
 
 gdal.UseExceptions()
@@ -26,13 +23,8 @@ ogr.UseExceptions()
 
 
 def check_raster(path, report):
-    dem = gdal.Open(str(path))
-    check_format(str(path), dem, "DEFLATE", gdal.GDT_Float32, report)
-    with contextlib.redirect_stdout(io.StringIO()):
-        _, errors, _ = validate_cloud_optimized_geotiff.validate(str(path), full_check=True)
-    report.unless(not errors and dem.GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE") == "COG", "not_a_cog", errors)
+    dem = check_cog(str(path), report)
     nodata = dem.GetRasterBand(1).GetNoDataValue()
-    report.unless(nodata is not None, "no_nodata", str(path))
     z = dem.ReadAsArray().astype(float)
     holes = ~np.isfinite(z) | (z == nodata) | (np.abs(z) > 1e5)
     report.unless(not holes.any(), "cells_without_height", int(holes.sum()))

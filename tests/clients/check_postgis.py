@@ -12,11 +12,9 @@ import contextlib
 import json
 import os
 import pathlib
-import subprocess
-import sys
 
 import cluster
-from report import Report
+from report import Report, command, run
 
 # pgRouting takes its edges as text; a negative reverse_cost is a way that does not exist.
 EDGES = "'select arc_id as id, from_node as source, to_node as target, length as cost, {reverse} as reverse_cost from {schema}.arcs'"
@@ -55,10 +53,7 @@ select json_build_array((select count(*) from {schema}_topology.edge_data) - (se
 
 def psql(state, script):
     words = ["psql", "-X", "-q", "-A", "-t", "-v", "ON_ERROR_STOP=1", "-d", cluster.words(state), "-f", "-"]
-    done = subprocess.run(words, input=script, capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(done.stderr.strip()[-500:])
-    return done.stdout
+    return command(*words, input=script).stdout
 
 
 @contextlib.contextmanager
@@ -81,9 +76,7 @@ def load(state, network, schema, report):
         layer = [table] if file.suffix != ".shp" else []
         words = ["ogr2ogr", "-f", "PostgreSQL", f"PG:{cluster.words(state)} active_schema={schema}", str(file), *layer,
                  "-nln", table, "-lco", "GEOMETRY_NAME=geom", "-lco", "SPATIAL_INDEX=GIST", "-lco", "PRECISION=NO"]  # dBase integers stay integers
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"{' '.join(words)}: {done.stderr.strip()[-500:]}")
+        done = command(*words)
         report.unless(not done.stderr and not done.stdout, "warning", f"{file.name}: {(done.stdout + done.stderr).strip()[:300]}")
 
 
@@ -125,10 +118,4 @@ def main(state, *networks):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3:
-        sys.exit(__doc__)
-    try:
-        sys.exit(main(*sys.argv[1:]))
-    except (OSError, RuntimeError) as error:
-        print(f"check_postgis.py: {error}", file=sys.stderr)
-        sys.exit(2)
+    run(main, __doc__)

@@ -6,12 +6,11 @@
 SAGA's Fill Sinks (Wang & Liu 2006) with no slope forced on what it fills raises just the cells of depressions. None may be
 raised, not by the last bit of a Float32. Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
 import pathlib
-import subprocess
 import tempfile
 
 import numpy as np
 from osgeo import gdal
-from report import Report, run
+from report import Report, command, run
 from scipy.ndimage import label, maximum, minimum_position, sum_labels
 
 gdal.UseExceptions()
@@ -25,11 +24,8 @@ def main(path):
     z = dem.ReadAsArray().astype(float)
     with tempfile.TemporaryDirectory(prefix="thalweg-saga-") as folder:
         out = {name: pathlib.Path(folder) / f"{name}.sgrd" for name in ("filled", "directions", "basins")}
-        words = ["saga_cmd", "-f=s", "ta_preprocessor", "4", "-ELEV", path, "-FILLED", out["filled"], "-FDIR", out["directions"],
-                 "-WSHED", out["basins"], "-MINSLOPE", "0"]
-        done = subprocess.run(words, capture_output=True, text=True, check=False)
-        if done.returncode != 0:
-            raise RuntimeError(f"saga_cmd: {(done.stdout + done.stderr).strip()[-300:]}")
+        command("saga_cmd", "-f=s", "ta_preprocessor", "4", "-ELEV", path, "-FILLED", out["filled"], "-FDIR", out["directions"],
+                "-WSHED", out["basins"], "-MINSLOPE", "0")
         filled = gdal.Open(str(out["filled"].with_suffix(".sdat"))).ReadAsArray().astype(float)
     report.equal("shape", filled.shape, z.shape)
     raised = np.where(z == nodata, 0.0, filled - z)

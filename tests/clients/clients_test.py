@@ -1,9 +1,10 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""clients_test.py grass|saga|relief|postgis|qgis|gdal FOLDER [STATE]: does check_grass.py, ... find each fault planted in a copy?
+"""clients_test.py CHECK FOLDER [STATE]: does check_CHECK.py find each fault planted in a copy?
 
-FOLDER: what `thalweg make` left, and good. STATE: of cluster.py, for postgis.
+CHECK: network, catchments, grass, saga, relief, postgis, qgis or gdal. FOLDER: what `thalweg make` left, and good; of its
+network the faults of ridges where it has them, of the unit of heights where it names it. STATE: of cluster.py, for postgis.
 Exits with 1 when a fault goes unseen or FOLDER itself is not good."""
 import json
 import pathlib
@@ -13,19 +14,138 @@ import sys
 import tempfile
 
 import numpy as np
-from check_network_test import lift_end, loop, nudge_end, number, sql, touch, vertices
 from osgeo import gdal, ogr
 
 gdal.UseExceptions()
+ogr.UseExceptions()
 HERE = pathlib.Path(__file__).parent
 NET, SHP, DEM, MASK = "network.gpkg", "network_arcs.shp", "dem.tif", "network.tif"
 
 
-def network(change):
+def geopackage(change, name=NET):
     def plant(folder):
-        dataset = ogr.Open(str(folder / NET), update=1)
+        dataset = ogr.Open(str(folder / name), update=1)
         change(dataset)
     return plant
+
+
+def network(change):
+    return geopackage(change)
+
+
+def catchments(change):
+    return geopackage(change, "catchments.gpkg")
+
+
+def number(layer, field, change):
+    def plant(dataset):
+        table = dataset.GetLayerByName(layer)
+        feature = table.GetNextFeature()
+        feature[field] = change(feature[field])
+        table.SetFeature(feature)
+    return plant
+
+
+def vertices(layer, change):
+    """Changes the vertices of the first feature."""
+    def plant(dataset):
+        table = dataset.GetLayerByName(layer)
+        feature = table.GetNextFeature()
+        points = change([list(p) for p in feature.GetGeometryRef().GetPoints()])
+        shape = ogr.Geometry(feature.GetGeometryRef().GetGeometryType())
+        for p in points:
+            shape.AddPoint(*p)
+        feature.SetGeometry(shape)
+        table.SetFeature(feature)
+    return plant
+
+
+def sql(*statements):
+    def plant(dataset):
+        for statement in statements:
+            dataset.ExecuteSQL(statement)
+    return plant
+
+
+def middle(feature):
+    """Of its first segment."""
+    a, b = feature.GetGeometryRef().GetPoints()[:2]
+    return [(a[0] + b[0]) / 2, (a[1] + b[1]) / 2]
+
+
+def touch(dataset):
+    """Leads the first arc over the middle of the last."""
+    table = dataset.GetLayerByName("arcs")
+    at = middle(table.GetFeature(table.GetFeatureCount()))
+    vertices("arcs", lambda p: [p[0], [*at, p[0][2]], p[-1]])(dataset)
+
+
+def onto_river(dataset):
+    """Leads the first ridge to the middle of the first arc."""
+    at = middle(dataset.GetLayerByName("arcs").GetNextFeature())
+    vertices("ridges", lambda p: [*p, [*at, p[-1][2]]])(dataset)
+
+
+def nudge_end(points):
+    points[-1][0] += 1e-9 * max(1.0, abs(points[-1][0]))
+    return points
+
+
+def lift_end(points):
+    points[-1][2] = points[0][2] + 1.0
+    return points
+
+
+def loop(points):
+    (ax, ay, z), (bx, by, end) = points[0], points[-1]
+    dx, dy = bx - ax, by - ay
+    return [points[0], [ax + dx, ay + 0.1 * dy, z], [ax, ay + 0.5 * dy, z], [ax + 0.5 * dx, ay - dy, z], [bx, by, end]]
+
+
+def shape(layer, change):
+    """Changes the outline of the first feature."""
+    def plant(dataset):
+        table = dataset.GetLayerByName(layer)
+        feature = table.GetNextFeature()
+        feature.SetGeometry(change(feature.GetGeometryRef().Clone()))
+        table.SetFeature(feature)
+    return plant
+
+
+def moved(whole):
+    """Half its width to the east."""
+    west, east, _, _ = whole.GetEnvelope()
+    for i in range(whole.GetGeometryCount()):
+        for k in range(whole.GetGeometryRef(i).GetGeometryCount()):
+            ring = whole.GetGeometryRef(i).GetGeometryRef(k)
+            for n in range(ring.GetPointCount()):
+                ring.SetPoint_2D(n, ring.GetX(n) + (east - west) / 2, ring.GetY(n))
+    return whole
+
+
+def bow_tie(whole):
+    west, east, south, north = whole.GetEnvelope()
+    text = f"{west} {south},{east} {north},{east} {south},{west} {north},{west} {south}"
+    return ogr.CreateGeometryFromWkt(f"MULTIPOLYGON((({text})))")
+
+
+def pierced(dataset):
+    """Takes a cell out of the middle of the largest catchment and of its basin."""
+    table = dataset.GetLayerByName("catchments")
+    largest = max(table, key=lambda feature: feature["cells"])
+    cell = (largest["area"] / largest["cells"]) ** 0.5
+    inner = largest.GetGeometryRef().Buffer(-2 * cell).PointOnSurface()
+    hole = inner.Buffer(cell / 2)
+    for layer, rows in (("catchments", [largest]), ("basins", list(dataset.GetLayerByName("basins")))):
+        for feature in rows:
+            cut = ogr.ForceToMultiPolygon(feature.GetGeometryRef().Difference(hole))
+            feature.SetGeometry(cut)
+            dataset.GetLayerByName(layer).SetFeature(feature)
+
+
+def without_first(dataset):
+    table = dataset.GetLayerByName("catchments")
+    table.DeleteFeature(table.GetNextFeature().GetFID())
 
 
 def heights(change):
@@ -124,10 +244,74 @@ def no_ridges(folder):
     path.write_text(json.dumps(told))
 
 
+OF_NETWORK = [
+    *[(field, number("arcs", field, lambda v: v + 1)) for field in
+      "ds_arc n_up basin_id topo_ord strahler shreve hack length length_3d straight z_up z_down dist_out slope".split()],
+    *[(field, number("nodes", field, lambda v: v + 1)) for field in "deg_in deg_out basin_id strahler z dist_out".split()],
+    ("kind", number("nodes", "kind", lambda v: "source" if v == "outlet" else "outlet")),
+    ("area_below_zero", number("arcs", "us_area", lambda v: -1.0)),
+    ("area_below_zero", number("nodes", "area", lambda v: -1.0)),
+    ("id_twice", number("arcs", "arc_id", lambda v: v + 1)),
+    ("id_below_one", number("nodes", "node_id", lambda v: 0)),
+    ("node_missing", number("arcs", "from_node", lambda v: 10**8)),
+    ("several_outflows", sql("UPDATE arcs SET from_node = (SELECT max(from_node) FROM arcs)")),
+    ("cycle", sql("UPDATE arcs SET to_node = from_node WHERE arc_id = 1")),
+    ("end_is_not_its_node", vertices("arcs", nudge_end)),
+    ("end_is_not_its_node", vertices("nodes", nudge_end)),
+    ("uphill", vertices("arcs", lift_end)),
+    ("repeated_vertex", vertices("arcs", lambda p: p[:1] + p)),
+    ("not_simple", vertices("arcs", loop)),
+    ("isolated_node", sql("DELETE FROM arcs WHERE arc_id = 1")),
+    ("field_missing", sql("ALTER TABLE arcs DROP COLUMN hack")),
+    ("field_name_too_long", sql("ALTER TABLE nodes ADD COLUMN eleven_char INTEGER DEFAULT 1")),
+    ("null", sql("ALTER TABLE nodes ADD COLUMN empty INTEGER")),
+    ("field_type", sql("ALTER TABLE arcs RENAME COLUMN strahler TO a", "ALTER TABLE arcs RENAME COLUMN length TO strahler",
+                       "ALTER TABLE arcs RENAME COLUMN a TO length")),
+    ("no_arcs", sql("DELETE FROM arcs")),
+    ("crossing", touch),
+]
+OF_RIDGES = [
+    ("ridge_in_one_stream", sql("UPDATE ridges SET left = right WHERE ridge_id = 1")),
+    ("ridge_z_order", number("ridges", "z_min", lambda v: v + 1e6)),
+    ("ridge_z", number("ridges", "z_max", lambda v: v + 1)),
+    ("ridge_length", number("ridges", "length", lambda v: v + 1)),
+    ("ridge_meets_river", onto_river),
+]
+OF_UNITS = [
+    ("z_unit", sql("UPDATE arcs SET z_unit = 'yd' WHERE arc_id = 1")),
+    ("several_units", sql("ALTER TABLE nodes DROP COLUMN z_unit")),
+    ("length_3d", sql("ALTER TABLE arcs DROP COLUMN z_unit")),
+    ("slope", sql("ALTER TABLE arcs DROP COLUMN z_unit")),
+    ("slope", number("arcs", "slope", lambda v: v / 0.3048)),
+    ("field_type", sql("ALTER TABLE arcs DROP COLUMN z_unit", "ALTER TABLE arcs ADD COLUMN z_unit INTEGER DEFAULT 1")),
+]
+OF_CATCHMENTS = [
+    ("overlap", shape("catchments", moved)),
+    ("basins_are_not_their_catchments", shape("catchments", moved)),
+    ("gap", pierced),
+    ("invalid", shape("catchments", bow_tie)),
+    ("invalid", shape("basins", bow_tie)),
+    ("area_is_not_its_cells", number("catchments", "area", lambda v: v + 1)),
+    ("area_is_not_its_outline", number("basins", "area", lambda v: v * 2)),
+    ("ds_arc_is_not_the_arc's", number("catchments", "ds_arc", lambda v: v + 1)),
+    ("basin_id_is_not_the_arc's", number("catchments", "basin_id", lambda v: v + 1)),
+    ("ds_area_is_not_the_arc's", number("catchments", "ds_area", lambda v: v + 1)),
+    ("ds_area_is_no_sum", number("catchments", "ds_area", lambda v: v * 2)),
+    ("id_twice", number("catchments", "arc_id", lambda v: v + 1)),
+    ("no_such_arc", number("catchments", "arc_id", lambda v: 10**8)),
+    ("catchment_missing", without_first),
+    ("cells_lost", without_first),
+    ("basin_cells", number("basins", "cells", lambda v: v + 1)),
+    ("basin_arcs", number("basins", "arcs", lambda v: v + 1)),
+]
 UPSIDE_DOWN = heights(np.flipud)
 TURNED_OVER = heights(lambda z: np.where(np.abs(z) < 1e5, -z, z))
 NO_APPLICATION = network(sql("PRAGMA application_id = 1"))
 PLANTED = {
+    "network": [(fault, network(plant)) for fault, plant in OF_NETWORK],
+    "ridges": [(fault, network(plant)) for fault, plant in OF_RIDGES],
+    "units": [(fault, network(plant)) for fault, plant in OF_UNITS],
+    "catchments": [(fault, catchments(plant)) for fault, plant in OF_CATCHMENTS],
     "grass": [
         ("clean_break", network(touch)),
         ("clean_rmdupl", network(arc_again(lambda points: points))),
@@ -191,6 +375,8 @@ PLANTED = {
     ],
 }
 WORDS = {
+    "network": lambda folder, state: [folder / NET],
+    "catchments": lambda folder, state: [folder],
     "grass": lambda folder, state: [folder / DEM, folder / MASK, folder / NET, "recall=0.7"],
     "saga": lambda folder, state: [folder / DEM],
     "relief": lambda folder, state: [folder],
@@ -208,12 +394,23 @@ def faults_in(client, folder, state):
     return set(json.loads(done.stdout)["violations"])
 
 
+def planted_in(client, folder):
+    """The faults for a folder, one after another."""
+    if client == "network":
+        data = ogr.Open(str(folder / NET))
+        if data.GetLayerByName("arcs").FindFieldIndex("z_unit", 1) >= 0:
+            return PLANTED["units"]
+        return PLANTED["network" if data.GetLayerByName("ridges") is None else "ridges"]
+    return PLANTED[client]
+
+
 def main(client, folder, state=None):
     folder = pathlib.Path(folder)
+    planted = planted_in(client, folder)
     unseen = [f"{folder} itself has {fault}" for fault in sorted(faults_in(client, folder, state))]
     seen = {}
     with tempfile.TemporaryDirectory(prefix="thalweg-planted-") as place:
-        for fault, plant in PLANTED[client]:
+        for fault, plant in planted:
             if plant not in seen:
                 copy = pathlib.Path(place) / f"copy{len(seen)}"
                 shutil.copytree(folder, copy, ignore=shutil.ignore_patterns("*.html", "*.svg", "*.png", "inputs"))
@@ -222,11 +419,11 @@ def main(client, folder, state=None):
                 shutil.rmtree(copy)
             if fault not in seen[plant]:
                 unseen.append(f"{fault} planted, {sorted(seen[plant])} found")
-    print(json.dumps({"planted": len(PLANTED[client]), "unseen": unseen}))
+    print(json.dumps({"planted": len(planted), "unseen": unseen}))
     return 1 if unseen else 0
 
 
 if __name__ == "__main__":
-    if len(sys.argv) < 3 or sys.argv[1] not in PLANTED:
+    if len(sys.argv) < 3 or sys.argv[1] not in WORDS:
         sys.exit(__doc__)
     sys.exit(main(*sys.argv[1:]))

@@ -11,9 +11,10 @@ import os
 import pathlib
 import pwd
 import shutil
-import subprocess
 import sys
 import tempfile
+
+from report import command
 
 # Nothing here needs to outlive a crash of the machine.
 SETTINGS = {"listen_addresses": "''", "fsync": "off", "synchronous_commit": "off", "full_page_writes": "off", "jit": "off",
@@ -30,10 +31,7 @@ def binaries():
 def run(*words):
     """As who may run a server: PostgreSQL refuses root."""
     user = ["runuser", "-u", "postgres", "--"] if os.geteuid() == 0 else []
-    done = subprocess.run([*user, *map(str, words)], cwd="/", capture_output=True, text=True, check=False)
-    if done.returncode != 0:
-        raise RuntimeError(f"{' '.join(map(str, words))}: {(done.stdout + done.stderr).strip()[-500:]}")
-    return done.stdout
+    return command(*user, *words, cwd="/").stdout
 
 
 def connection(state):

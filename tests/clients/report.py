@@ -3,6 +3,7 @@
 """What a check says: figures as one JSON line on stdout, faults in words on stderr, exit 1 where there is one."""
 import json
 import pathlib
+import subprocess
 import sys
 from collections import Counter, defaultdict
 
@@ -37,11 +38,19 @@ class Report:
         return 1 if self.counts else 0
 
 
+def command(*words, **options):
+    """Runs another program; RuntimeError with the end of its messages where it fails."""
+    done = subprocess.run(list(map(str, words)), capture_output=True, text=True, check=False, **options)
+    if done.returncode != 0:
+        raise RuntimeError(f"{' '.join(map(str, words))}: {(done.stdout + done.stderr).strip()[-500:]}")
+    return done
+
+
 def run(main, usage, *counts):
-    """Calls main with the words of the command line and exits with what it gives: 2 where a file cannot be read.
-    counts: how many words there may be."""
+    """Calls main with the words of the command line and exits with what it returns: 2 where a file cannot be read.
+    counts: how many words there may be; without it, one or more."""
     words = sys.argv[1:]
-    if len(words) not in counts:
+    if len(words) not in counts if counts else not words:
         sys.exit(usage)
     try:
         sys.exit(main(*words))

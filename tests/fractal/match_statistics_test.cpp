@@ -10,6 +10,7 @@
 #include <gtest/gtest.h>
 #include <support.hpp>
 
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
@@ -73,32 +74,40 @@ std::string refusal(Targets const& targets) {
         [&] { match_statistics(Raster<float>(frame_below(130, 40, 300.0), 500.0F), targets); });
 }
 
+Raster<float> rough(Grid const& grid, std::uint64_t seed) {
+    Raster<float> land(grid);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        land[i] = static_cast<float>(100.0 * unit(random_word(seed, static_cast<std::uint64_t>(i))));
+    }
+    return land;
+}
+
 } // namespace
 
 TEST(Project, RefusesWhatNoLandCanHave) {
     Targets t = table_4();
     t.mean = 1100.0;
-    EXPECT_NE(refusal(t).find("a mean of 1100 m is not between the lowest point of 276 m and the highest of 1038 m"),
-              std::string::npos);
+    EXPECT_TRUE(
+        test::has(refusal(t), "a mean of 1100 m is not between the lowest point of 276 m and the highest of 1038 m"));
     t = table_4();
     t.std = 362.0; // sqrt((1038 - 536) (536 - 276)) = 361.28
-    EXPECT_NE(refusal(t).find("the most is 361.27"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(t), "the most is 361.27"));
     t.mean.reset(); // half the relief is the most for any mean
     EXPECT_EQ(refusal(t), "");
     t.std = 382.0;
-    EXPECT_NE(refusal(t).find("381.000 m"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(t), "381.000 m"));
     t = table_4();
     t.max->cell = {130, 0};
-    EXPECT_NE(refusal(t).find("off the grid"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(t), "off the grid"));
     t.max->cell = t.min->cell;
-    EXPECT_NE(refusal(t).find("both at column 129, row 26"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(t), "both at column 129, row 26"));
     t = table_4();
     t.max->z = 200.0;
-    EXPECT_NE(refusal(t).find("not below"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(t), "not below"));
     t = {};
     t.max = FixedHeight{{0, 0}, 10.0};
     t.mean = 10.0;
-    EXPECT_NE(refusal(t).find("mean"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(t), "mean"));
     for (auto const member :
          {&Targets::std, &Targets::lx_cells, &Targets::ly_cells, &Targets::slope_rad, &Targets::dimension}) {
         t = {};
@@ -288,6 +297,47 @@ TEST(Limiter, IsSmoothAndStaysInside) {
     fractal::Limiter const none(Targets{}, 0.5);
     EXPECT_EQ(none.height(-1e6), -1e6);
     EXPECT_FALSE(none.bends(1e6));
+}
+
+TEST(FineForms, RefuseWhatDoesNotFit) {
+    Raster<float> const land(Grid{4, 3, 1.0, 0, 0, ""}, 1.0F);
+    EXPECT_THROW(fractal::with_fine_forms(land, land, 0.0), BadParameter);
+    EXPECT_THROW(fractal::with_fine_forms(land, Raster<float>(Grid{3, 4, 1.0, 0, 0, ""}), 1.0), BadInput);
+    Raster<float> holed = land;
+    holed[2] = NAN;
+    EXPECT_THROW(fractal::with_fine_forms(land, holed, 1.0), BadInput);
+}
+
+TEST(FineForms, OfTheSameLandAreTheSameLand) {
+    Raster<float> const land = rough({37, 5, 1.0, 0, 0, ""}, 1);
+    Raster<float> const same = fractal::with_fine_forms(land, land, 3.0);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        EXPECT_NEAR(static_cast<double>(same[i]), static_cast<double>(land[i]), 1e-4);
+    }
+}
+
+TEST(FineForms, MeansComeFromTheOneAndTheRestFromTheOther) {
+    Grid const grid{40, 30, 1.0, 0, 0, ""};
+    Raster<float> slope = test::raster_of(grid, [&](Cell c) { return 5 * c.col; });
+    Raster<float> const other = rough(grid, 2);
+    Raster<float> const mixed = fractal::with_fine_forms(slope, other, 2.0);
+    // By the definition, one cell at a time, away from the border.
+    for (Cell const c : {Cell{15, 12}, Cell{20, 17}}) {
+        double sum = 0.0;
+        double mean = 0.0;
+        for (std::int64_t dr = -6; dr <= 6; ++dr) {
+            for (std::int64_t dc = -6; dc <= 6; ++dc) {
+                double const weight = std::exp(-0.125 * static_cast<double>(dr * dr + dc * dc));
+                sum += weight;
+                mean += weight * (static_cast<double>(slope[Cell{c.col + dc, c.row + dr}]) -
+                                  static_cast<double>(other[Cell{c.col + dc, c.row + dr}]));
+            }
+        }
+        EXPECT_NEAR(static_cast<double>(mixed[c]), mean / sum + static_cast<double>(other[c]), 1e-4);
+    }
+    // One cell is its own surroundings.
+    Raster<float> const one(Grid{1, 1, 1.0, 0, 0, ""}, 7.0F);
+    EXPECT_EQ(fractal::with_fine_forms(one, Raster<float>(one.grid(), 90.0F), 5.0)[0], 7.0F);
 }
 
 } // namespace match_statistics_test

@@ -22,6 +22,8 @@
 
 namespace midpoint_test {
 
+using namespace thalweg::fractal;
+
 namespace {
 
 using namespace thalweg;
@@ -171,6 +173,54 @@ bool alike(Raster<float> const& dem, Raster<float> const& truth) {
     return true;
 }
 
+std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
+    return message_of<BadParameter>([&] { midpoint(coarse, params); });
+}
+
+// ---- The statistics of the surface.
+
+/// Mean squared step along the rows that are multiples of a number, shared by that along all rows.
+double crease(Raster<float> const& dem, std::int64_t multiple) {
+    std::array<double, 2> sum{};
+    std::array<double, 2> count{};
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        std::size_t const old = row % multiple == 0 ? 1 : 0;
+        for (std::int64_t col = 0; col + 1 < dem.width(); ++col) {
+            auto const step = static_cast<double>(dem[Cell{col + 1, row}]) - static_cast<double>(dem[Cell{col, row}]);
+            sum[old] += step * step;
+            count[old] += 1.0;
+        }
+    }
+    return sum[1] / count[1] / ((sum[0] + sum[1]) / (count[0] + count[1]));
+}
+
+class MidpointOfExactLand : public testing::TestWithParam<double> {};
+
+double sum(StencilWeights const& weights) {
+    double total = 0.0;
+    for (double const w : weights.weight) {
+        total += w;
+    }
+    return total;
+}
+
+/// Conditional variance of weights that sum to 1, straight from the definition.
+double variance(StencilWeights const& weights, double h) {
+    auto const gamma = [&](Offset const& p, Offset const& q) {
+        return std::pow(std::hypot(p.col - q.col, p.row - q.row) / std::sqrt(2.0), 2.0 * h);
+    };
+    double total = 0.0;
+    for (std::size_t i = 0; i < 16; ++i) {
+        total += weights.weight[i] * gamma(around_centre[i], {});
+        for (std::size_t k = 0; k < 16; ++k) {
+            total -= 0.5 * weights.weight[i] * weights.weight[k] * gamma(around_centre[i], around_centre[k]);
+        }
+    }
+    return total;
+}
+
+} // namespace
+
 TEST(Midpoint, IsTheOracleWithAnyCrop) {
     ASSERT_TRUE(rc::check("the oracle's heights, cropped", [] {
         auto const width = *rc::gen::inRange<std::int64_t>(1, 9).as("coarse columns");
@@ -197,19 +247,6 @@ TEST(Midpoint, IsTheOracleOverChunksAndBands) {
         Raster<float> const coarse = land::by_chance(300, 5, 3);
         EXPECT_TRUE(alike(midpoint(coarse, params, on_threads(2)).dem, oracle(coarse, params)));
     }
-}
-
-TEST(Midpoint, CoarseCellsKeepTheirBits) {
-    ASSERT_TRUE(rc::check("every 2^levels-th cell", [] {
-        int const levels = *rc::gen::inRange(0, 5).as("levels");
-        Raster<float> coarse = land::by_chance(7, 5, *rc::gen::arbitrary<std::uint64_t>(), 0.2);
-        coarse[3] = -0.0F;
-        Displaced const displaced = midpoint(coarse, with(levels, any_stencil(), 0.4, 9.0));
-        Raster<float> picked = test::raster_of(coarse.grid(), [&](Cell c) {
-            return displaced.dem[Cell{c.col << levels, c.row << levels}];
-        });
-        RC_ASSERT(same_bits(picked, coarse));
-    }));
 }
 
 TEST(Midpoint, ASmallerOneIsPartOfALargerOneBitForBit) {
@@ -295,19 +332,6 @@ TEST(Midpoint, TakesDegenerateLand) {
     }
 }
 
-TEST(Midpoint, LevelLandStaysLevel) {
-    Raster<float> const coarse(test::frame_below(6, 5), 8848.86F);
-    for (Stencil const stencil : stencils) {
-        MidpointParams params;
-        params.stencil = stencil;
-        Displaced const displaced = midpoint(coarse, params); // sigma is estimated: 0
-        EXPECT_EQ(displaced.sigma, 0.0);
-        for (float const z : displaced.dem.values()) {
-            EXPECT_EQ(z, 8848.86F);
-        }
-    }
-}
-
 TEST(Midpoint, CentresStayWhereTheyAre) {
     Raster<float> coarse(Grid{5, 4, 80.0, 1000.0, 9000.0, "EPSG:32631"}, 1.0F);
     Grid const fine = midpoint(coarse, with(3, Stencil::sixteen, 0.5, 1.0)).dem.grid();
@@ -316,10 +340,6 @@ TEST(Midpoint, CentresStayWhereTheyAre) {
     EXPECT_EQ(fine.width, 33);
     EXPECT_EQ(fine.centre({16, 8}).x, coarse.grid().centre({2, 1}).x);
     EXPECT_EQ(fine.centre({16, 8}).y, coarse.grid().centre({2, 1}).y);
-}
-
-std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
-    return message_of<BadParameter>([&] { midpoint(coarse, params); });
 }
 
 TEST(Midpoint, RefusesWhatItCannotUse) {
@@ -393,25 +413,6 @@ TEST(Midpoint, AdaptsToLandOfTwoKinds) {
     EXPECT_GT(roughness(global.dem, 0, 8 * 12), 0.0);
 }
 
-// ---- The statistics of the surface.
-
-/// Mean squared step along the rows that are multiples of a number, shared by that along all rows.
-double crease(Raster<float> const& dem, std::int64_t multiple) {
-    std::array<double, 2> sum{};
-    std::array<double, 2> count{};
-    for (std::int64_t row = 0; row < dem.height(); ++row) {
-        std::size_t const old = row % multiple == 0 ? 1 : 0;
-        for (std::int64_t col = 0; col + 1 < dem.width(); ++col) {
-            auto const step = static_cast<double>(dem[Cell{col + 1, row}]) - static_cast<double>(dem[Cell{col, row}]);
-            sum[old] += step * step;
-            count[old] += 1.0;
-        }
-    }
-    return sum[1] / count[1] / ((sum[0] + sum[1]) / (count[0] + count[1]));
-}
-
-class MidpointOfExactLand : public testing::TestWithParam<double> {};
-
 TEST_P(MidpointOfExactLand, HasTheDimensionAndNoCreases) {
     double const hurst = GetParam();
     constexpr int runs = 8;
@@ -454,6 +455,73 @@ TEST_P(MidpointOfExactLand, HasTheDimensionAndNoCreases) {
 
 INSTANTIATE_TEST_SUITE_P(Hurst, MidpointOfExactLand, testing::Values(0.3, 0.5, 0.7, 0.9));
 
-} // namespace
+TEST(StencilWeights, OneNeighbourIsTaken) {
+    for (Stencil const stencil : {Stencil::four_exact, Stencil::twelve, Stencil::sixteen}) {
+        StencilWeights const one = stencil_weights(stencil, 1, 0.7);
+        EXPECT_NEAR(one.weight[0], 1.0, 1e-12);
+        EXPECT_NEAR(one.deviation, 1.0, 1e-12);
+    }
+}
+
+TEST(StencilWeights, FourHaveTheDeviationsOfTheSpecification) {
+    for (double const h : {0.05, 0.3, 0.5, 0.7, 0.95}) {
+        EXPECT_DOUBLE_EQ(stencil_weights(Stencil::four, 0xf, h).deviation,
+                         std::sqrt(1.0 - std::pow(2.0, 2.0 * h - 2.0)));
+        EXPECT_NEAR(std::pow(stencil_weights(Stencil::four_exact, 0xf, h).deviation, 2.0),
+                    1.0 - std::pow(2.0, h - 2.0) - std::pow(2.0, 2.0 * h - 3.0), 1e-12);
+        // Three at a border: two opposite and one between.
+        EXPECT_NEAR(std::pow(stencil_weights(Stencil::four_exact, 0x7, h).deviation, 2.0),
+                    1.0 - (std::pow(2.0, 2.0 * h) + 2.0 * std::pow(2.0, h)) / 9.0, 1e-12);
+        EXPECT_NEAR(stencil_weights(Stencil::four, 0x7, h).weight[1], 1.0 / 3.0, 1e-15);
+    }
+}
+
+TEST(StencilWeights, TheEdgeHasTheCentresNeighboursTurned) {
+    for (std::size_t a = 0; a < 16; ++a) {
+        Offset const c = around_centre[a];
+        Offset const e = around_edge[a];
+        EXPECT_EQ(c.col * c.col + c.row * c.row, 2 * (e.col * e.col + e.row * e.row));
+        for (std::size_t b = 0; b < a; ++b) {
+            auto const square = [](Offset const& p, Offset const& q) {
+                return (p.col - q.col) * (p.col - q.col) + (p.row - q.row) * (p.row - q.row);
+            };
+            EXPECT_EQ(square(c, around_centre[b]), 2 * square(e, around_edge[b]));
+        }
+    }
+}
+
+TEST(StencilWeights, KrigingIsTheLeastVariance) {
+    for (double const h : {0.05, 0.3, 0.5, 0.7, 0.95}) {
+        for (std::uint32_t const known : {0xffffU, 0x0fffU, 0x00ffU, 0x8421U, 0x1234U, 0xf0f0U}) {
+            StencilWeights const best = stencil_weights(Stencil::sixteen, known, h);
+            EXPECT_NEAR(sum(best), 1.0, 1e-11);
+            EXPECT_NEAR(best.deviation * best.deviation, variance(best, h), 1e-10);
+            for (std::size_t i = 0; i < 16; ++i) {
+                if ((known >> i & 1U) == 0) {
+                    EXPECT_EQ(best.weight[i], 0.0);
+                    continue;
+                }
+                for (std::size_t k = 0; k < 16; ++k) {
+                    if ((known >> k & 1U) != 0 && k != i) {
+                        StencilWeights other = best;
+                        other.weight[i] += 0.01;
+                        other.weight[k] -= 0.01;
+                        EXPECT_GT(variance(other, h), variance(best, h));
+                    }
+                }
+            }
+        }
+    }
+}
+
+TEST(StencilWeights, MoreNeighboursKnowMore) {
+    for (double const h : {0.3, 0.5, 0.7, 0.9}) {
+        double const four = stencil_weights(Stencil::four_exact, 0xf, h).deviation;
+        double const twelve = stencil_weights(Stencil::twelve, 0xfff, h).deviation;
+        double const sixteen = stencil_weights(Stencil::sixteen, 0xffff, h).deviation;
+        EXPECT_LE(twelve, four);
+        EXPECT_LE(sixteen, twelve);
+    }
+}
 
 } // namespace midpoint_test

@@ -13,11 +13,11 @@
 
 namespace noise_row_test {
 
-namespace {
-
 using namespace thalweg::fractal;
 using thalweg::Lanes;
 using thalweg::widest_lanes;
+
+namespace {
 
 std::vector<float> row_of(Noise noise, NoisePlace const& place, std::size_t count, Lanes lanes = widest_lanes()) {
     std::vector<float> out(count);
@@ -53,6 +53,8 @@ std::vector<std::uint32_t> words_of(NoisePlace const& place, std::uint32_t block
 
 NoisePlace const places[] = {
     {1, 1, 0, 0}, {~std::uint64_t{0}, 30, (std::int64_t{1} << 39) + 5, 1}, {0x123456789abcdefULL, 7, 4711, 1}};
+
+} // namespace
 
 TEST(NoiseRow, UniformNumbersAreSlicesOfPhilox) {
     for (NoisePlace const& place : places) {
@@ -102,127 +104,5 @@ TEST(NoiseRow, IsTheSameForAnySplitAndAnyInstructions) {
         }
     }
 }
-
-TEST(NoiseRow, EveryPartOfThePlaceMatters) {
-    NoisePlace const here{5, 3, 9, 0};
-    for (Noise const noise : {Noise::normal, Noise::uniform}) {
-        auto const numbers = row_of(noise, here, 64);
-        for (NoisePlace const& other : {NoisePlace{6, 3, 9, 0}, NoisePlace{5 + (std::uint64_t{1} << 32), 3, 9, 0},
-                                        NoisePlace{5, 4, 9, 0}, NoisePlace{5, 3, 10, 0}, NoisePlace{5, 3, 9, 1}}) {
-            EXPECT_NE(row_of(noise, other, 64), numbers);
-        }
-    }
-}
-
-/// Rows of noise as a field would have them.
-std::vector<std::vector<float>> field(Noise noise, std::int64_t rows, std::size_t cols) {
-    std::vector<std::vector<float>> out;
-    for (std::int64_t row = 0; row < rows; ++row) {
-        out.push_back(row_of(noise, {42, 6, row, row % 2}, cols));
-    }
-    return out;
-}
-
-/// Law: no correlation of numbers or of their squares along rows, along columns and within the vectors' width; five
-/// standard errors.
-void expect_independent(std::vector<std::vector<float>> const& noise, double fourth_moment) {
-    for (auto const& [down, right] : {std::pair<std::size_t, std::size_t>{0, 1},
-                                      {0, 2},
-                                      {0, 4},
-                                      {0, 8},
-                                      {0, 16},
-                                      {0, 32},
-                                      {1, 0},
-                                      {1, 1},
-                                      {2, 0}}) {
-        double products = 0.0;
-        double squares = 0.0;
-        double count = 0.0;
-        for (std::size_t r = 0; r + down < noise.size(); ++r) {
-            for (std::size_t c = 0; c + right < noise[r].size(); ++c) {
-                auto const a = static_cast<double>(noise[r][c]);
-                auto const b = static_cast<double>(noise[r + down][c + right]);
-                products += a * b;
-                squares += (a * a - 1.0) * (b * b - 1.0);
-                count += 1.0;
-            }
-        }
-        EXPECT_NEAR(products / count, 0.0, 5.0 / std::sqrt(count)) << down << " " << right;
-        EXPECT_NEAR(squares / count, 0.0, 5.0 * (fourth_moment - 1.0) / std::sqrt(count)) << down << " " << right;
-    }
-}
-
-TEST(NoiseRow, UniformNumbersAreUniform) {
-    auto const noise = field(Noise::uniform, 512, 4096);
-    std::vector<double> bins(1024);
-    double squares = 0.0;
-    for (auto const& row : noise) {
-        for (float const z : row) {
-            auto const u = static_cast<double>(z) / std::sqrt(3.0) * 0.5 + 0.5;
-            bins[static_cast<std::size_t>(u * 1024.0)] += 1.0;
-            squares += static_cast<double>(z) * static_cast<double>(z);
-        }
-    }
-    double const each = 512.0 * 4096.0 / 1024.0;
-    double chi_squared = 0.0;
-    for (double const bin : bins) {
-        chi_squared += (bin - each) * (bin - each) / each;
-    }
-    EXPECT_NEAR(chi_squared, 1023.0, 4.5 * std::sqrt(2.0 * 1023.0));
-    EXPECT_NEAR(squares / (512.0 * 4096.0), 1.0, 5.0 * std::sqrt(0.8 / (512.0 * 4096.0)));
-    expect_independent(noise, 1.8);
-}
-
-double beyond(double deviations) { // either side
-    return std::erfc(deviations / std::sqrt(2.0));
-}
-
-TEST(NoiseRow, NormalNumbersAreNormalIntoTheTails) {
-    auto const noise = field(Noise::normal, 4096, 4096);
-    double const n = 4096.0 * 4096.0;
-    std::array<double, 7> moments{};
-    std::array<double, 5> tails{};
-    std::array<double, 5> const limits = {2.0, 3.0, 4.0, 4.5, 5.0};
-    std::vector<double> bins(64); // of an eighth of a deviation between -4 and 4
-    for (auto const& row : noise) {
-        for (float const number : row) {
-            auto const z = static_cast<double>(number);
-            double power = 1.0;
-            for (double& moment : moments) {
-                moment += power / n;
-                power *= z;
-            }
-            for (std::size_t k = 0; k < limits.size(); ++k) {
-                tails[k] += std::fabs(z) > limits[k] ? 1.0 : 0.0;
-            }
-            if (std::fabs(z) < 4.0) {
-                bins[static_cast<std::size_t>((z + 4.0) * 8.0)] += 1.0;
-            }
-        }
-    }
-    // Variances of z^k: 1, 2, 15, 96, 945, 10170.
-    std::array<double, 7> const truth = {1.0, 0.0, 1.0, 0.0, 3.0, 0.0, 15.0};
-    std::array<double, 7> const variance = {1e-12, 1.0, 2.0, 15.0, 96.0, 945.0, 10170.0};
-    for (std::size_t k = 0; k < moments.size(); ++k) {
-        EXPECT_NEAR(moments[k], truth[k], 5.0 * std::sqrt(variance[k] / n)) << k;
-    }
-    for (std::size_t k = 0; k < limits.size(); ++k) {
-        double const expected = n * beyond(limits[k]);
-        EXPECT_NEAR(tails[k], expected, 4.5 * std::sqrt(expected)) << limits[k];
-    }
-    double chi_squared = 0.0;
-    for (std::size_t k = 0; k < bins.size(); ++k) {
-        double const low = -4.0 + static_cast<double>(k) / 8.0;
-        double const expected = n * 0.5 * (std::erfc(low / std::sqrt(2.0)) - std::erfc((low + 0.125) / std::sqrt(2.0)));
-        chi_squared += (bins[k] - expected) * (bins[k] - expected) / expected;
-    }
-    EXPECT_NEAR(chi_squared, 63.0, 4.5 * std::sqrt(2.0 * 63.0));
-}
-
-TEST(NoiseRow, NormalNumbersAreIndependent) {
-    expect_independent(field(Noise::normal, 512, 4096), 3.0);
-}
-
-} // namespace
 
 } // namespace noise_row_test

@@ -3,9 +3,7 @@
 #include <thalweg/geometry/crossings.hpp>
 
 #include <algorithm>
-#include <array>
 #include <limits>
-#include <numeric>
 #include <set>
 #include <stop_token>
 #include <tuple>
@@ -21,6 +19,9 @@ using thalweg::BadInput;
 using thalweg::Vec2;
 using thalweg::geometry::Crossing;
 using thalweg::geometry::crossings;
+using thalweg::geometry::EndNodes;
+using thalweg::geometry::Meeting;
+using thalweg::geometry::meetings;
 
 namespace {
 
@@ -28,6 +29,7 @@ using Lines = std::vector<std::vector<Vec2>>;
 
 // Line, segment, place and point of each entry.
 using Entry = std::tuple<std::size_t, std::size_t, double, double, double>;
+
 std::vector<Entry> entries(std::vector<Crossing> const& found) {
     std::vector<Entry> out;
     for (auto const& c : found) {
@@ -41,9 +43,11 @@ struct Whole {
     std::int64_t x;
     std::int64_t y;
 };
+
 std::int64_t cross(Whole a, Whole b) {
     return a.x * b.y - a.y * b.x;
 }
+
 Whole operator-(Whole a, Whole b) {
     return {a.x - b.x, a.y - b.y};
 }
@@ -111,6 +115,14 @@ std::vector<Entry> sorted(std::vector<Entry> in) {
     return in;
 }
 
+std::vector<EndNodes> apart(Lines const& lines) {
+    std::vector<EndNodes> nodes;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        nodes.push_back({2 * l, 2 * l + 1});
+    }
+    return nodes;
+}
+
 } // namespace
 
 TEST(Crossings, NothingGivesNothing) {
@@ -137,53 +149,6 @@ TEST(Crossings, RepeatedVertexIsNoCrossing) {
     EXPECT_TRUE(crossings({{{0, 0}, {1, 0}, {1, 0}, {1, 0}, {2, 1}}}).empty());
     auto const found = entries(crossings({{{0, 0}, {0, 0}, {2, 0}}, {{1, -1}, {1, 1}, {1, 1}}}));
     EXPECT_EQ(found, (std::vector<Entry>{{0, 1, 0.5, 1, 0}, {1, 0, 0.5, 1, 0}}));
-}
-
-TEST(Crossings, SharedEnds) {
-    auto const found = entries(crossings({{{0, 0}, {1, 0}}, {{1, 0}, {2, 1}}, {{1, 0}, {2, -1}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 1.0, 1, 0}, {1, 0, 0.0, 1, 0}, {2, 0, 0.0, 1, 0}}));
-}
-
-TEST(Crossings, TouchingInTheMiddle) {
-    auto const found = entries(crossings({{{0, 0}, {4, 0}}, {{1, 3}, {1, 0}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 0.25, 1, 0}, {1, 0, 1.0, 1, 0}}));
-}
-
-TEST(Crossings, AVertexLiesOnBothItsSegments) {
-    auto const found = entries(crossings({{{0, 0}, {1, 0}, {2, 0}}, {{1, 3}, {1, -3}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 1.0, 1, 0}, {0, 1, 0.0, 1, 0}, {1, 0, 0.5, 1, 0}}));
-}
-
-TEST(Crossings, CollinearTouchingAndApart) {
-    EXPECT_TRUE(crossings({{{0, 0}, {1, 1}}, {{2, 2}, {3, 3}}}).empty());
-    auto const found = entries(crossings({{{0, 0}, {1, 1}}, {{3, 3}, {1, 1}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 1.0, 1, 1}, {1, 0, 1.0, 1, 1}}));
-}
-
-TEST(Crossings, OverlapGivesItsEnds) {
-    auto const found = entries(crossings({{{0, 0}, {4, 0}}, {{8, 0}, {2, 0}}}));
-    EXPECT_EQ(found,
-              (std::vector<Entry>{{0, 0, 0.5, 2, 0}, {0, 0, 1.0, 4, 0}, {1, 0, 2.0 / 3.0, 4, 0}, {1, 0, 1.0, 2, 0}}));
-}
-
-TEST(Crossings, IdenticalAndReversed) {
-    auto const found = entries(crossings({{{0, 0}, {1, 2}}, {{1, 2}, {0, 0}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 0.0, 0, 0}, {0, 0, 1.0, 1, 2}, {1, 0, 0.0, 1, 2}, {1, 0, 1.0, 0, 0}}));
-}
-
-TEST(Crossings, LineThatCrossesItself) {
-    auto const found = entries(crossings({{{0, 0}, {4, 0}, {2, 2}, {2, -2}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 0.5, 2, 0}, {0, 2, 0.5, 2, 0}}));
-}
-
-TEST(Crossings, LineThatFoldsBack) {
-    auto const found = entries(crossings({{{0, 0}, {4, 0}, {1, 0}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 0.25, 1, 0}, {0, 0, 1.0, 4, 0}, {0, 1, 0.0, 4, 0}, {0, 1, 1.0, 1, 0}}));
-}
-
-TEST(Crossings, ClosedRingTouchesItselfAtItsEnd) {
-    auto const found = entries(crossings({{{0, 0}, {2, 0}, {1, 2}, {0, 0}}}));
-    EXPECT_EQ(found, (std::vector<Entry>{{0, 0, 0.0, 0, 0}, {0, 2, 1.0, 0, 0}}));
 }
 
 TEST(Crossings, NearMissIsNoCrossing) {
@@ -260,6 +225,64 @@ TEST(Crossings, PointsDoNotDependOnDirection) {
         RC_ASSERT(drawn == turned);
     });
     ASSERT_TRUE(ok);
+}
+
+TEST(Meetings, NothingGivesNothing) {
+    EXPECT_TRUE(meetings({}, {}).empty());
+    EXPECT_TRUE(meetings({{}, {{1, 1}}}, {{0, 1}, {2, 3}}).empty());
+    EXPECT_TRUE(meetings({{{0, 0}, {1, 0}, {2, 1}}}, {{0, 1}}).empty());
+}
+
+TEST(Meetings, RefusesWhatDoesNotBelongTogether) {
+    EXPECT_THROW(meetings({{{0, 0}, {1, 0}}}, {}), BadInput);
+    EXPECT_THROW(meetings({{{0, 0}, {std::numeric_limits<double>::quiet_NaN(), 0}}}, {{0, 1}}), BadInput);
+}
+
+TEST(Meetings, ACommonNodeIsNone) {
+    Lines const lines{{{0, 2}, {1, 1}}, {{2, 2}, {1, 1}}, {{1, 1}, {1, 0}}};
+    EXPECT_TRUE(meetings(lines, {{1, 4}, {2, 4}, {4, 5}}).empty());
+    // The second has a node of its own in the same place.
+    EXPECT_EQ(meetings(lines, {{1, 4}, {2, 3}, {4, 5}}),
+              (std::vector<Meeting>{{0, 1, 0, 0, {1, 1}, {1, 1}}, {1, 2, 0, 0, {1, 1}, {1, 1}}}));
+}
+
+TEST(Meetings, AFoldIsOneOfALineWithItself) {
+    EXPECT_EQ(meetings({{{0, 0}, {4, 0}, {3, 0}, {3, -1}}}, {{0, 1}}),
+              (std::vector<Meeting>{{0, 0, 0, 1, {3, 0}, {4, 0}}, {0, 0, 0, 2, {3, 0}, {3, 0}}}));
+}
+
+TEST(Meetings, ARingMeetsItself) {
+    Lines const ring{{{0, 0}, {1, 0}, {1, 1}, {0, 0}}};
+    EXPECT_EQ(meetings(ring, {{0, 1}}), (std::vector<Meeting>{{0, 0, 0, 2, {0, 0}, {0, 0}}}));
+}
+
+TEST(Meetings, AreWhereCrossingsAre) {
+    ASSERT_TRUE(rc::check("the places are those of crossings", [] {
+        auto const whole = [](int beyond) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, beyond)); };
+        Lines lines(static_cast<std::size_t>(whole(5)));
+        for (auto& line : lines) {
+            line.resize(static_cast<std::size_t>(whole(6)));
+            for (Vec2& p : line) {
+                p = {static_cast<double>(whole(6)), static_cast<double>(whole(6))};
+            }
+        }
+        for (auto& line : lines) {
+            line.erase(std::unique(line.begin(), line.end()), line.end());
+        }
+        using Place = std::tuple<std::size_t, std::size_t, double, double>; // line, segment
+        std::set<Place> met;
+        for (Meeting const& m : meetings(lines, apart(lines))) {
+            for (Vec2 const p : {m.at, m.until}) {
+                met.emplace(m.line, m.segment, p.x, p.y);
+                met.emplace(m.other, m.other_segment, p.x, p.y);
+            }
+        }
+        std::set<Place> crossed;
+        for (auto const& c : thalweg::geometry::crossings(lines)) {
+            crossed.emplace(c.line, c.segment, c.at.x, c.at.y);
+        }
+        RC_ASSERT(met == crossed);
+    }));
 }
 
 } // namespace crossings_test

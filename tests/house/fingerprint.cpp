@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Prints a hash of the bits of every stage's result from chance to surface. Every machine, compiler, build type and
-// number of threads must print tests/data/fingerprint.txt. Usage: fingerprint [THREADS]
+// Prints a hash of the bits of every stage's result, from random numbers to surfaces. Every machine, compiler, build
+// type and number of threads must print tests/data/fingerprint.txt. Usage: fingerprint [THREADS]
 #include <algorithm>
 #include <cmath>
 #include <cstdio>
@@ -88,35 +88,20 @@ Fnv hash_of_elementary() {
     Fnv fnv;
     for (int i = 1; i <= 20000; ++i) {
         double const x = i * 0.37;
-        fnv.add(portable::exp((x - 3700.0) * 0.1));
-        fnv.add(portable::log(x));
-        fnv.add(portable::pow(x, 0.7));
-        fnv.add(portable::sin(x));
-        fnv.add(portable::cos(x));
-        fnv.add(portable::atan2(x - 3700.0, x));
+        fnv.put(portable::exp((x - 3700.0) * 0.1), portable::log(x), portable::pow(x, 0.7), portable::sin(x),
+                portable::cos(x), portable::atan2(x - 3700.0, x));
     }
     return fnv;
 }
 
 Fnv hash_of(std::vector<Cell> const& cells) {
-    Fnv fnv;
-    for (Cell const& c : cells) {
-        fnv.add(c.col);
-        fnv.add(c.row);
-    }
-    return fnv;
+    return Fnv().each(cells);
 }
 
 Fnv hash_of(StreamNetwork const& network) {
     Fnv fnv;
     for (ArcId arc = 0; arc < network.arc_count(); ++arc) {
-        fnv.add(static_cast<std::uint64_t>(network.from(arc)));
-        fnv.add(static_cast<std::uint64_t>(network.to(arc)));
-        fnv.add(network.arc(arc).persistence);
-        for (Vec2 const& p : network.arc(arc).line) {
-            fnv.add(p.x);
-            fnv.add(p.y);
-        }
+        fnv.put(network.from(arc), network.to(arc), network.arc(arc).persistence).each(network.arc(arc).line);
     }
     return fnv;
 }
@@ -133,10 +118,7 @@ Fnv hash_of(NetworkOrders const& orders) {
 
 Fnv hash_of(network::RiverTypes const& types) {
     Fnv fnv;
-    for (network::Rosgen const type : types.type) {
-        fnv.add(static_cast<int>(type));
-    }
-    fnv.add_all(types.braided);
+    fnv.each(types.type).add_all(types.braided);
     return fnv;
 }
 
@@ -159,15 +141,9 @@ template <class T> Fnv hash_of(Raster<T> const& raster) {
 
 Fnv hash_of(Tin const& tin) {
     Fnv fnv;
-    for (Vec3 const& v : tin.vertices) {
-        fnv.add(v.x);
-        fnv.add(v.y);
-        fnv.add(v.z);
-    }
-    for (auto const& t : tin.triangles) {
-        for (std::uint32_t const v : t) {
-            fnv.add(static_cast<std::uint64_t>(v));
-        }
+    fnv.each(tin.vertices);
+    for (auto const& [a, b, c] : tin.triangles) {
+        fnv.put(std::uint64_t{a}, std::uint64_t{b}, std::uint64_t{c});
     }
     return fnv;
 }
@@ -192,21 +168,12 @@ Fnv hash_of(surface::Expansion const& expansion) {
 }
 
 Fnv hash_of(Raster<solver::Complex> const& raster) {
-    Fnv fnv;
-    for (solver::Complex const& value : raster.values()) {
-        fnv.add(value.real());
-        fnv.add(value.imag());
-    }
-    return fnv;
+    return Fnv().each(raster.values());
 }
 
 Fnv hash_of(measure::Statistics const& s) {
-    Fnv fnv;
-    for (double const figure : {s.mean, s.std, s.skew, s.kurtosis, s.roughness_m, s.slope_rad, s.lx.cells, s.ly.cells,
-                                s.dimension, s.dimension_dyadic}) {
-        fnv.add(figure);
-    }
-    return fnv;
+    return Fnv().put(s.mean, s.std, s.skew, s.kurtosis, s.roughness_m, s.slope_rad, s.lx.cells, s.ly.cells, s.dimension,
+                     s.dimension_dyadic);
 }
 
 /// Lengths with the factors 2, 3, 5 and 7, for which the transform has code of its own or a general one.
@@ -278,15 +245,7 @@ void print_points(Run const& run) {
     params.spacing_cells = 4.2;
     params.law = skeleton::HeightLaw::normal;
     FeaturePoints const spread = skeleton::scatter(grid, params, run).points;
-    Fnv fnv;
-    for (FeaturePoints const* points : {&darts, &spread}) {
-        for (Vec3 const& p : points->points) {
-            fnv.add(p.x);
-            fnv.add(p.y);
-            fnv.add(p.z);
-        }
-    }
-    print("scatter", fnv);
+    print("scatter", Fnv().each(darts.points).each(spread.points));
     print("regress", hash_of(skeleton::regress(darts, grid, {}, run).surface));
     skeleton::RegressParams steep;
     steep.slope = skeleton::SlopeMode::mean;
@@ -306,13 +265,7 @@ void print_ridges(ElevatedNetwork const& rivers, Grid const& grid, Run const& ru
         params.method = method;
         Fnv fnv;
         for (RidgeLine const& ridge : skeleton::ridges(rivers, streams, grid, params, run).lines) {
-            fnv.add(ridge.left);
-            fnv.add(ridge.right);
-            for (Vec3 const& p : ridge.line) {
-                fnv.add(p.x);
-                fnv.add(p.y);
-                fnv.add(p.z);
-            }
+            fnv.put(ridge.left, ridge.right).each(ridge.line);
         }
         print(method == Method::voronoi ? "ridges, voronoi" : "ridges, segments", fnv);
     }
@@ -340,13 +293,9 @@ void print_skeleton(Valley const& valley, Run const& run) {
     Skeleton const drawn = skeleton::draw_skeleton(valley, ridges, points, {noise}, run).skeleton;
     print("draw_skeleton", hash_of(drawn.z));
     for (skeleton::HeightLaw const law : {skeleton::HeightLaw::uniform, skeleton::HeightLaw::normal}) {
-        Fnv scattered;
-        for (Vec3 const& p : skeleton::scatter_between(valley, {}, {5, 60, 4.0, 0.3, 0.0, law}, run).points.points) {
-            scattered.add(p.x);
-            scattered.add(p.y);
-            scattered.add(p.z);
-        }
-        print(law == skeleton::HeightLaw::uniform ? "scatter_between" : "scatter_between, normal", scattered);
+        auto const scattered = skeleton::scatter_between(valley, {}, {5, 60, 4.0, 0.3, 0.0, law}, run).points;
+        print(law == skeleton::HeightLaw::uniform ? "scatter_between" : "scatter_between, normal",
+              Fnv().each(scattered.points));
     }
     print("midpoint_inverse", hash_of(skeleton::midpoint_inverse(drawn, {6.0}, run).z));
 }
@@ -361,10 +310,7 @@ surface::Expansion expand_plain(Valley const& valley, Run const& run) {
 }
 
 Fnv hash_of(fractal::Fractal const& fractal) {
-    Fnv fnv;
-    fnv.add(fractal.hurst);
-    fnv.add(fractal.sigma);
-    return fnv;
+    return Fnv().put(fractal.hurst, fractal.sigma);
 }
 
 /// Coarse land with a hole, at random.
@@ -537,8 +483,7 @@ Fnv hash_of(network::TokunagaTree const& tree) {
     for (network::TreeLink const& link : tree.links) {
         fnv.add(link.down);
         fnv.add_all(link.up);
-        fnv.add(static_cast<std::int64_t>(link.order));
-        fnv.add(static_cast<std::int64_t>(link.turn));
+        fnv.put(static_cast<std::int64_t>(link.order), static_cast<std::int64_t>(link.turn));
     }
     fnv.add(tree.link_length);
     return fnv;
@@ -575,11 +520,8 @@ void print_trees(Run const& run) {
     Fnv turtle;
     network::LSystem const rules =
         network::read_rules("axiom G\niterations 6\nG -> F[--G]F[-G][+G]\nF -> FF\nF -> F[++G]F", "");
-    for (std::vector<Vec2> const& line : network::draw_word(network::rewrite(rules, 7, run), rules.angle_deg, run)) {
-        for (Vec2 const p : line) {
-            turtle.add(p.x);
-            turtle.add(p.y);
-        }
+    for (auto const& line : network::draw_word(network::rewrite(rules, 7, run), rules.angle_deg, run)) {
+        turtle.each(line);
     }
     print("rewrite, draw_word", turtle);
     network::EmbedParams const params{.region = {{0, 0}, {4000, 0}, {4000, 2500}, {1500, 2000}, {0, 4000}},

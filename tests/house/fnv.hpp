@@ -3,7 +3,12 @@
 #pragma once
 
 #include <bit>
+#include <complex>
 #include <cstdint>
+#include <type_traits>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/vec.hpp>
 
 /// A hash of values bit for bit: FNV-1a, 64 bits, lowest byte first.
 class Fnv {
@@ -18,11 +23,30 @@ public:
     void add(std::uint8_t n) { add(static_cast<std::uint64_t>(n)); }
     void add(double x) { add(std::bit_cast<std::uint64_t>(x)); }
     void add(float x) { add(static_cast<std::uint64_t>(std::bit_cast<std::uint32_t>(x))); }
-    template <class T> void add_all(T const& values) {
-        add(static_cast<std::uint64_t>(values.size()));
+    void add(thalweg::Vec2 p) { put(p.x, p.y); }
+    void add(thalweg::Vec3 p) { put(p.x, p.y, p.z); }
+    void add(thalweg::Cell c) { put(c.col, c.row); }
+    void add(std::complex<double> z) { put(z.real(), z.imag()); }
+    template <class T>
+        requires std::is_enum_v<T>
+    void add(T value) {
+        add(static_cast<int>(value));
+    }
+    /// One value after another.
+    template <class... T> Fnv& put(T const&... values) {
+        (add(values), ...);
+        return *this;
+    }
+    /// The values of a range without their number.
+    template <class T> Fnv& each(T const& values) {
         for (auto const& value : values) {
             add(value);
         }
+        return *this;
+    }
+    template <class T> void add_all(T const& values) {
+        add(static_cast<std::uint64_t>(values.size()));
+        each(values);
     }
     std::uint64_t hash() const { return hash_; }
 

@@ -12,6 +12,7 @@
 
 #include <gtest/gtest.h>
 
+#include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
 
 /// Readers of point files, written from the standards.
@@ -78,32 +79,42 @@ inline Las read_las(std::string const& bytes) {
     return las;
 }
 
-/// The vertices of a binary PLY file of nothing else (Turk 1994).
-inline std::vector<thalweg::Vec3> read_ply_points(std::string const& bytes) {
+/// A binary PLY file of vertices, and triangles where it has an element for them (Turk 1994).
+inline thalweg::Tin read_ply(std::string const& bytes) {
     std::istringstream in(bytes);
     std::string line;
     std::getline(in, line);
     EXPECT_EQ(line, "ply");
     std::getline(in, line);
     EXPECT_EQ(line, "format binary_little_endian 1.0");
-    std::size_t count = 0;
+    thalweg::Tin tin;
+    bool has_faces = false;
     std::string properties;
     while (std::getline(in, line) && line != "end_header") {
         if (line.starts_with("element vertex ")) {
-            count = std::stoul(line.substr(15));
+            tin.vertices.resize(std::stoul(line.substr(15)));
+        } else if (line.starts_with("element face ")) {
+            tin.triangles.resize(std::stoul(line.substr(13)));
+            has_faces = true;
         } else if (!line.starts_with("comment ")) {
             properties += line + ";";
         }
     }
-    EXPECT_EQ(properties, "property double x;property double y;property double z;");
+    EXPECT_EQ(properties, std::string("property double x;property double y;property double z;") +
+                              (has_faces ? "property list uchar int vertex_indices;" : ""));
     auto at = static_cast<std::size_t>(in.tellg());
-    std::vector<thalweg::Vec3> points;
-    for (std::size_t i = 0; i < count; ++i, at += 24) {
-        points.push_back(
-            {number_at<double>(bytes, at), number_at<double>(bytes, at + 8), number_at<double>(bytes, at + 16)});
+    for (thalweg::Vec3& v : tin.vertices) {
+        v = {number_at<double>(bytes, at), number_at<double>(bytes, at + 8), number_at<double>(bytes, at + 16)};
+        at += 24;
+    }
+    for (auto& t : tin.triangles) {
+        EXPECT_EQ(bytes[at], 3);
+        t = {number_at<std::uint32_t>(bytes, at + 1), number_at<std::uint32_t>(bytes, at + 5),
+             number_at<std::uint32_t>(bytes, at + 9)};
+        at += 13;
     }
     EXPECT_EQ(at, bytes.size());
-    return points;
+    return tin;
 }
 
 /// The points of a text with x y z of one a line.

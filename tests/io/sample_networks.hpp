@@ -2,15 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
-#include <cstdint>
-#include <map>
 #include <string>
 #include <utility>
 #include <vector>
 
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/write_network.hpp>
+#include <thalweg/network/order/order.hpp>
 
 /// A small network with everything its tables hold, numbers that do not end in binary among them.
 struct SampleNetwork {
@@ -47,74 +45,37 @@ struct SampleNetwork {
         draft.add_arc(from, to, std::move(arc));
     }
 
-    /// Fills orders and areas by their definitions, arc by arc from the sources down.
+    /// Fills orders, and areas that grow downstream.
     void settle() {
-        using thalweg::ArcId;
-        using thalweg::no_arc;
         network.plan = draft;
-        std::size_t const arcs = network.plan.arc_count();
-        std::size_t const nodes = network.plan.node_count();
-        orders = {};
-        orders.strahler.assign(arcs, 1);
-        orders.shreve.assign(arcs, 1);
-        orders.hack.assign(arcs, 1);
-        orders.topological.assign(arcs, 1);
-        orders.arc_basin.assign(arcs, 0);
-        orders.node_basin.assign(network.plan.basin().begin(), network.plan.basin().end());
-        orders.node_strahler.assign(nodes, 0);
-        orders.node_dist_out_m.assign(nodes, 0.0);
-        us_area_m2.assign(arcs, 0.1);
-        ds_area_m2.assign(arcs, 0.0);
-        node_area_m2.assign(nodes, 0.1);
-        std::vector<double> longest(nodes, 0.0); // flow path from the farthest source to the node
-        for (auto n = network.plan.upstream_order().rbegin(); n != network.plan.upstream_order().rend(); ++n) {
-            int greatest = 0;
-            int how_often = 0;
-            std::int64_t sources = 0;
-            if (network.plan.out(*n) == no_arc && !network.plan.in(*n).empty()) {
+        thalweg::StreamNetwork const& plan = network.plan;
+        orders = thalweg::network::order(plan);
+        us_area_m2.assign(plan.arc_count(), 0.1);
+        ds_area_m2.assign(plan.arc_count(), 0.0);
+        node_area_m2.assign(plan.node_count(), 0.1);
+        for (auto n = plan.upstream_order().rbegin(); n != plan.upstream_order().rend(); ++n) {
+            if (plan.out(*n) == thalweg::no_arc && !plan.in(*n).empty()) {
                 node_area_m2[*n] = 0.0; // its cell belongs to an arc that enters it
             }
-            for (ArcId const above : network.plan.in(*n)) {
-                auto const a = above;
-                how_often = orders.strahler[a] > greatest ? 1 : how_often + (orders.strahler[a] == greatest ? 1 : 0);
-                greatest = std::max(greatest, orders.strahler[a]);
-                sources += orders.shreve[a];
-                longest[*n] = std::max(longest[*n], longest[network.plan.from(a)] + network.plan.length_m(a));
-                node_area_m2[*n] += ds_area_m2[a];
+            for (thalweg::ArcId const above : plan.in(*n)) {
+                node_area_m2[*n] += ds_area_m2[above];
             }
-            int const order = network.plan.in(*n).empty() ? 1 : greatest + (how_often > 1 ? 1 : 0);
-            orders.node_strahler[*n] = network.plan.out(*n) == no_arc ? greatest : order;
-            if (network.plan.out(*n) != no_arc) {
-                auto const a = network.plan.out(*n);
-                orders.strahler[a] = order;
-                orders.shreve[a] = network.plan.in(*n).empty() ? 1 : sources;
-                orders.arc_basin[a] = network.plan.basin(*n);
+            if (thalweg::ArcId const a = plan.out(*n); a != thalweg::no_arc) {
                 us_area_m2[a] = node_area_m2[*n];
-                ds_area_m2[a] = us_area_m2[a] + network.plan.length_m(a);
-            }
-        }
-        for (thalweg::NodeId const n : network.plan.upstream_order()) {
-            ArcId main = no_arc;
-            for (ArcId const above : network.plan.in(n)) {
-                auto const a = above;
-                auto const path = [&](std::size_t k) {
-                    return longest[network.plan.from(k)] + network.plan.length_m(k);
-                };
-                if (main == no_arc || path(a) > path(main)) {
-                    main = above;
-                }
-            }
-            for (ArcId const above : network.plan.in(n)) {
-                auto const a = above;
-                ArcId const below = network.plan.out(n);
-                bool const outlet = below == no_arc;
-                orders.topological[a] = outlet ? 1 : orders.topological[below] + 1;
-                orders.hack[a] = (outlet ? 1 : orders.hack[below]) + (above == main ? 0 : 1);
-                orders.node_dist_out_m[network.plan.from(a)] = orders.node_dist_out_m[n] + network.plan.length_m(a);
+                ds_area_m2[a] = us_area_m2[a] + plan.length_m(a);
             }
         }
     }
 };
+
+/// A network with orders and areas of its own.
+inline SampleNetwork sample_of(thalweg::ElevatedNetwork network) {
+    SampleNetwork sample;
+    sample.draft = network.plan.draft();
+    sample.network = std::move(network);
+    sample.settle();
+    return sample;
+}
 
 inline SampleNetwork single_arc() {
     SampleNetwork sample;

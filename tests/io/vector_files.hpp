@@ -3,10 +3,9 @@
 #pragma once
 
 #include <algorithm>
-#include <chrono>
-#include <filesystem>
 #include <map>
 #include <memory>
+#include <sstream>
 #include <string>
 #include <utility>
 #include <vector>
@@ -18,13 +17,45 @@
 
 #include "scratch_folder.hpp"
 
-/// A layer as somebody else may have written it: fields and values in their own words, "" for NULL.
+/// A layer as another program may have written it.
 struct ForeignLayer {
-    std::string name;
+    using Field = std::pair<std::string, OGRFieldType>;
+
+    /// "arc_id name:s length:r": integers, unless a letter names another type.
+    struct Fields : std::vector<Field> {
+        Fields() = default;
+        Fields(char const* names) {
+            std::map<char, OGRFieldType> const types{{'l', OFTInteger64},     {'r', OFTReal},     {'s', OFTString},
+                                                     {'d', OFTDate},          {'t', OFTTime},     {'m', OFTDateTime},
+                                                     {'I', OFTIntegerList},   {'R', OFTRealList}, {'S', OFTStringList},
+                                                     {'L', OFTInteger64List}, {'i', OFTInteger}};
+            std::istringstream words(names);
+            for (std::string word; words >> word;) {
+                std::size_t const colon = word.find(':');
+                emplace_back(word.substr(0, colon), types.at(colon == std::string::npos ? 'i' : word[colon + 1]));
+            }
+        }
+    };
+
+    /// A feature: well-known text ("" for no shape) and its values "1|2|x", "" for NULL.
+    struct Row {
+        std::string wkt;
+        std::vector<std::string> values = {};
+
+        Row(std::string shape, std::string const& texts = "") : wkt(std::move(shape)) {
+            for (std::size_t at = 0; !texts.empty() && at != std::string::npos;) {
+                std::size_t const end = texts.find('|', at);
+                values.push_back(texts.substr(at, end - at));
+                at = end == std::string::npos ? end : end + 1;
+            }
+        }
+    };
+
+    std::string name = "rivers";
     OGRwkbGeometryType type = wkbLineString;
     int epsg = 32631; ///< 0 for no CRS
-    std::vector<std::pair<std::string, OGRFieldType>> fields;
-    std::vector<std::pair<std::string, std::vector<std::string>>> rows; ///< WKT ("" for none) and values
+    Fields fields = {};
+    std::vector<Row> rows = {};
 };
 
 inline void add_layer(GDALDataset& dataset, ForeignLayer const& wanted) {
@@ -58,18 +89,36 @@ inline void add_layer(GDALDataset& dataset, ForeignLayer const& wanted) {
     }
 }
 
-/// Writes layers as a file of one of GDAL's drivers. Gives its path.
-inline std::string written(ScratchFolder const& folder, std::string const& name, char const* driver,
+/// Writes layers as a file of the driver that its ending names. Gives its path.
+inline std::string written(ScratchFolder const& folder, std::string const& name,
                            std::vector<ForeignLayer> const& layers) {
+    std::map<std::string, char const*> const drivers{
+        {".gpkg", "GPKG"}, {".shp", "ESRI Shapefile"}, {".fgb", "FlatGeobuf"}, {".geojson", "GeoJSON"}};
     GDALAllRegister();
     std::string path = folder / name;
-    std::unique_ptr<GDALDataset> const dataset(
-        GetGDALDriverManager()->GetDriverByName(driver)->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    std::unique_ptr<GDALDataset> const dataset(GetGDALDriverManager()
+                                                   ->GetDriverByName(drivers.at(name.substr(name.rfind('.'))))
+                                                   ->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     EXPECT_NE(dataset, nullptr);
     for (auto const& layer : layers) {
         add_layer(*dataset, layer);
     }
     return path;
+}
+
+/// A dataset opened by GDAL alone.
+inline std::unique_ptr<GDALDataset> opened(std::string const& path, unsigned how = GDAL_OF_VECTOR | GDAL_OF_RASTER) {
+    GDALAllRegister();
+    return std::unique_ptr<GDALDataset>(GDALDataset::Open(path.c_str(), how));
+}
+
+/// A vector file opened to be changed, and SQL to change it.
+inline std::unique_ptr<GDALDataset> opened_to_change(std::string const& path) {
+    return opened(path, GDAL_OF_VECTOR | GDAL_OF_UPDATE);
+}
+
+inline void execute(GDALDataset& dataset, std::string const& sql) {
+    dataset.ReleaseResultSet(dataset.ExecuteSQL(sql.c_str(), nullptr, nullptr));
 }
 
 /// How often a kind of finding comes up.
@@ -81,15 +130,4 @@ inline std::ptrdiff_t count_of(thalweg::NetworkFile const& file, std::string con
 inline thalweg::Finding finding_of(thalweg::NetworkFile const& file, std::string const& kind) {
     auto const found = std::ranges::find(file.findings, kind, &thalweg::Finding::kind);
     return found == file.findings.end() ? thalweg::Finding{} : *found;
-}
-
-/// Every file of a folder with its bytes and the time it was last written.
-inline std::map<std::string, std::pair<std::string, std::filesystem::file_time_type>>
-state_of(ScratchFolder const& folder) {
-    std::map<std::string, std::pair<std::string, std::filesystem::file_time_type>> state;
-    for (auto const& entry : std::filesystem::recursive_directory_iterator(folder.path())) {
-        std::string const path = entry.path().string();
-        state[path] = {entry.is_regular_file() ? bytes_of(path) : "", entry.last_write_time()};
-    }
-    return state;
 }

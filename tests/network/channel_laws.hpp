@@ -14,7 +14,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 
-/// What holds of channels.
+/// Laws of channels.
 namespace test {
 
 using namespace thalweg;
@@ -27,10 +27,10 @@ inline bool are_neighbours(Cell a, Cell b) {
     return !(a == b) && std::abs(a.col - b.col) <= 1 && std::abs(a.row - b.row) <= 1;
 }
 
-/// Rivers at random and a grid that holds them.
+/// Random rivers and a grid that holds them.
 struct SomeRivers {
     std::uint64_t seed = 0;
-    bool on_lattice = false; ///< from cell to cell, as grown; else lines that pay no heed to each other
+    bool on_lattice = false; ///< from cell to cell, as grown; else lines that may cross
     StreamNetwork net;
     Grid grid; ///< 40 x 40
 };

@@ -2,47 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
-#include <algorithm>
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <limits>
 #include <map>
 #include <utility>
 #include <vector>
 
+#include <boost/math/special_functions/gamma.hpp>
+
 /// Chi-squared tests.
 namespace chi_squared {
 
-/// Probability that a chi-squared variable with this many degrees of freedom exceeds x (Numerical Recipes 6.2).
+/// Probability that a chi-squared variable with this many degrees of freedom exceeds x.
 inline double upper_tail(double x, double freedom) {
-    double const a = 0.5 * freedom;
-    double const h = 0.5 * x;
-    double const front = std::exp(a * std::log(h) - h - std::lgamma(a));
-    if (h < a + 1.0) {
-        double term = 1.0 / a;
-        double sum = term;
-        for (double n = a + 1.0; term > sum * 1e-16; n += 1.0) {
-            term *= h / n;
-            sum += term;
-        }
-        return 1.0 - sum * front;
-    }
-    double b = h + 1.0 - a;
-    double c = 1.0 / std::numeric_limits<double>::min();
-    double d = 1.0 / b;
-    double fraction = d;
-    for (int i = 1; i < 10000; ++i) {
-        double const numerator = -i * (i - a);
-        b += 2.0;
-        d = 1.0 / (numerator * d + b);
-        c = b + numerator / c;
-        fraction *= d * c;
-        if (std::fabs(d * c - 1.0) < 1e-15) {
-            break;
-        }
-    }
-    return fraction * front;
+    return boost::math::gamma_q(0.5 * freedom, 0.5 * x);
 }
 
 struct Result {

@@ -2,13 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <cstdint>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <support.hpp>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 
@@ -76,44 +77,33 @@ inline Mask random_blob(std::uint64_t seed, std::int64_t width, std::int64_t hei
     return mask;
 }
 
-/// Components of the cells whose value is `value`, by 4 or 8 neighbours; what lies beyond the grid is 0 and one with
-/// every empty cell on the border.
-inline std::int64_t components(Mask const& mask, int value, int neighbours) {
-    std::int64_t const w = mask.width() + 2;
-    std::int64_t const h = mask.height() + 2;
-    auto const is = [&](std::int64_t col, std::int64_t row) {
-        Cell const c{col - 1, row - 1};
-        return (mask.grid().contains(c) && mask[c] != 0 ? 1 : 0) == value;
-    };
-    std::vector<std::uint8_t> seen(static_cast<std::size_t>(w * h), 0);
+/// Labels from 1 of the components of the cells whose value is `value`, by 4 or 8 neighbours; 0 elsewhere.
+inline Raster<std::int64_t> labels_of(Mask const& mask, int value, int neighbours) {
+    Raster<std::int64_t> label(mask.grid(), 0);
     std::int64_t count = 0;
-    for (std::int64_t i = 0; i < w * h; ++i) {
-        if (seen[static_cast<std::size_t>(i)] != 0 || !is(i % w, i / w)) {
-            continue;
-        }
-        ++count;
+    for (std::int64_t i = 0; i < mask.cells(); ++i) {
         std::vector<std::int64_t> open{i};
-        seen[static_cast<std::size_t>(i)] = 1;
-        while (!open.empty()) {
+        for (bool first = true; !open.empty(); first = false) {
             std::int64_t const at = open.back();
             open.pop_back();
-            for (std::int64_t dr = -1; dr <= 1; ++dr) {
-                for (std::int64_t dc = -1; dc <= 1; ++dc) {
-                    std::int64_t const col = at % w + dc;
-                    std::int64_t const row = at / w + dr;
-                    if ((neighbours == 4 && dr != 0 && dc != 0) || col < 0 || row < 0 || col >= w || row >= h) {
-                        continue;
-                    }
-                    auto& mark = seen[static_cast<std::size_t>(row * w + col)];
-                    if (mark == 0 && is(col, row)) {
-                        mark = 1;
-                        open.push_back(row * w + col);
-                    }
-                }
+            if ((mask[at] != 0 ? 1 : 0) != value || label[at] != 0) {
+                continue;
             }
+            label[at] = first ? ++count : count;
+            Cell const c = mask.grid().at(at);
+            cells_around(mask.grid(), c, 1, [&](Cell n) {
+                if (neighbours == 8 || n.col == c.col || n.row == c.row) {
+                    open.push_back(mask.grid().index(n));
+                }
+            });
         }
     }
-    return count;
+    return label;
+}
+
+inline std::int64_t components(Mask const& mask, int value, int neighbours) {
+    auto const label = labels_of(mask, value, neighbours);
+    return mask.cells() == 0 ? 0 : *std::ranges::max_element(label.values());
 }
 
 } // namespace test

@@ -2,7 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
+#include <cmath>
 #include <cstdint>
+#include <numbers>
 #include <string>
 #include <utility>
 #include <vector>
@@ -11,9 +14,10 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 
-/// Networks to prune, order and raise, drawn by hand or at random.
+/// Networks drawn by hand or at random, and what is often asked about them.
 namespace test {
 
 using namespace thalweg;
@@ -53,7 +57,7 @@ inline StreamNetwork random_skeleton(std::uint64_t seed, std::int64_t side) {
     return network::trace(skeleton, {Vec2{static_cast<double>(seed % 7), 0.0}});
 }
 
-/// Trees of straight and bent arcs that pay no heed to where the others run; several basins, some pseudo nodes.
+/// Trees of straight and bent arcs that may cross; several basins, some pseudo nodes.
 inline StreamNetwork random_forest(std::uint64_t seed, std::size_t nodes, std::size_t basins) {
     RandomStream words(seed, 3, 0);
     auto const place = [&] { return Vec2{1000.0 * words.real(), 1000.0 * words.real()}; };
@@ -93,6 +97,80 @@ inline StreamNetwork chain(std::size_t arcs) {
         net.add_arc(n, n - 1);
     }
     return net;
+}
+
+/// Heights of nodes; along arcs linear by length.
+inline ElevatedNetwork elevated(StreamNetwork plan, std::vector<double> node_z) {
+    ElevatedNetwork out{std::move(plan), std::move(node_z), {}};
+    for (std::size_t a = 0; a < out.plan.arc_count(); ++a) {
+        auto const& line = out.plan.arc(a).line;
+        double const high = out.node_z[out.plan.from(a)];
+        double const low = out.node_z[out.plan.to(a)];
+        double along = 0.0;
+        auto& z = out.arc_z.emplace_back(1, high);
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            along += distance(line[i - 1], line[i]);
+            z.push_back(i + 1 == line.size() ? low : high + (low - high) * along / out.plan.length_m(a));
+        }
+    }
+    return out;
+}
+
+/// Rivers that meet in one point, evenly around it, and leave it to the south, or end there.
+inline ElevatedNetwork star(int rivers, bool outlet_in_the_middle, double reach_m = 100.0, double leaving_m = 100.0) {
+    Vec2 const middle{4000000.1, 500000.7};
+    std::vector<Vec2> nodes{middle};
+    std::vector<double> z{10.0};
+    std::vector<Reach> reaches;
+    for (int i = 1; i <= rivers; ++i) {
+        double const angle = 2.0 * std::numbers::pi * i / (rivers + 1) - std::numbers::pi / 2.0;
+        nodes.push_back({middle.x + reach_m * std::cos(angle), middle.y + reach_m * std::sin(angle)});
+        z.push_back(10.0 + i);
+        reaches.push_back({nodes.size() - 1, 0});
+    }
+    if (!outlet_in_the_middle) {
+        nodes.push_back({middle.x, middle.y - leaving_m});
+        z.push_back(0.0);
+        reaches.push_back({0, nodes.size() - 1});
+    }
+    return elevated(network_of(nodes, reaches), z);
+}
+
+/// Law: an arc has one height a vertex, those of its nodes at its ends, and does not rise downstream.
+inline void require_heights(ElevatedNetwork const& rivers) {
+    RC_ASSERT(rivers.arc_z.size() == rivers.plan.arc_count());
+    for (std::size_t a = 0; a < rivers.arc_z.size(); ++a) {
+        std::vector<double> const& z = rivers.arc_z[a];
+        RC_ASSERT(z.size() == rivers.plan.arc(a).line.size());
+        RC_ASSERT(z.front() == rivers.node_z[rivers.plan.from(a)]);
+        RC_ASSERT(z.back() == rivers.node_z[rivers.plan.to(a)]);
+        RC_ASSERT(std::is_sorted(z.rbegin(), z.rend()));
+    }
+}
+
+/// Whether two networks agree bit by bit, with their numbers.
+inline bool same_network(StreamNetwork const& a, StreamNetwork const& b) {
+    bool same = a.from() == b.from() && a.to() == b.to() && a.node_count() == b.node_count();
+    for (NodeId n = 0; same && n < a.node_count(); ++n) {
+        same = a.node(n).at == b.node(n).at;
+    }
+    for (std::size_t k = 0; same && k < a.arc_count(); ++k) {
+        Arc const& p = a.arc(k);
+        Arc const& q = b.arc(k);
+        same = p.line == q.line && p.persistence == q.persistence && p.feature == q.feature && p.type == q.type;
+    }
+    return same;
+}
+
+/// Where arcs meet away from their common nodes.
+inline std::vector<geometry::Meeting> meetings_of(StreamNetwork const& net) {
+    std::vector<std::vector<Vec2>> lines;
+    std::vector<geometry::EndNodes> nodes;
+    for (std::size_t a = 0; a < net.arc_count(); ++a) {
+        lines.push_back(net.arc(a).line);
+        nodes.push_back({net.from(a), net.to(a)});
+    }
+    return geometry::meetings(lines, nodes);
 }
 
 } // namespace test

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <string>
+#include <utility>
+#include <vector>
 
 #include <support.hpp>
 
@@ -17,9 +19,16 @@ inline thalweg::pipeline::Made made(std::string const& toml, std::string const& 
     return thalweg::pipeline::make(recipe);
 }
 
-/// What such a recipe is refused for; nothing where it is made.
+/// What is wrong with such a recipe; "" where a terrain is made.
 inline std::string fault_of(std::string const& toml, std::string const& folder = "") {
     return message_of([&] { made(toml, folder); });
+}
+
+/// Recipes that are refused, each with these words.
+inline void expect_faults(std::vector<std::pair<std::string, std::string>> const& cases, std::string const& folder) {
+    for (auto const& [toml, words] : cases) {
+        EXPECT_TRUE(has(fault_of(toml, folder), words)) << toml;
+    }
 }
 
 } // namespace test

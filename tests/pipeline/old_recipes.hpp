@@ -2,23 +2,34 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <filesystem>
 #include <string>
+#include <vector>
 
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
-/// Small recipes in folders of their own, one of each method.
-inline std::filesystem::path old_recipes() {
-    return std::filesystem::path(THALWEG_SOURCE_DIR) / "tests/data/recipes_0_1_0";
+/// Five small recipes in folders of their own, of different sources and surfaces.
+inline std::filesystem::path const old_recipes = THALWEG_SOURCE_DIR "/tests/data/recipes_0_1_0";
+
+inline std::vector<std::string> old_recipe_names() {
+    std::vector<std::string> names;
+    for (std::filesystem::directory_entry const& entry : std::filesystem::directory_iterator(old_recipes)) {
+        if (entry.is_directory()) {
+            names.push_back(entry.path().filename().string());
+        }
+    }
+    std::ranges::sort(names);
+    return names;
 }
 
-inline Recipe recipe_in(std::filesystem::path const& place) {
-    std::string const file = (place / "recipe.toml").string();
+inline Recipe old_recipe(std::string const& name) {
+    std::string const file = (old_recipes / name / "recipe.toml").string();
     Recipe recipe = read_recipe(io::read_text(file, 1 << 20), file);
-    recipe.folder = place.string();
+    recipe.folder = (old_recipes / name).string();
     return recipe;
 }
 

@@ -12,6 +12,7 @@
 #include <gdal_priv.h>
 #include <gdal_utils.h>
 #include <io/scratch_folder.hpp>
+#include <support.hpp>
 
 #include "ascii_grid.hpp"
 
@@ -20,6 +21,8 @@
 class WalkFiles : public ScratchFolder {
 public:
     WalkFiles() {
+        using test::line;
+        using test::polygon;
         std::string const upper = line("[500300,5001500],[500700,5001200],[500900,5000700]", R"("kind":"A","up":1)");
         std::string const other = line("[501500,5001600],[501200,5001100],[500910,5000700]", R"("kind":"B","up":1)");
         std::string const lower = line("[500900,5000700],[501000,5000010]", R"("kind":"C","up":2)");
@@ -31,22 +34,22 @@ public:
                   line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("own":2,"alias":2,"to":3,"back":1)") +
                   "," + line("[500900,5000700],[501000,5000010]", R"("own":3,"alias":1,"to":0,"back":1)")));
         write("second.geojson", test::geojson(upper + "," + lower));
-        write("heights.geojson", test::geojson(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]", "") +
-                                               "," + line("[500900,5000700,30],[501000,5000010,5]", "")));
+        write("heights.geojson", test::geojson(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]") +
+                                               "," + line("[500900,5000700,30],[501000,5000010,5]")));
         write("strokes.geojson", test::geojson(line("[501000,5000010],[501100,5001700]", R"("rosgen":"B")") + "," +
                                                line("[501050,5000900],[500200,5001500]", R"("rosgen":"A")")));
-        write("one_stroke.geojson", test::geojson(line("[501000,5000010],[501100,5001700]", "")));
+        write("one_stroke.geojson", test::geojson(line("[501000,5000010],[501100,5001700]")));
         write("region.geojson", test::geojson(polygon(square(500300, 5000300, 1300))));
         write("second_region.geojson", test::geojson(polygon(square(500300, 5000300, 1500))));
-        write("loop.geojson", test::geojson(upper + "," + lower + "," +
-                                            line("[500700,5001200],[500500,5000900],[500900,5000700]", "")));
+        write("loop.geojson",
+              test::geojson(upper + "," + lower + "," + line("[500700,5001200],[500500,5000900],[500900,5000700]")));
         write("canal.geojson",
               test::geojson(upper + "," + lower + "," +
                             line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("waterway":"canal")")));
         write("coast.geojson",
               test::geojson(upper + "," + lower + "," +
                             line("[499000,5000020],[501000,5000010],[503000,4999990]", R"("FTYPE":"Coastline")")));
-        write("inland.geojson", test::geojson(line("[500300,5001500],[500700,5001200],[500900,5000700]", "")));
+        write("inland.geojson", test::geojson(line("[500300,5001500],[500700,5001200],[500900,5000700]")));
         write("outlets.csv", "x,y\n500000,4999000\n501900,4999500\n");
         write("lakes.geojson",
               test::geojson(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
@@ -70,14 +73,6 @@ public:
 private:
     using Value = std::function<double(int, int)>;
 
-    static std::string line(std::string const& vertices, std::string const& properties) {
-        return "{\"type\":\"Feature\",\"properties\":{" + properties +
-               "},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" + vertices + "]}}";
-    }
-    static std::string polygon(std::string const& ring) {
-        return "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[" + ring +
-               "]]}}";
-    }
     static std::string square(int west, int south, int side) {
         auto const at = [](int x, int y) { return "[" + std::to_string(x) + "," + std::to_string(y) + "]"; };
         return at(west, south) + "," + at(west + side, south) + "," + at(west + side, south + side) + "," +

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "spawned.hpp"
@@ -40,7 +41,7 @@ void expect_whole_or_refused(Ended const& ended, fs::path const& folder, fs::pat
         EXPECT_EQ(difference(folder / "out", reference), "") << about;
     } else {
         EXPECT_EQ(ended.code, 1) << about << ended.err;
-        EXPECT_NE(ended.err.find("error: "), std::string::npos) << about << ended.err;
+        EXPECT_TRUE(test::has(ended.err, "error: ")) << about;
         EXPECT_FALSE(fs::exists(folder / "out")) << about;
     }
 }

@@ -3,8 +3,8 @@
 #include <thalweg/io/files/files.hpp>
 
 #include <filesystem>
-#include <fstream>
-#include <memory>
+#include <string>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <support.hpp>
@@ -22,12 +22,12 @@ namespace fs = std::filesystem;
 namespace {
 
 using Names = std::vector<std::string>;
+using test::error_of;
 using test::has;
-using test::message_of;
 
 void put(std::string const& path, std::string const& text = "old") {
     fs::create_directories(fs::path(path).parent_path());
-    std::ofstream(path) << text;
+    test::write(path, text);
 }
 
 // Everything in a folder, with the contents: "a=old b/c=new ".
@@ -45,21 +45,18 @@ std::string content(fs::path const& folder) {
     return text;
 }
 
-testing::AssertionResult says(auto&& act, std::string const& words) {
-    return has(message_of<BadInput>(act), words);
-}
-
 } // namespace
 
-TEST(OutputFolder, NamelessFolderIsRefused) {
-    EXPECT_THROW(io::OutputFolder(""), BadParameter);
-}
-
-TEST(OutputFolder, FileInItsPlaceIsRefused) {
+TEST(OutputFolder, BadPlacesAreRefused) {
     ScratchFolder const scratch;
-    put(scratch / "out");
-    EXPECT_TRUE(
-        says([&] { io::OutputFolder(scratch / "out", io::Existing::replace, {"report.json"}); }, "not a folder"));
+    put(scratch / "file");
+    put(scratch / "out/report.json");
+    EXPECT_THROW(io::OutputFolder(""), BadParameter);
+    EXPECT_THROW(io::OutputFolder(scratch / "file", io::Existing::replace, {"report.json"}), BadInput);
+    EXPECT_THROW(io::OutputFolder(scratch / "out", io::Existing::refuse, {"report.json"}), BadInput);
+    EXPECT_TRUE(has(error_of([&] { io::OutputFolder(scratch / "out", io::Existing::replace); }), "no report.json"));
+    EXPECT_EQ(content(scratch.path()), "file=old out/ out/report.json=old ");
+    EXPECT_TRUE(has(error_of([] { io::OutputFolder const out("/proc/thalweg/out"); }), "IoError", "/proc/thalweg: "));
 }
 
 TEST(OutputFolder, NothingIsLeftWithoutCommit) {
@@ -99,15 +96,6 @@ TEST(OutputFolder, EmptyFolderIsFilled) {
     EXPECT_TRUE(fs::is_symlink(scratch / "link"));
 }
 
-TEST(OutputFolder, ExistingFolderIsRefused) {
-    ScratchFolder const scratch;
-    put(scratch / "out/report.json");
-    EXPECT_TRUE(says([&] { io::OutputFolder(scratch / "out", io::Existing::refuse, {"report.json"}); },
-                     "already exists: name another or use --overwrite"));
-    EXPECT_TRUE(says([&] { io::OutputFolder(scratch / "out", io::Existing::replace); }, "no report.json"));
-    EXPECT_EQ(content(scratch.path()), "out/ out/report.json=old ");
-}
-
 TEST(OutputFolder, OverwriteReplacesAndRemovesOnlyWhatIsListed) {
     ScratchFolder const scratch;
     put(scratch / "out/report.json");
@@ -140,7 +128,7 @@ TEST(OutputFolder, AddsBesideWhatIsThereAndReplacesOnlyTheSameNames) {
     {
         io::OutputFolder out(scratch / "out", io::Existing::add);
         io::write_text(out.path("map.png"), "new");
-        EXPECT_TRUE(says([&] { out.commit(); }, "already exists"));
+        EXPECT_THROW(out.commit(), BadInput);
     }
     {
         io::OutputFolder out(scratch / "out", io::Existing::add, {"map.png", "other.png"});
@@ -159,7 +147,7 @@ TEST(OutputFolder, AForeignFileIsNeverReplacedAndNothingChanges) {
         io::OutputFolder out(scratch / "out", io::Existing::replace, {"report.json"});
         put(out.path("report.json"), "new");
         put(out.path("dem.tif"), "new");
-        EXPECT_TRUE(says([&] { out.commit(); }, "dem.tif was not written by thalweg"));
+        EXPECT_TRUE(has(error_of([&] { out.commit(); }), "BadInput", "dem.tif"));
     }
     EXPECT_EQ(content(scratch.path()), before);
 }
@@ -211,9 +199,49 @@ TEST(OutputFolder, TwoAtOnceDoNotMeet) {
     EXPECT_EQ(bytes_of(scratch / "out/dem.tif"), "one");
 }
 
-TEST(OutputFolder, PlaceThatCannotBeWrittenNamesPathAndReason) {
-    EXPECT_TRUE(has(message_of<IoError>([&] { io::OutputFolder const out("/proc/thalweg/out"); }),
-                    "/proc/thalweg: No such file or directory"));
+TEST(OutputFile, AppearsWholeOrNotAtAll) {
+    ScratchFolder const folder;
+    {
+        io::OutputFile const file(folder / "a.txt");
+        put(file.staging(), "half");
+        EXPECT_EQ(folder.entries(), 1);
+    }
+    EXPECT_EQ(folder.entries(), 0);
+    {
+        io::OutputFile file(folder / "a.txt");
+        put(file.staging(), "whole");
+        file.commit();
+    }
+    EXPECT_EQ(bytes_of(folder / "a.txt"), "whole");
+    EXPECT_EQ(folder.entries(), 1);
+}
+
+TEST(OutputFile, ReplacesOnlyWhenAsked) {
+    ScratchFolder const folder;
+    folder.write("a.txt", "old");
+    EXPECT_THROW(io::OutputFile(folder / "a.txt"), BadInput);
+    {
+        io::OutputFile file(folder / "a.txt", io::Existing::replace);
+        put(file.staging(), "new");
+        EXPECT_EQ(bytes_of(folder / "a.txt"), "old");
+        file.commit();
+    }
+    EXPECT_EQ(bytes_of(folder / "a.txt"), "new");
+    io::OutputFile late(folder / "b.txt");
+    put(late.staging(), "late");
+    folder.write("b.txt", "early");
+    EXPECT_THROW(late.commit(), BadInput);
+    EXPECT_EQ(bytes_of(folder / "b.txt"), "early");
+}
+
+TEST(OutputFile, BadPlacesAreRefused) {
+    ScratchFolder const folder;
+    std::filesystem::create_symlink("elsewhere", folder / "link");
+    EXPECT_THROW(io::OutputFile(""), BadParameter);
+    EXPECT_THROW(io::OutputFile(folder / ""), BadParameter);
+    for (std::string const& path : {folder / "none/a.txt", folder.path().string(), folder / "link"}) {
+        EXPECT_THROW(io::OutputFile(path, io::Existing::replace), BadInput) << path;
+    }
 }
 
 TEST(Files, TextComesBack) {
@@ -252,8 +280,7 @@ TEST(Files, FullDiskNamesPathAndReason) {
     ScratchFolder const scratch;
     put(scratch / "large", std::string(100000, 'x'));
     FullDisk const full(5000);
-    EXPECT_TRUE(has(message_of<IoError>([&] { io::write_text(scratch / "a", std::string(100000, 'x')); }),
-                    "/a: File too large"));
+    EXPECT_TRUE(has(error_of([&] { io::write_text(scratch / "a", std::string(100000, 'x')); }), "IoError", "/a: "));
     EXPECT_THROW(io::copy_file(scratch / "large", scratch / "b"), IoError);
 }
 

@@ -19,8 +19,8 @@ using io::Schema;
 
 namespace {
 
+using test::error_of;
 using test::has;
-using test::message_of;
 
 std::string lowered(std::string_view text) {
     std::string low(text);
@@ -54,7 +54,7 @@ TEST(Schema, NamesLeadBackToWhatTheyName) {
         EXPECT_EQ(io::schema_named(std::string(table.name)), table.schema);
         EXPECT_EQ(&io::table_of(table.schema), &table);
     }
-    EXPECT_TRUE(has(message_of<BadInput>([&] { io::schema_named("nhdpluss"); }), "Did you mean 'nhdplus'?"));
+    EXPECT_TRUE(has(error_of([&] { io::schema_named("nhdpluss"); }), "BadInput", "'nhdplus'"));
 }
 
 TEST(Schema, NoTwoFieldsOfATableGoByOneName) {

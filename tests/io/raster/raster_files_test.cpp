@@ -12,7 +12,6 @@
 #include <limits>
 #include <memory>
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <rapidcheck.h>
@@ -24,7 +23,8 @@
 #include <thalweg/io/raster/raster_files.hpp>
 
 #include "full_disk.hpp"
-#include "scratch_folder.hpp"
+#include "tiff.hpp"
+#include "vector_files.hpp"
 
 namespace raster_files_test {
 
@@ -32,18 +32,11 @@ using namespace thalweg;
 
 namespace {
 
+using test::error_of;
 using test::has;
-using test::message_of;
 using test::on_threads;
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
-
-using Opened = std::unique_ptr<GDALDataset>;
-
-Opened open(std::string const& path) {
-    GDALAllRegister();
-    return Opened(GDALDataset::Open(path.c_str(), GDAL_OF_RASTER | GDAL_OF_VECTOR));
-}
 
 Raster<float> raster(std::int64_t width, std::int64_t height, std::function<double(Cell)> const& z) {
     return test::raster_of({width, height, 10.0, 500000.0, 4000000.0, "EPSG:32631"}, z);
@@ -54,37 +47,39 @@ bool same_bits(std::span<float const> a, std::span<float const> b) {
         a, b, [](float p, float q) { return (std::isnan(p) && std::isnan(q)) || std::memcmp(&p, &q, sizeof p) == 0; });
 }
 
-template <class Failure = BadInput> std::string refusal(std::string const& path) {
-    return message_of<Failure>([&] { io::read_dem(path); });
-}
-
-// A GeoTIFF of 1 band (or more), placed as given, each cell the value.
-std::string tiff(
-    ScratchFolder const& folder, std::array<double, 6> place, double value, int bands = 1,
-    std::function<void(GDALRasterBand&)> const& change = [](GDALRasterBand&) {}) {
-    GDALAllRegister();
-    std::string const path = folder / "hand.tif";
-    Opened const dataset(
-        GetGDALDriverManager()->GetDriverByName("GTiff")->Create(path.c_str(), 4, 3, bands, GDT_Float32, nullptr));
-    dataset->SetGeoTransform(place.data());
-    dataset->GetRasterBand(1)->Fill(value);
-    change(*dataset->GetRasterBand(1));
-    return path;
-}
-
-constexpr std::array<double, 6> north_up = {100.0, 2.0, 0.0, 200.0, 0.0, -2.0};
-
-int stop_at_once(double /*share*/, char const* /*what*/, void* /*argument*/) {
-    return 0;
-}
-
 } // namespace
 
-TEST(WriteDem, EmptyRasterIsRefused) {
-    ScratchFolder const folder;
-    EXPECT_THROW(io::write_dem(Raster<float>(), folder / "dem.tif"), BadInput);
-    EXPECT_THROW(io::write_mask(Mask(), folder / "mask.tif"), BadInput);
-    EXPECT_EQ(folder.entries(), 0);
+TEST(WriteDem, RefusalsOfEveryWriter) {
+    using Write = std::function<void(Grid const&, std::string const& path, thalweg::Run const&)>;
+    auto const height = [](Cell c) { return std::sqrt(static_cast<double>(c.col * c.row)); };
+    auto const noise = [](Cell c) {
+        auto const k = static_cast<std::uint64_t>(700 * c.row + c.col + 77);
+        return (k * k * 2654435761U) >> 21U & 1U; // nothing to compress
+    };
+    std::vector<Write> const writers{[&](Grid const& grid, std::string const& path, thalweg::Run const& run) {
+                                         io::write_dem(test::raster_of(grid, height), path, run);
+                                     },
+                                     [&](Grid const& grid, std::string const& path, thalweg::Run const& run) {
+                                         io::write_mask(test::raster_of<std::uint8_t>(grid, noise), path, run);
+                                     },
+                                     [&](Grid const& grid, std::string const& path, thalweg::Run const& run) {
+                                         io::write_field(test::raster_of<double>(grid, height), path, run);
+                                     }};
+    for (Write const& write : writers) {
+        ScratchFolder const folder;
+        Grid const grid{700, 600, 10.0, 500000.0, 4000000.0, "EPSG:32631"};
+        EXPECT_THROW(write({}, folder / "a.tif", {}), BadInput);
+        EXPECT_THROW(write(grid, folder / "none/a.tif", {}), IoError);
+        EXPECT_EQ(folder.entries(), 0);
+        folder.write("mine.tif", "mine");
+        EXPECT_THROW(write(grid, folder / "mine.tif", {}), IoError);
+        EXPECT_EQ(bytes_of(folder / "mine.tif"), "mine");
+        EXPECT_THROW(write(grid, folder / "b.tif", test::stopped_run()), Cancelled);
+        for (rlim_t const bytes : {100U, 5000U}) {
+            FullDisk const full(bytes);
+            EXPECT_THROW(write(grid, folder / (std::to_string(bytes) + ".tif"), {}), IoError) << bytes;
+        }
+    }
 }
 
 TEST(WriteDem, HeightsThatCannotBeStoredAreNamed) {
@@ -93,43 +88,10 @@ TEST(WriteDem, HeightsThatCannotBeStoredAreNamed) {
          {std::numeric_limits<float>::infinity(), -std::numeric_limits<float>::infinity(), -9999.0F}) {
         Raster<float> dem = raster(3, 2, [](Cell) { return 1.0; });
         dem[Cell{2, 1}] = bad;
-        EXPECT_TRUE(has(message_of<BadInput>([&] { io::write_dem(dem, folder / "dem.tif"); }), "column 2, row 1"))
+        EXPECT_TRUE(has(error_of([&] { io::write_dem(dem, folder / "dem.tif"); }), "BadInput", "column 2, row 1"))
             << bad;
     }
     EXPECT_EQ(folder.entries(), 0);
-}
-
-TEST(WriteDem, NothingIsOverwritten) {
-    ScratchFolder const folder;
-    std::ofstream(folder / "dem.tif") << "mine";
-    EXPECT_THROW(io::write_dem(raster(2, 2, [](Cell) { return 1.0; }), folder / "dem.tif"), IoError);
-    EXPECT_THROW(io::write_mask(Mask(Grid{2, 2, 1.0, 0.0, 0.0, ""}), folder / "dem.tif"), IoError);
-    EXPECT_EQ(bytes_of(folder / "dem.tif"), "mine");
-}
-
-TEST(WriteDem, MissingFolderAndFullDiskAreIoErrors) {
-    ScratchFolder const folder;
-    Raster<float> const dem = raster(700, 600, [](Cell c) { return std::sqrt(static_cast<double>(c.col * c.row)); });
-    Mask mask(dem.grid());
-    for (std::int64_t i = 0; i < mask.cells(); ++i) {
-        auto const k = static_cast<std::uint64_t>(i + 77);
-        mask[i] = static_cast<std::uint8_t>((k * k * 2654435761U) >> 21U & 1U); // nothing to compress
-    }
-    EXPECT_THROW(io::write_dem(dem, folder / "none/dem.tif"), IoError);
-    EXPECT_THROW(io::write_mask(mask, folder / "none/mask.tif"), IoError);
-    for (rlim_t const bytes : {100U, 5000U, 40000U}) {
-        FullDisk const full(bytes);
-        EXPECT_THROW(io::write_dem(dem, folder / ("dem" + std::to_string(bytes))), IoError) << bytes;
-        EXPECT_THROW(io::write_mask(mask, folder / ("mask" + std::to_string(bytes))), IoError) << bytes;
-    }
-}
-
-TEST(WriteDem, StopsWhenAsked) {
-    ScratchFolder const folder;
-    thalweg::Run run;
-    run.progress = stop_at_once;
-    EXPECT_THROW(io::write_dem(raster(600, 600, [](Cell) { return 1.0; }), folder / "dem.tif", run), Cancelled);
-    EXPECT_THROW(io::write_mask(Mask(Grid{600, 600, 1.0, 0.0, 0.0, ""}), folder / "mask.tif", run), Cancelled);
 }
 
 TEST(WriteDem, IsATiledDeflatedCog) {
@@ -137,7 +99,7 @@ TEST(WriteDem, IsATiledDeflatedCog) {
     io::write_dem(
         raster(1200, 700, [](Cell c) { return c.row == 3 ? none : 0.1 * static_cast<double>(c.col + c.row); }),
         folder / "dem.tif");
-    auto const dataset = open(folder / "dem.tif");
+    auto const dataset = opened(folder / "dem.tif");
     ASSERT_EQ(dataset->GetRasterCount(), 1);
     EXPECT_STREQ(dataset->GetMetadataItem("LAYOUT", "IMAGE_STRUCTURE"), "COG");
     EXPECT_STREQ(dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
@@ -209,7 +171,7 @@ TEST(WriteDem, MaskIsAByteGeoTiff) {
     mask[Cell{299, 4}] = 1;
     mask[Cell{0, 1}] = 1;
     io::write_mask(mask, folder / "network.tif");
-    auto const dataset = open(folder / "network.tif");
+    auto const dataset = opened(folder / "network.tif");
     EXPECT_STREQ(dataset->GetMetadataItem("COMPRESSION", "IMAGE_STRUCTURE"), "DEFLATE");
     EXPECT_STREQ(dataset->GetSpatialRef()->GetAuthorityCode(nullptr), "32631");
     GDALRasterBand& band = *dataset->GetRasterBand(1);
@@ -224,133 +186,18 @@ TEST(WriteDem, MaskIsAByteGeoTiff) {
     EXPECT_TRUE(std::ranges::equal(cells, mask.values()));
 }
 
-TEST(ReadDem, WhatIsNoRasterIsRefused) {
-    ScratchFolder const folder;
-    EXPECT_TRUE(has(refusal(folder / "none.tif"), "does not exist"));
-    EXPECT_TRUE(has(refusal("/vsicurl/http://example.org/dem.tif"), "does not exist"));
-    std::ofstream(folder / "text.tif") << "no raster";
-    EXPECT_TRUE(has(refusal(folder / "text.tif"), "cannot be read"));
-    EXPECT_TRUE(has(refusal(folder.path().string()), "cannot be read"));
-}
-
-TEST(ReadDem, OneCell) {
-    ScratchFolder const folder;
-    io::write_dem(raster(1, 1, [](Cell) { return 7.25; }), folder / "dem.tif");
-    EXPECT_EQ(io::read_dem(folder / "dem.tif")[0], 7.25F);
-}
-
-TEST(ReadDem, OnlyNoData) {
-    ScratchFolder const folder;
-    io::write_dem(raster(3, 3, [](Cell) { return none; }), folder / "dem.tif");
-    EXPECT_TRUE(has(refusal(folder / "dem.tif"), "holds no heights"));
-    EXPECT_TRUE(has(refusal(tiff(folder, north_up, none)), "holds no heights"));
-}
-
-TEST(ReadDem, FramesThatAreNotSquareAndNorthUpAreRefused) {
-    ScratchFolder const folder;
-    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.1, 0.0, 0.0, -2.0}, 1.0)), "is rotated"));
-    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.5}, 1.0)), "cells of 2 x 2.5"));
-    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, 2.0}, 1.0)), "not north-up"));
-    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, -2.0, 0.0, 0.0, 0.0, -2.0}, 1.0)), "not north-up"));
-    EXPECT_TRUE(has(refusal(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.01}, 1.0)), "2.01"));
-    EXPECT_EQ(io::read_dem(tiff(folder, {0.0, 2.0, 0.0, 0.0, 0.0, -2.000001}, 1.0)).grid().cell_m, 2.0);
-}
-
-TEST(ReadDem, ImplausibleHeightIsNamed) {
-    ScratchFolder const folder;
-    EXPECT_TRUE(has(refusal(tiff(folder, north_up, 2e30)), "column 0, row 0 is 2"));
-    EXPECT_TRUE(has(refusal(tiff(folder, north_up, -std::numeric_limits<double>::infinity())), "damaged"));
-    EXPECT_EQ(io::read_dem(tiff(folder, north_up, 9e29))[0], 9e29F);
-}
-
-TEST(ReadDem, SeveralBandsAreRefused) {
-    ScratchFolder const folder;
-    EXPECT_TRUE(has(refusal(tiff(folder, north_up, 1.0, 3)), "has 3 bands"));
-}
-
-TEST(ReadDem, ScaleOffsetAndForeignNoData) {
-    ScratchFolder const folder;
-    Raster<float> const dem = io::read_dem(tiff(folder, north_up, 50.0, 1, [](GDALRasterBand& band) {
-        band.SetScale(0.1);
-        band.SetOffset(-3.0);
-        band.SetNoDataValue(7.0);
-        float seven = 7.0F;
-        ASSERT_EQ(band.RasterIO(GF_Write, 1, 2, 1, 1, &seven, 1, 1, GDT_Float32, 0, 0, nullptr), CE_None);
-    }));
-    EXPECT_EQ(dem.grid(), (Grid{4, 3, 2.0, 100.0, 200.0, ""}));
-    EXPECT_EQ((dem[Cell{0, 0}]), 2.0F);
-    EXPECT_TRUE(std::isnan(dem[Cell{1, 2}]));
-    EXPECT_EQ(std::ranges::count_if(dem.values(), [](float z) { return std::isnan(z); }), 1);
-}
-
-TEST(ReadDem, GeographicKeepsItsCrs) {
-    ScratchFolder const folder;
-    std::ofstream(folder / "dem.asc")
-        << "ncols 2\nnrows 1\nxllcorner 7.5\nyllcorner 46\ncellsize 0.25\nNODATA_value -1\n"
-           "3 -1\n";
-    std::ofstream(folder / "dem.prj")
-        << "GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,298.257223563]],"
-           "PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433],"
-           "AUTHORITY[\"EPSG\",\"4326\"]]";
-    Raster<float> const dem = io::read_dem(folder / "dem.asc");
-    EXPECT_EQ(dem.grid(), (Grid{2, 1, 0.25, 7.5, 46.25, "EPSG:4326"}));
-    EXPECT_EQ(dem[0], 3.0F);
-    EXPECT_TRUE(std::isnan(dem[1]));
-}
-
-TEST(ReadDem, RasterWithoutPlaceStandsAtTheOrigin) {
-    ScratchFolder const folder;
-    std::ofstream(folder / "dem.pgm") << "P5 3 2 255\nabcdef";
-    Raster<float> const dem = io::read_dem(folder / "dem.pgm");
-    EXPECT_EQ(dem.grid(), (Grid{3, 2, 1.0, 0.0, 2.0, ""}));
-    EXPECT_EQ((dem[Cell{2, 1}]), static_cast<float>('f'));
-}
-
-TEST(ReadDem, LargerThanMemoryIsRefusedAtOnce) {
-    ScratchFolder const folder;
-    std::ofstream(folder / "dem.vrt") << "<VRTDataset rasterXSize=\"2000000000\" rasterYSize=\"2000000000\">"
-                                         "<VRTRasterBand dataType=\"Float32\" band=\"1\"/></VRTDataset>";
-    EXPECT_TRUE(has(refusal(folder / "dem.vrt"), "larger than memory"));
-}
-
-TEST(ReadDem, DamagedTilesNeverPassUnseen) {
-    ScratchFolder const folder;
-    Raster<float> const dem =
-        raster(600, 600, [](Cell c) { return std::sqrt(static_cast<double>(c.col * c.row)) + 300.0; });
-    io::write_dem(dem, folder / "dem.tif");
-    auto const size = static_cast<double>(std::filesystem::file_size(folder / "dem.tif"));
-    for (double const share : {0.4, 0.6, 0.8}) {
-        std::filesystem::copy_file(folder / "dem.tif", folder / "damaged.tif",
-                                   std::filesystem::copy_options::overwrite_existing);
-        std::fstream file(folder / "damaged.tif", std::ios::in | std::ios::out | std::ios::binary);
-        file.seekp(static_cast<std::streamoff>(share * size));
-        file << std::string(5000, '\x55');
-        file.close();
-        EXPECT_THROW(io::read_dem(folder / "damaged.tif"), Error) << share;
-    }
-    std::filesystem::resize_file(folder / "dem.tif", static_cast<std::uintmax_t>(size / 2));
-    EXPECT_THROW(io::read_dem(folder / "dem.tif"), Error);
-}
-
-TEST(ReadDem, StopsWhenAsked) {
-    ScratchFolder const folder;
-    std::string const path = tiff(folder, north_up, 1.0);
-    thalweg::Run run;
-    run.progress = stop_at_once;
-    EXPECT_THROW(io::read_dem(path, run), Cancelled);
-}
-
 TEST(DatasetFiles, WhatACompanionNamesElsewhereIsNoneOfThem) {
     ScratchFolder const folder;
     ScratchFolder const elsewhere;
-    std::string const secret = tiff(elsewhere, north_up, 7.0);
-    std::string const path = tiff(folder, north_up, 1.0);
+    auto const seven = [](int, int) { return 7.0; };
+    std::string const secret = written(elsewhere / "hand.tif", Tiff{}, seven);
+    std::string const path = written(folder / "hand.tif", Tiff{}, seven);
     folder.write("hand.tif.ovr", "<VRTDataset rasterXSize='2' rasterYSize='2'><VRTRasterBand dataType='Float32' "
                                  "band='1'><SimpleSource><SourceFilename relativeToVRT='0'>" +
                                      secret + "</SourceFilename></SimpleSource></VRTRasterBand></VRTDataset>");
     EXPECT_TRUE(std::ranges::count(io::dataset_files(path), path));
     for (std::string const& file : io::dataset_files({path, io::Access::recipe})) {
-        EXPECT_TRUE(has(file, folder.path().string())) << file;
+        EXPECT_TRUE(has(file, folder.path().string()));
     }
 }
 
@@ -364,10 +211,10 @@ TEST(Hillshade, DegenerateRasters) {
     }
 }
 
-TEST(Hillshade, FlatGroundIsEvenAndGapsAreNought) {
+TEST(Hillshade, FlatGroundIsEvenAndGapsAreZero) {
     auto const shade = io::hillshade(raster(9, 7, [](Cell c) { return c == Cell{4, 3} ? none : 5.0; }));
     for (std::int64_t i = 0; i < shade.cells(); ++i) {
-        // The light stands at 45 degrees: 1 + 254 sin 45.
+        // The light comes from 45 degrees: 1 + 254 sin 45.
         EXPECT_EQ(shade[i], shade.grid().at(i) == (Cell{4, 3}) ? 0 : 181) << i;
     }
 }
@@ -415,9 +262,8 @@ TEST(Contours, PlaneHasStraightLinesAtMultiples) {
 }
 
 TEST(Contours, StopWhenAsked) {
-    thalweg::Run run;
-    run.progress = stop_at_once;
-    EXPECT_THROW(io::contours(raster(50, 50, [](Cell c) { return static_cast<double>(c.col); }), 1.0, run), Cancelled);
+    auto const slope = raster(50, 50, [](Cell c) { return static_cast<double>(c.col); });
+    EXPECT_THROW(io::contours(slope, 1.0, test::stopped_run()), Cancelled);
 }
 
 TEST(Contours, GeoPackageMarksEveryFifth) {
@@ -430,8 +276,8 @@ TEST(Contours, GeoPackageMarksEveryFifth) {
     io::write_contours({}, 2.0, "EPSG:32631", folder / "none.gpkg");
     EXPECT_THROW(io::write_contours(lines, 2.0, "EPSG:32631", folder / "contours.gpkg"), IoError);
     EXPECT_TRUE(bytes_of(folder / "contours.gpkg") == bytes_of(folder / "again.gpkg"));
-    EXPECT_EQ(open(folder / "none.gpkg")->GetLayerByName("contours")->GetFeatureCount(), 0);
-    auto const dataset = open(folder / "contours.gpkg");
+    EXPECT_EQ(opened(folder / "none.gpkg")->GetLayerByName("contours")->GetFeatureCount(), 0);
+    auto const dataset = opened(folder / "contours.gpkg");
     OGRLayer& layer = *dataset->GetLayerByName("contours");
     EXPECT_EQ(layer.GetGeomType(), wkbLineString25D);
     std::vector<double> marked;
@@ -458,7 +304,7 @@ TEST(WriteField, WritesDoublesExactly) {
     io::write_field(field, folder / "field.tif", one);
     io::write_field(field, folder / "again.tif", two);
     EXPECT_TRUE(bytes_of(folder / "field.tif") == bytes_of(folder / "again.tif"));
-    auto const dataset = open(folder / "field.tif");
+    auto const dataset = opened(folder / "field.tif");
     GDALRasterBand& band = *dataset->GetRasterBand(1);
     EXPECT_EQ(band.GetRasterDataType(), GDT_Float64);
     EXPECT_EQ(band.GetNoDataValue(), -9999.0);
@@ -467,9 +313,6 @@ TEST(WriteField, WritesDoublesExactly) {
     field[5] = -9999.0;
     EXPECT_TRUE(std::ranges::equal(read, field.values()));
     EXPECT_THROW(io::write_field(field, folder / "third.tif"), BadInput);
-    EXPECT_THROW(io::write_field(Raster<double>{}, folder / "third.tif"), BadInput);
-    field[5] = 0.0;
-    EXPECT_THROW(io::write_field(field, folder / "again.tif"), IoError);
 }
 
 } // namespace raster_files_test

@@ -3,7 +3,6 @@
 #include <thalweg/network/channels/channels.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <cstdlib>
 #include <map>
 #include <set>
@@ -15,6 +14,7 @@
 #include <rapidcheck.h>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace channels_test {
@@ -25,6 +25,8 @@ using namespace thalweg;
 using network::channels;
 using network::ChannelsOfArcs;
 using network::ChannelsParams;
+using network::shorten;
+using network::Shortened;
 
 ChannelsParams literal() {
     return {.look_cells = 0, .stub_cells = 0};
@@ -59,27 +61,36 @@ std::string drawn(Channels const& rivers) {
     return picture;
 }
 
-TEST(Channels, NoNetworkIsNoChannels) {
-    ChannelsOfArcs const out = channels(StreamNetwork{}, test::frame(3, 3));
-    EXPECT_TRUE(out.channels.cell.empty());
-    EXPECT_TRUE(out.of_arc.empty());
+// Two arms of five cells, a confluence, a stem of four
+StreamNetwork fork() {
+    return test::network_of({{5.5, 0.5}, {5.5, 4.5}, {0.5, 9.5}, {10.5, 9.5}},
+                            {{1, 0, {}, 7}, {2, 1, {}, 8}, {3, 1, {}, 9}});
 }
 
-TEST(Channels, BadInputAndParametersAreNamed) {
+/// Some channel cells with all that flow into them.
+std::vector<std::int64_t> some_tips(Channels const& rivers, std::uint64_t seed, double share) {
+    std::vector<std::uint8_t> gone(rivers.cell.size(), 0);
+    std::vector<std::int64_t> out;
+    for (std::size_t i = 0; i < gone.size(); ++i) {
+        bool const below = rivers.receiver[i] >= 0 && gone[static_cast<std::size_t>(rivers.receiver[i])] != 0;
+        gone[i] = below || unit(random_word(seed, i)) < share ? 1 : 0;
+        if (gone[i] != 0) {
+            out.push_back(static_cast<std::int64_t>(i));
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+TEST(Channels, BadInputAndParametersAreRefused) {
     StreamNetwork const net = test::network_of({{0.5, 0.5}, {7.0, 0.5}}, {{1, 0}});
+    StreamNetwork const ring = test::network_of({{0.5, 0.5}, {2.5, 0.5}}, {{0, 1}, {1, 0}});
     EXPECT_THROW(channels(net, test::frame(3, 3)), BadInput);
+    EXPECT_THROW(channels(ring, test::frame(3, 3)), BadInput);
     EXPECT_THROW(channels(net, test::frame(9, 3), {.look_cells = 65}), BadParameter);
     EXPECT_THROW(channels(net, test::frame(9, 3), {.stub_cells = -1}), BadParameter);
-    StreamNetwork const ring = test::network_of({{0.5, 0.5}, {2.5, 0.5}}, {{0, 1}, {1, 0}});
-    EXPECT_THROW(channels(ring, test::frame(3, 3)), BadInput);
-}
-
-TEST(Channels, AnArcWithinOneCellIsThatCell) {
-    StreamNetwork const net = test::network_of({{1.2, 1.2}, {1.8, 1.7}}, {{0, 1}});
-    ChannelsOfArcs const out = channels(net, test::frame(3, 3));
-    EXPECT_EQ(out.channels.cell, std::vector<std::int64_t>{4});
-    EXPECT_EQ(out.channels.receiver, std::vector<std::int64_t>{-1});
-    EXPECT_EQ(out.of_arc, (std::vector<std::vector<std::int64_t>>{{0}}));
+    EXPECT_TRUE(channels(StreamNetwork{}, test::frame(3, 3)).channels.cell.empty());
 }
 
 TEST(Channels, AForkAsDrawn) {
@@ -108,28 +119,6 @@ TEST(Channels, CornersAreCutAndCellsWithoutWaterLeftOut) {
                                                                 "o...\n");
 }
 
-TEST(Channels, AConfluenceCellThatBothArmsPassByIsLeftOut) {
-    // both arms come to the node from the north, beside the stem's first cells
-    StreamNetwork const net =
-        test::network_of({{2.5, 0.5}, {2.5, 3.5}, {1.5, 3.5}, {3.5, 3.5}}, {{1, 0}, {2, 1}, {3, 1}});
-    ChannelsOfArcs const out = channels(net, test::frame(5, 4));
-    EXPECT_EQ(drawn(out.channels), ".1.3.\n"
-                                   "..2..\n"
-                                   "..2..\n"
-                                   "..o..\n");
-    EXPECT_EQ(out.of_arc[0].size(), 3U);
-    EXPECT_EQ(out.of_arc[1].size(), 1U);
-}
-
-TEST(Channels, ALoopWithinCellsIsLeftOut) {
-    StreamNetwork const net = test::network_of({{0.5, 0.5}, {5.5, 0.5}},
-                                               {{1, 0, {{2.6, 0.5}, {2.6, 2.5}, {3.5, 2.5}, {3.5, 1.5}, {2.4, 0.6}}}});
-    test::require_law(channels(net, test::frame(6, 3), literal()).channels);
-    EXPECT_EQ(drawn(channels(net, test::frame(6, 3), literal()).channels), "......\n"
-                                                                           "......\n"
-                                                                           "o44444\n");
-}
-
 TEST(Channels, RiversThatCrossAreOneFromThere) {
     // the second river crosses the first, by sides and by corners
     for (double const shift : {0.0, 1.0}) {
@@ -154,7 +143,7 @@ TEST(Channels, AStubBelowACrossingIsLeftOut) {
 }
 
 TEST(Channels, KeepTheirLawWhateverIsDrawn) {
-    ASSERT_TRUE(rc::check("of rivers that pay no heed to one another, with loops", [] {
+    ASSERT_TRUE(rc::check("of rivers that may cross, with loops", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         auto const nodes = *rc::gen::inRange<std::size_t>(0, 30);
         auto const basins = *rc::gen::inRange<std::size_t>(1, 4);
@@ -192,8 +181,7 @@ TEST(Channels, KeepTheirLawWhateverIsDrawn) {
 
 TEST(Channels, RiversOnALatticeKeepTheirWay) {
     ASSERT_TRUE(rc::check("each arc's cells lead down to its outlet, and sources stay", [] {
-        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        StreamNetwork const net = test::random_skeleton(seed, 48);
+        StreamNetwork const net = test::random_skeleton(*rc::gen::arbitrary<std::uint64_t>(), 48);
         Grid const grid = test::frame(48, 48);
         ChannelsOfArcs const out = channels(net, grid);
         test::require_law(out.channels);
@@ -210,6 +198,100 @@ TEST(Channels, RiversOnALatticeKeepTheirWay) {
     }));
 }
 
-} // namespace
+TEST(Shorten, RefusesWhatIsNoTip) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    for (std::int64_t const wrong : {std::int64_t{-1}, std::ssize(drawn.channels.cell), std::int64_t{0}}) {
+        EXPECT_TRUE(test::refused("network.shorten", [&] { shorten(fork(), drawn, {wrong}); })) << wrong;
+    }
+    EXPECT_THROW(shorten(test::network_of({{5.5, 0.5}, {5.5, 4.5}}, {{1, 0}}), drawn, {}), BadInput);
+}
+
+TEST(Shorten, CellsBesideTheirLineStay) {
+    ChannelsOfArcs drawn = channels(fork(), test::frame(11, 11));
+    Grid const& grid = drawn.channels.grid;
+    std::vector<std::int64_t> const& arm = drawn.of_arc[1];
+    for (std::size_t k = 0; k + 1 < arm.size(); ++k) { // the line touches their corners
+        auto const i = static_cast<std::size_t>(arm[k]);
+        Cell const c = grid.at(drawn.channels.cell[i]);
+        drawn.channels.cell[i] = grid.index({c.col + 1, c.row});
+    }
+    Shortened const out = shorten(fork(), drawn, {arm.begin(), arm.begin() + 2});
+    ASSERT_EQ(out.network.arc_count(), 3U);
+    EXPECT_EQ(out.network.arc(1).line, (std::vector<Vec2>{{3.0, 7.0}, {5.5, 4.5}}));
+    EXPECT_EQ(out.drawn.of_arc[1].size(), 4U);
+}
+
+TEST(Shorten, AnArmThatGoesLeavesOneRiver) {
+    ChannelsOfArcs const drawn = channels(fork(), test::frame(11, 11));
+    std::vector<std::int64_t> const left(drawn.of_arc[1].begin(), drawn.of_arc[1].end() - 1);
+    Shortened const out = shorten(fork(), drawn, left);
+    ASSERT_EQ(out.network.arc_count(), 1U);
+    EXPECT_EQ(out.network.arc(0).line, (std::vector<Vec2>{{10.5, 9.5}, {5.5, 4.5}, {5.5, 0.5}}));
+    EXPECT_EQ(out.network.arc(0).feature, 9);
+    EXPECT_EQ(out.drawn.of_arc[0].size(), 10U);
+    EXPECT_EQ(out.notes.size(), 1U);
+}
+
+TEST(Shorten, AHeadInTheCellOfAnotherRiverGoesWithTheCellsBelowIt) {
+    StreamNetwork const net = test::network_of({{0.5, 25.5}, {30.5, 25.5}, {5.6, 25.4}, {5.5, 0.5}}, {{0, 1}, {2, 3}});
+    ChannelsOfArcs const drawn = channels(net, test::frame(31, 31));
+    auto const& cells = drawn.of_arc[1];
+    ASSERT_GE(cells.size(), 4U);
+    ASSERT_NE(drawn.channels.receiver[static_cast<std::size_t>(cells[0])], cells[1]); // that is the other river's
+    Shortened const out = shorten(net, drawn, {cells.begin() + 1, cells.begin() + 3});
+    ASSERT_EQ(out.network.arc_count(), 2U);
+    EXPECT_LT(out.network.arc(1).line.front().y, 23.0);
+    EXPECT_EQ(out.notes.size(), 1U);
+}
+
+TEST(Shorten, WhatIsLeftIsWhatWasDrawn) {
+    ASSERT_TRUE(rc::check("lines end parts of lines, channels keep their law, and arcs their cells", [] {
+        auto const [seed, on_lattice, net, grid] = test::some_rivers();
+        ChannelsOfArcs const drawn = channels(net, grid);
+        std::vector<std::int64_t> const gone = some_tips(drawn.channels, seed, *rc::gen::element(0.0, 0.01, 0.1, 1.0));
+        Shortened const out = shorten(net, drawn, gone);
+        test::require_law(out.drawn.channels);
+        RC_ASSERT(out.drawn.of_arc.size() == out.network.arc_count());
+        RC_ASSERT(out.drawn.channels.cell.size() + gone.size() == drawn.channels.cell.size());
+        std::set<std::pair<double, double>> vertices;
+        double before_m = 0.0;
+        for (std::size_t a = 0; a < net.arc_count(); ++a) {
+            before_m += net.length_m(a);
+            for (Vec2 const p : net.arc(a).line) {
+                vertices.emplace(p.x, p.y);
+            }
+        }
+        double after_m = 0.0;
+        for (std::size_t a = 0; a < out.network.arc_count(); ++a) {
+            after_m += out.network.length_m(a);
+            auto const& line = out.network.arc(a).line;
+            RC_ASSERT(line.size() >= 2U);
+            RC_ASSERT(line.front() == out.network.node(out.network.from(a)).at);
+            for (std::size_t i = 1; i < line.size(); ++i) {
+                RC_ASSERT(vertices.contains({line[i].x, line[i].y}));
+            }
+            if (on_lattice) {
+                // what was drawn from the new line's cells, and no tip stands where a river is gone
+                std::set<std::int64_t> cells;
+                for (Cell const c : cells_along(line, grid)) {
+                    cells.insert(grid.index(c));
+                }
+                for (std::int64_t const i : out.drawn.of_arc[a]) {
+                    RC_ASSERT(cells.contains(out.drawn.channels.cell[static_cast<std::size_t>(i)]));
+                }
+                if (out.network.in(out.network.from(a)).empty() && !out.drawn.of_arc[a].empty()) {
+                    RC_ASSERT(out.drawn.channels.cell[static_cast<std::size_t>(out.drawn.of_arc[a].front())] ==
+                              grid.index(grid.cell_of(line.front())));
+                }
+            }
+        }
+        double noted_m = 0.0;
+        for (Finding const& note : out.notes) {
+            noted_m += note.amount;
+        }
+        RC_ASSERT(noted_m + after_m <= before_m * (1.0 + 1e-12));
+        RC_ASSERT(!on_lattice || noted_m + after_m >= before_m * (1.0 - 1e-12));
+    }));
+}
 
 } // namespace channels_test

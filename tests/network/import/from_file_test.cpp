@@ -22,8 +22,6 @@ using network::from_file;
 
 namespace {
 
-using test::message_of;
-
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 /// Two rivers that meet, ids with gaps and out of order.
@@ -41,47 +39,42 @@ NetworkFile y_shape() {
     return file;
 }
 
-std::string fault_of(NetworkFile const& file) {
-    return message_of<BadInput>([&] { from_file(file); });
-}
-
-void expect_fault(NetworkFile const& file, std::string const& words) {
-    std::string const fault = fault_of(file);
-    EXPECT_NE(fault.find(words), std::string::npos) << words << "\n" << fault;
-}
-
 } // namespace
 
-TEST(FromFile, FirstFaultIsNamedAndWhatToDo) {
-    EXPECT_NE(fault_of({}).find("holds no arcs"), std::string::npos);
+TEST(FromFile, FirstFaultIsNamed) {
     auto const broken = [](auto breaks, std::string const& words) {
         NetworkFile file = y_shape();
         breaks(file);
-        expect_fault(file, words);
-        expect_fault(file, "thalweg check");
+        EXPECT_TRUE(test::refused(
+            "network.from_file", [&] { from_file(file); }, words));
     };
+    broken([](NetworkFile& f) { f = {}; }, "no arcs");
     broken([](NetworkFile& f) { f.arcs[1].id = 30; }, "several arcs have the id 30");
     broken([](NetworkFile& f) { f.nodes[1].id = 8; }, "several nodes have the id 8");
-    broken([](NetworkFile& f) { f.arcs[1].from_node = 99; }, "arc 20 names node 99, which is missing");
-    broken([](NetworkFile& f) { f.nodes.push_back({50, {9, 9, 9}}); }, "node 50 at (9, 9) has no arc");
+    broken([](NetworkFile& f) { f.arcs[1].from_node = 99; }, "arc 20 names node 99");
+    broken([](NetworkFile& f) { f.nodes.push_back({50, {9, 9, 9}}); }, "node 50 at (9, 9)");
     broken([](NetworkFile& f) { f.arcs[2].line.front().z = 2.5; }, "arc 10 ends at (-5, 20, 2.5) but its node 8");
     broken([](NetworkFile& f) { f.arcs[2].line = {}; }, "arc 10 has no length");
     broken([](NetworkFile& f) { f.arcs[1].line[1].x = not_a_number; }, "vertex 2 of arc 20");
     broken([](NetworkFile& f) { f.arcs[1].line[1].z = not_a_number; }, "vertex 2 of arc 20");
-    broken([](NetworkFile& f) { f.arcs[2].ds_arc = 20; }, "arc 10 says that 20 is downstream");
-}
-
-TEST(FromFile, BifurcationsAndCirclesAreNamed) {
-    NetworkFile two = y_shape();
-    std::swap(two.arcs[2].from_node, two.arcs[2].to_node);
-    std::ranges::reverse(two.arcs[2].line);
-    expect_fault(two, "2 arcs leave the node at (0.000, 10.000)");
-    expect_fault(two, "thalweg check");
-    NetworkFile circle = y_shape();
-    circle.arcs[0].to_node = 8;
-    circle.arcs[0].line.back() = {-5, 20, 2};
-    circle.nodes.erase(circle.nodes.begin());
-    expect_fault(circle, "run in a circle");
+    broken([](NetworkFile& f) { f.arcs[2].ds_arc = 20; }, "arc 10 says that 20");
+    broken(
+        [](NetworkFile& f) {
+            std::swap(f.arcs[2].from_node, f.arcs[2].to_node);
+            std::ranges::reverse(f.arcs[2].line);
+        },
+        "2 arcs leave the node at (0.000, 10.000)");
+    broken(
+        [](NetworkFile& f) {
+            f.arcs[0].to_node = 8;
+            f.arcs[0].line.back() = {-5, 20, 2};
+            f.nodes.erase(f.nodes.begin());
+        },
+        "circle");
+    NetworkFile file = y_shape(); // one that says nothing of arcs downstream
+    file.says.downstream = false;
+    file.arcs[0].ds_arc = 77;
+    EXPECT_NO_THROW(from_file(file));
 }
 
 TEST(FromFile, WhatTheFileSaysIsKeptInTheOrderOfIds) {
@@ -132,7 +125,7 @@ TEST(FromFile, EndsTakeTheHeightsOfNodesThatWereMade) {
     EXPECT_EQ(from_file(file).network.arc_z[0].back(), 1.0);
 }
 
-TEST(FromFile, NodesThatNobodyNamesAreNumberedAlongTheArcs) {
+TEST(FromFile, NodesWithoutNumbersAreNumberedAlongTheArcs) {
     NetworkFile file = y_shape();
     file.says.nodes = file.says.ends = false;
     NetworkFile shuffled = file; // as another format might order its features
@@ -149,13 +142,6 @@ TEST(FromFile, NodesThatNobodyNamesAreNumberedAlongTheArcs) {
     EXPECT_EQ(from_file(file).network.plan.to(), (std::vector<NodeId>{1, 1, 3}));
     EXPECT_EQ(from_file(shuffled).network.plan.from(), from_file(file).network.plan.from());
     EXPECT_EQ(from_file(shuffled).network.plan.to(), from_file(file).network.plan.to());
-}
-
-TEST(FromFile, AFileThatSaysNothingOfDownstreamArcsIsBelieved) {
-    NetworkFile file = y_shape();
-    file.says.downstream = false;
-    file.arcs[0].ds_arc = 77;
-    EXPECT_EQ(fault_of(file), "");
 }
 
 // Law: what as_file makes of a network is that network again, bit for bit.

@@ -4,9 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 #include <map>
-#include <set>
 #include <string>
 #include <utility>
 #include <vector>
@@ -24,54 +22,15 @@ using namespace thalweg;
 using network::import_lines;
 using network::Imported;
 using network::Orientation;
+using test::First;
 using test::flats;
+using test::Lattice;
+using test::random_lattice;
+using test::steps_of;
 
 namespace {
 
 namespace steps = network::import_steps;
-
-/// Edges of a lattice whose vertices are shaken: a tree, and some edges that close loops. Each is drawn away from
-/// vertex 0.
-struct Lattice {
-    std::vector<Vec2> at;
-    std::vector<std::pair<std::size_t, std::size_t>> edges; ///< from vertex, to vertex
-};
-
-/// head: nothing but its first edge meets vertex 0.
-enum class First { any, head };
-
-Lattice random_lattice(int size, int loops, First first = First::any) {
-    Lattice lattice;
-    std::map<std::pair<int, int>, std::size_t> taken;
-    std::vector<std::pair<int, int>> cell;
-    auto const add = [&](std::pair<int, int> c) {
-        taken[c] = cell.size();
-        cell.push_back(c);
-        auto const shake = [] { return *rc::gen::inRange(-20000, 20001) * 1e-3; };
-        lattice.at.push_back(rounded(Vec2{c.first * 100.0 + shake(), c.second * 100.0 + shake()}));
-    };
-    add({0, 0});
-    constexpr std::pair<int, int> beside[] = {{1, 0}, {0, 1}, {-1, 0}, {0, -1}};
-    for (int tries = 0; tries < 3 * size && static_cast<int>(cell.size()) < size; ++tries) {
-        auto const from = static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(cell.size())));
-        auto const [dx, dy] = beside[*rc::gen::inRange(0, 4)];
-        std::pair<int, int> const to{cell[from].first + dx, cell[from].second + dy};
-        if (first == First::head && from == 0 && cell.size() > 1) {
-            continue;
-        }
-        if (!taken.contains(to)) {
-            add(to);
-            lattice.edges.emplace_back(from, cell.size() - 1);
-        } else if (loops > 0) {
-            std::pair const edge = std::minmax(from, taken.at(to));
-            if (std::ranges::find(lattice.edges, std::pair(edge.first, edge.second)) == lattice.edges.end()) {
-                lattice.edges.emplace_back(edge.first, edge.second);
-                --loops;
-            }
-        }
-    }
-    return lattice;
-}
 
 RiverLines drawn(Lattice const& lattice) {
     std::vector<std::vector<Vec2>> lines;
@@ -81,7 +40,7 @@ RiverLines drawn(Lattice const& lattice) {
     return flats(lines);
 }
 
-/// Turns and shuffles lines.
+/// Turns lines and changes their order.
 void disturb(RiverLines& file) {
     for (std::size_t l = file.lines.size(); l-- > 1;) {
         std::swap(file.lines[l], file.lines[static_cast<std::size_t>(*rc::gen::inRange(0, static_cast<int>(l) + 1))]);
@@ -138,7 +97,7 @@ Raster<float> tilted(double west, double south, std::int64_t side) {
     return dem;
 }
 
-/// The same, every way and every sum for each root anew.
+/// The same, with every way and every sum computed for each root.
 class Oracle {
 public:
     Oracle(Graph const& graph, Raster<float> const& dem) : g_(graph), dem_(dem) {}
@@ -246,26 +205,6 @@ private:
     Raster<float> const& dem_;
 };
 
-using Segment = std::pair<std::pair<double, double>, std::pair<double, double>>;
-
-std::set<Segment> segments(StreamNetwork const& net) {
-    std::set<Segment> result;
-    for (Arc const& arc : net.arcs()) {
-        for (std::size_t i = 1; i < arc.line.size(); ++i) {
-            result.insert({{arc.line[i - 1].x, arc.line[i - 1].y}, {arc.line[i].x, arc.line[i].y}});
-        }
-    }
-    return result;
-}
-
-std::set<Segment> towards_first(Lattice const& lattice) {
-    std::set<Segment> result;
-    for (auto const& [from, to] : lattice.edges) {
-        result.insert({{lattice.at[to].x, lattice.at[to].y}, {lattice.at[from].x, lattice.at[from].y}});
-    }
-    return result;
-}
-
 bool has_doubt(Imported const& imported, char const* kind) {
     return test::count(imported.directions.doubts, kind) > 0;
 }
@@ -278,9 +217,9 @@ std::vector<std::vector<Vec2>> comb() {
 
 } // namespace
 
-// The score of a root by re-rooting is that of ways and sums made anew, of trees and with loops.
+// The score of a root by re-rooting is that of its own ways and sums, of trees and with loops.
 TEST(ImportDirections, RerootingScoresAsTheOracle) {
-    bool const ok = rc::check([] {
+    ASSERT_TRUE(rc::check([] {
         Lattice const lattice = random_lattice(*rc::gen::inRange(2, 30), *rc::gen::inRange(0, 4));
         RC_PRE(!lattice.edges.empty());
         Raster<float> const dem = tilted(-3500.0, -3500.0, 700);
@@ -290,18 +229,17 @@ TEST(ImportDirections, RerootingScoresAsTheOracle) {
             steps::ReachGroup const& group = graph.reaches.groups[g];
             for (steps::Root const& root : graph.roots[g]) {
                 Scored const plain = oracle.score(group, root.node);
-                double const free = root.shape - plain.shape; // free land ahead: there or not
+                double const free = root.shape - plain.shape; // open land ahead: there or not
                 RC_ASSERT((std::fabs(free) < 1e-6 || std::fabs(free - 1.02) < 1e-6));
                 RC_ASSERT(std::fabs(root.climb - plain.climb) < 1e-6);
             }
         }
-    });
-    ASSERT_TRUE(ok);
+    }));
 }
 
 // Law: what geometry and DEM say does not depend on how lines are drawn, nor on their order.
 TEST(ImportDirections, ScoresDoNotDependOnTheDrawing) {
-    bool const ok = rc::check([] {
+    ASSERT_TRUE(rc::check([] {
         Lattice const lattice = random_lattice(*rc::gen::inRange(2, 40), *rc::gen::inRange(0, 4));
         RC_PRE(!lattice.edges.empty());
         Raster<float> const dem = tilted(-4500.0, -4500.0, 900);
@@ -314,13 +252,12 @@ TEST(ImportDirections, ScoresDoNotDependOnTheDrawing) {
             RC_ASSERT(std::fabs(other.at(at).shape - scored.shape) < 1e-6);
             RC_ASSERT(other.at(at).climb == scored.climb);
         }
-    });
-    ASSERT_TRUE(ok);
+    }));
 }
 
 // Law: a tree of lines that all lead away from one end, and fork, is drawn upstream.
 TEST(ImportDirections, OneSourceAndNoConfluenceIsDrawnUpstream) {
-    bool const ok = rc::check([] {
+    ASSERT_TRUE(rc::check([] {
         Lattice const lattice = random_lattice(*rc::gen::inRange(30, 50), 0, First::head);
         std::vector<int> degree(lattice.at.size(), 0);
         for (auto const& [from, to] : lattice.edges) {
@@ -332,28 +269,21 @@ TEST(ImportDirections, OneSourceAndNoConfluenceIsDrawnUpstream) {
             return; // one line
         }
         Imported const imported = import_lines(drawn(lattice));
-        RC_ASSERT(segments(imported.network) == towards_first(lattice));
+        RC_ASSERT(steps_of(imported.network) == steps_of(lattice));
         RC_ASSERT(imported.directions.doubts.empty());
         RC_ASSERT(imported.directions.turned.size() == std::size_t{1});
         RC_ASSERT(imported.directions.turned.front().by.find("upstream") != std::string::npos);
-    });
-    ASSERT_TRUE(ok);
-}
-
-TEST(ImportDirections, OneArcDrawnBothWays) {
-    auto const imported = import_lines(flats({{{0, 0}, {100, 0}}}));
-    EXPECT_TRUE(imported.directions.turned.empty());
-    EXPECT_TRUE(imported.directions.doubts.empty());
+    }));
 }
 
 TEST(ImportDirections, AnglesTellWhereTheDrawingContradictsItself) {
     auto lines = comb();
-    auto const truth = segments(import_lines(flats(lines), {.orientation = Orientation::as_drawn}).network);
+    auto const truth = steps_of(import_lines(flats(lines), {.orientation = Orientation::as_drawn}).network);
     for (std::size_t const l : {1U, 3U, 4U}) {
         std::ranges::reverse(lines[l]);
     }
     auto const imported = import_lines(flats(lines));
-    EXPECT_EQ(segments(imported.network), truth);
+    EXPECT_EQ(steps_of(imported.network), truth);
     ASSERT_EQ(imported.directions.turned.size(), 1U);
     EXPECT_EQ(imported.directions.turned[0].by, "angles at confluences");
     EXPECT_NEAR(imported.directions.turned[0].length_m, 2000.0 + 700.0 * std::sqrt(2.0), 1e-6);
@@ -386,7 +316,7 @@ TEST(ImportDirections, ADemDecides) {
 }
 
 TEST(ImportDirections, ADirectionColumnTells) {
-    bool const ok = rc::check([] {
+    ASSERT_TRUE(rc::check([] {
         Lattice const lattice = random_lattice(*rc::gen::inRange(2, 50), 0);
         RC_PRE(!lattice.edges.empty());
         RiverLines file = drawn(lattice);
@@ -398,10 +328,9 @@ TEST(ImportDirections, ADirectionColumnTells) {
             }
         }
         Imported const imported = import_lines(file);
-        RC_ASSERT(segments(imported.network) == towards_first(lattice));
+        RC_ASSERT(steps_of(imported.network) == steps_of(lattice));
         RC_ASSERT(!has_doubt(imported, "contradicted_direction"));
-    });
-    ASSERT_TRUE(ok);
+    }));
 }
 
 TEST(ImportDirections, AColumnWithAThirdOfItsValuesWrongIsDoubted) {
@@ -414,8 +343,6 @@ TEST(ImportDirections, AColumnWithAThirdOfItsValuesWrongIsDoubted) {
     EXPECT_EQ(imported.network.outlets().size(), 1U);
     ASSERT_TRUE(has_doubt(imported, "contradicted_direction"));
     EXPECT_GT(imported.directions.doubts.back().amount, 0.1);
-    EXPECT_TRUE(
-        test::has(imported.directions.doubts.back().text, "oriented by the direction column contradict the others"));
 }
 
 TEST(ImportDirections, AColumnAgainstAllAnglesIsDoubted) {

@@ -1,13 +1,10 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Where water could go more than one way, adopt keeps the main path.
+// Where water could go more than one way, import_lines keeps the main path.
 #include <thalweg/network/import/import_lines.hpp>
 
 #include <algorithm>
-#include <map>
 #include <set>
-#include <string>
-#include <utility>
 
 #include <gtest/gtest.h>
 #include <network/rivers.hpp>
@@ -15,6 +12,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
 
 namespace import_divergences_test {
 
@@ -26,8 +24,6 @@ using network::Orientation;
 namespace {
 
 using test::flats;
-using test::has;
-using test::message_of;
 
 std::set<std::int64_t> in_network(Imported const& imported) {
     std::set<std::int64_t> features;
@@ -55,9 +51,7 @@ double total_m(Imported const& imported) {
         sum += m;
     }
     for (SecondaryLine const& s : imported.secondary) {
-        for (std::size_t i = 1; i < s.vertices.size(); ++i) {
-            sum += distance({s.vertices[i - 1].x, s.vertices[i - 1].y}, {s.vertices[i].x, s.vertices[i].y});
-        }
+        sum += length_in_plan(s.vertices);
     }
     return sum;
 }
@@ -109,30 +103,22 @@ TEST(AdoptDivides, AMinorChannelIsAStreamFromWhereOneWithASourceJoins) {
     expect_forest(imported);
 }
 
-TEST(AdoptDivides, ByWhatTheFileMarks) {
-    auto lines = flats(braid());
-    lines.lines[1].channel = Channel::minor;
-    lines.lines[3].channel = Channel::main;
-    EXPECT_EQ(in_network(expect_beside(lines, {2})), (Features{1, 3, 4, 5}));
-}
-
-TEST(AdoptDivides, ByWhatTheLineUpstreamNames) {
-    auto lines = flats(braid());
-    lines.lines[0].down = 4;
-    lines.lines[3].down = 5;
-    lines.lines[4].down = 3;
-    lines.lines[1].down = 3;
-    expect_beside(lines, {2});
-}
-
-TEST(AdoptDivides, BySizeThenByName) {
+TEST(AdoptDivides, ByWhatTheFileSays) {
+    auto marked = flats(braid());
+    marked.lines[1].channel = Channel::minor;
+    marked.lines[3].channel = Channel::main;
+    auto linked = flats(braid());
+    linked.lines[0].down = 4;
+    linked.lines[3].down = 5;
+    linked.lines[4].down = linked.lines[1].down = 3;
     auto sized = flats(braid());
     sized.lines[3].size = {2.0};
     sized.lines[1].size = {1.0};
-    EXPECT_EQ(beside(import_lines(sized)), (Features{2}));
     auto named = flats(braid());
     named.lines[0].name = named.lines[3].name = "Po";
-    EXPECT_EQ(beside(import_lines(named)), (Features{2}));
+    for (RiverLines const& lines : {marked, linked, sized, named}) {
+        expect_beside(lines, {2});
+    }
 }
 
 // Sizes are compared one after another: the next decides where one is the same, or known of neither.
@@ -190,13 +176,9 @@ TEST(AdoptDivides, LinksTellTheDirectionWhateverWasDrawn) {
 
 TEST(AdoptDivides, ADistributaryIsSecondaryWhereTheFileIsCertain) {
     auto lines = flats({{{0, 90}, {0, 50}}, {{0, 50}, {0, 0}}, {{0, 50}, {40, 0}}});
+    expect_beside(lines, {3}, {.orientation = Orientation::as_drawn});
     lines.lines[0].down = 2;
-    EXPECT_EQ(import_lines(lines).network.arc_count(), 1U);
-    EXPECT_EQ(beside(import_lines(lines)), (Features{3}));
-    auto const drawn = import_lines(flats({{{0, 90}, {0, 50}}, {{0, 50}, {0, 0}}, {{0, 50}, {40, 0}}}),
-                                    {.orientation = Orientation::as_drawn});
-    EXPECT_EQ(beside(drawn), (Features{3}));
-    expect_forest(drawn);
+    EXPECT_EQ(expect_beside(lines, {3}).network.arc_count(), 1U);
 }
 
 TEST(AdoptDivides, ACircleIsOpenedWhereWaterCanLeaveIt) {
@@ -213,7 +195,8 @@ TEST(AdoptDivides, RingsAreSecondaryAndNotAllThereMayBe) {
     auto const imported = import_lines(flats({{{0, 0}, {10, 0}}, pond}));
     EXPECT_EQ(beside(imported), (Features{2}));
     expect_forest(imported);
-    EXPECT_TRUE(has(message_of<BadInput>([&] { import_lines(flats({pond})); }), "closed rings"));
+    EXPECT_TRUE(test::refused(
+        "network.import_lines", [&] { import_lines(flats({pond})); }, "closed rings"));
 }
 
 TEST(AdoptDivides, ARiverThroughAPondKeepsOneShore) {
@@ -240,33 +223,21 @@ TEST(AdoptDivides, HeightsThatLeadIntoAPitAreRefused) {
         lines.lines[i].vertices[0].z = z[i][0];
         lines.lines[i].vertices[1].z = z[i][1];
     }
-    EXPECT_TRUE(has(message_of<BadInput>([&] { import_lines(lines); }), "which no river leaves"));
+    EXPECT_TRUE(test::refused(
+        "network.import_lines", [&] { import_lines(lines); }, "which no river leaves"));
 }
 
 // Law: of any lattice of channels a forest stays, and nothing of what was drawn is lost, whatever the directions.
 TEST(AdoptDivides, LatticesBecomeForests) {
-    bool const ok = rc::check([] {
-        int const side = *rc::gen::inRange(2, 7);
+    ASSERT_TRUE(rc::check([] {
+        test::Lattice const lattice = test::random_lattice(*rc::gen::inRange(2, 40), *rc::gen::inRange(0, 20));
         std::vector<std::vector<Vec2>> plans;
-        auto const turned = [](Vec2 a, Vec2 b) {
-            return *rc::gen::arbitrary<bool>() ? std::vector<Vec2>{a, b} : std::vector<Vec2>{b, a};
-        };
         double drawn_m = 0.0;
-        for (int y = 0; y < side; ++y) {
-            for (int x = 0; x < side; ++x) {
-                Vec2 const at{10.0 * x, 10.0 * y};
-                if (x + 1 < side && *rc::gen::inRange(0, 4) > 0) {
-                    plans.push_back(turned(at, {at.x + 10, at.y}));
-                    drawn_m += 10.0;
-                }
-                if (y + 1 < side && *rc::gen::inRange(0, 4) > 0) {
-                    plans.push_back(turned(at, {at.x, at.y + 10}));
-                    drawn_m += 10.0;
-                }
-            }
+        for (auto const& [a, b] : lattice.edges) {
+            bool const turned = *rc::gen::arbitrary<bool>();
+            plans.push_back({lattice.at[turned ? b : a], lattice.at[turned ? a : b]});
+            drawn_m += distance(lattice.at[a], lattice.at[b]);
         }
-        plans.push_back({{-30, -30}, {0, 0}});
-        drawn_m += distance({-30, -30}, {0, 0});
         auto lines = flats(plans);
         for (auto& line : lines.lines) {
             line.down = *rc::gen::inRange<std::int64_t>(0, static_cast<std::int64_t>(plans.size()) + 1);
@@ -287,8 +258,7 @@ TEST(AdoptDivides, LatticesBecomeForests) {
         auto all = in_network(imported);
         all.merge(beside(imported));
         RC_ASSERT(all.size() == plans.size());
-    });
-    ASSERT_TRUE(ok);
+    }));
 }
 
 } // namespace import_divergences_test

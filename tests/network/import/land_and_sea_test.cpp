@@ -3,13 +3,13 @@
 #include <thalweg/network/import/land_and_sea.hpp>
 
 #include <algorithm>
-#include <limits>
-#include <string>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <network/networks.hpp>
+#include <network/rivers.hpp>
 #include <rapidcheck.h>
+#include <support.hpp>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/random.hpp>
@@ -22,18 +22,7 @@ namespace {
 using namespace thalweg;
 using network::land_and_sea;
 using network::LandAndSea;
-
-RiverLines lines(std::vector<std::vector<Vec2>> const& drawn) {
-    RiverLines out;
-    for (std::vector<Vec2> const& line : drawn) {
-        RiverLine& one = out.lines.emplace_back();
-        one.feature = static_cast<std::int64_t>(out.lines.size());
-        for (Vec2 const p : line) {
-            one.vertices.push_back({p.x, p.y, std::numeric_limits<double>::quiet_NaN()});
-        }
-    }
-    return out;
-}
+using test::flats;
 
 bool touches_sea(Mask const& land, Cell c) {
     bool found = land.grid().on_border(c);
@@ -63,19 +52,19 @@ Shore shore(std::uint64_t seed) {
 
 TEST(LandAndSea, WithoutACoastInTheGridAllIsLand) {
     Grid const grid = test::frame(20, 20);
-    EXPECT_EQ(land_and_sea({}, lines({{{2, 2}, {9, 9}}}), grid).land.cells(), 0);
-    EXPECT_EQ(land_and_sea(lines({{{-40, 5}, {-30, 9}}}), lines({{{2, 2}, {9, 9}}}), grid).land.cells(), 0);
+    EXPECT_EQ(land_and_sea({}, flats({{{2, 2}, {9, 9}}}), grid).land.cells(), 0);
+    EXPECT_EQ(land_and_sea(flats({{{-40, 5}, {-30, 9}}}), flats({{{2, 2}, {9, 9}}}), grid).land.cells(), 0);
 }
 
 TEST(LandAndSea, WaterLiesToTheRightUnlessRiversDo) {
     Grid const grid = test::frame(20, 20);
     std::vector<Vec2> const north{{10, -5}, {10, 25}};
     // Northward: the east is the right.
-    LandAndSea const none = land_and_sea(lines({north}), {}, grid);
+    LandAndSea const none = land_and_sea(flats({north}), {}, grid);
     EXPECT_EQ((none.land[Cell{2, 10}]), 1);
     EXPECT_EQ((none.land[Cell{17, 10}]), 0);
     EXPECT_EQ(none.sea_cells, 200);
-    LandAndSea const east = land_and_sea(lines({north}), lines({{{18, 10}, {10, 10}}}), grid);
+    LandAndSea const east = land_and_sea(flats({north}), flats({{{18, 10}, {10, 10}}}), grid);
     EXPECT_EQ((east.land[Cell{2, 10}]), 0);
     EXPECT_EQ((east.land[Cell{17, 10}]), 1);
     EXPECT_GT(east.behind, 0);
@@ -89,7 +78,7 @@ TEST(LandAndSea, IsLikeTheNearestCoastlineWhereOneCrossesTheGrid) {
         if (*rc::gen::arbitrary<bool>()) { // the rivers say which side is land
             std::reverse(drawn.begin(), drawn.end());
         }
-        LandAndSea const divided = land_and_sea(lines({drawn}), lines(made.rivers), grid);
+        LandAndSea const divided = land_and_sea(flats({drawn}), flats(made.rivers), grid);
         RC_ASSERT(divided.land.cells() == grid.cells());
         std::int64_t sea = 0;
         for (std::int64_t i = 0; i < grid.cells(); ++i) {
@@ -107,7 +96,7 @@ TEST(LandAndSea, IsLikeTheNearestCoastlineWhereOneCrossesTheGrid) {
 TEST(LandAndSea, BeyondTheEndsOfACoastlineItGoesMidwayToTheRivers) {
     Grid const grid = test::frame(64, 64);
     // The coast ends at x = 30; a river runs east of it, far to the north.
-    LandAndSea const divided = land_and_sea(lines({{{-1, 20}, {30, 20}}}), lines({{{60, 60}, {60, 40}}}), grid);
+    LandAndSea const divided = land_and_sea(flats({{{-1, 20}, {30, 20}}}), flats({{{60, 60}, {60, 40}}}), grid);
     EXPECT_EQ((divided.land[grid.cell_of({10, 10})]), 0);
     EXPECT_EQ((divided.land[grid.cell_of({10, 40})]), 1);
     EXPECT_EQ((divided.land[grid.cell_of({60, 30})]), 1);
@@ -117,7 +106,7 @@ TEST(LandAndSea, BeyondTheEndsOfACoastlineItGoesMidwayToTheRivers) {
 TEST(LandAndSea, ARiverDrawnBeyondTheCoastMakesNoLandThere) {
     Grid const grid = test::frame(64, 64);
     std::vector<Vec2> const coast{{-1, 30}, {65, 30}};
-    LandAndSea const divided = land_and_sea(lines({coast}), lines({{{20, 60}, {20, 30}, {24, 8}}}), grid);
+    LandAndSea const divided = land_and_sea(flats({coast}), flats({{{20, 60}, {20, 30}, {24, 8}}}), grid);
     EXPECT_EQ(divided.sea_cells, 64 * 30);
     EXPECT_GT(divided.behind, 0);
     EXPECT_GT(divided.beyond, 0);
@@ -175,7 +164,6 @@ TEST(CarryOutlets, EndsAtTheSea) {
     auto const carried = network::carry_outlets(net, land, 100);
     ASSERT_EQ(carried.notes.size(), 1U);
     EXPECT_EQ(carried.network.node(0).at.x, 10.5);
-    EXPECT_NE(carried.notes[0].text.find("to the coast"), std::string::npos) << carried.notes[0].text;
     std::vector<Cell> const way = cells_along(carried.network.arc(0).line, grid);
     for (std::size_t i = 0; i + 1 < way.size(); ++i) {
         EXPECT_FALSE(touches_sea(land, way[i]));

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <numeric>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -16,46 +16,28 @@
 
 namespace order_test {
 
-namespace {
-
 using namespace thalweg;
 using network::order;
-using test::full_message_of;
+using network::streams;
 
-std::string refusal(StreamNetwork const& net) {
-    return full_message_of<BadInput>([&] { order(net); });
+namespace {
+
+auto refused(StreamNetwork const& net, std::string const& words) {
+    return test::refused(
+        "network.order", [&] { order(net); }, words);
 }
 
 /// The definitions, recursively, straight from the graph.
 struct Plain {
     StreamNetwork const& net;
-    std::vector<ArcId> arcs;
 
-    explicit Plain(StreamNetwork const& network) : net(network) {
-        arcs.resize(net.arc_count());
-        std::iota(arcs.begin(), arcs.end(), ArcId{0});
+    std::vector<ArcId> above(ArcId arc) const { return {net.in(net.from(arc)).begin(), net.in(net.from(arc)).end()}; }
+    std::vector<ArcId> below(ArcId arc) const {
+        return {net.out_arcs(net.to(arc)).begin(), net.out_arcs(net.to(arc)).end()};
     }
-    std::vector<std::size_t> above(NodeId node) const {
-        std::vector<std::size_t> out;
-        for (std::size_t a = 0; a < arcs.size(); ++a) {
-            if (net.to(arcs[a]) == node) {
-                out.push_back(a);
-            }
-        }
-        return out;
-    }
-    std::vector<std::size_t> below(std::size_t arc) const {
-        std::vector<std::size_t> out;
-        for (std::size_t a = 0; a < arcs.size(); ++a) {
-            if (net.from(arcs[a]) == net.to(arcs[arc])) {
-                out.push_back(a);
-            }
-        }
-        return out;
-    }
-    int strahler(std::size_t arc) const {
+    int strahler(ArcId arc) const {
         std::vector<int> orders;
-        for (std::size_t const a : above(net.from(arcs[arc]))) {
+        for (ArcId const a : above(arc)) {
             orders.push_back(strahler(a));
         }
         if (orders.empty()) {
@@ -64,40 +46,58 @@ struct Plain {
         std::sort(orders.rbegin(), orders.rend());
         return orders.size() > 1 && orders[0] == orders[1] ? orders[0] + 1 : orders[0];
     }
-    std::int64_t shreve(std::size_t arc) const {
+    std::int64_t shreve(ArcId arc) const {
         std::int64_t sum = 0;
-        for (std::size_t const a : above(net.from(arcs[arc]))) {
+        for (ArcId const a : above(arc)) {
             sum += shreve(a);
         }
         return sum == 0 ? 1 : sum;
     }
-    int topological(std::size_t arc) const { return below(arc).empty() ? 1 : 1 + topological(below(arc)[0]); }
-    double longest(std::size_t arc) const {
+    int topological(ArcId arc) const { return below(arc).empty() ? 1 : 1 + topological(below(arc)[0]); }
+    double longest(ArcId arc) const {
         double most = 0.0;
-        for (std::size_t const a : above(net.from(arcs[arc]))) {
+        for (ArcId const a : above(arc)) {
             most = std::max(most, longest(a));
         }
-        return most + length_of(net.arc(arcs[arc]).line);
+        return most + length_of(net.arc(arc).line);
     }
-    int hack(std::size_t arc) const {
-        std::size_t stem = arc;
-        for (std::size_t const a : above(net.to(arcs[arc]))) {
+    int hack(ArcId arc) const {
+        ArcId stem = arc;
+        for (ArcId const a : net.in(net.to(arc))) {
             if (longest(a) > longest(stem) || (longest(a) == longest(stem) && a < stem)) {
                 stem = a;
             }
         }
         return (below(arc).empty() ? 1 : hack(below(arc)[0])) + (stem == arc ? 0 : 1);
     }
-    double dist_out(NodeId node) const {
-        double sum = 0.0;
-        while (net.out_arcs(node).size() == 1) {
-            ArcId const arc = net.out_arcs(node).front();
-            sum += length_of(net.arc(arc).line);
-            node = net.to(arc);
-        }
-        return sum;
+    double dist_out(ArcId arc) const {
+        return length_of(net.arc(arc).line) + (below(arc).empty() ? 0.0 : dist_out(below(arc)[0]));
     }
 };
+
+using Labels = std::vector<std::int64_t>;
+
+/// The definition: every arc runs down as long as the order stays; where that ends identifies the stream.
+Labels walked(StreamNetwork const& network, NetworkOrders const& orders) {
+    std::vector<std::size_t> last;
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        std::size_t at = a;
+        for (std::int64_t below = network.out(network.to(at)); below >= 0; below = network.out(network.to(at))) {
+            auto const next = static_cast<std::size_t>(below);
+            if (orders.strahler[next] != orders.strahler[at]) {
+                break;
+            }
+            at = next;
+        }
+        last.push_back(at);
+    }
+    std::set<std::size_t> const ends(last.begin(), last.end());
+    Labels labels;
+    for (std::size_t const end : last) {
+        labels.push_back(1 + std::distance(ends.begin(), ends.find(end)));
+    }
+    return labels;
+}
 
 } // namespace
 
@@ -115,16 +115,13 @@ TEST(Order, EmptyAndOneArc) {
 }
 
 TEST(Order, RefusesWhatIsNoForest) {
-    EXPECT_NE(refusal(test::network_of({{0, 0}, {1, 2}, {5, 5}}, {{1, 0}, {1, 2}})).find("(1.000, 2.000)"),
-              std::string::npos);
+    EXPECT_TRUE(refused(test::network_of({{0, 0}, {1, 2}, {5, 5}}, {{1, 0}, {1, 2}}), "(1.000, 2.000)"));
     // A river runs into a circle: the place named lies on the circle.
-    std::string const text =
-        refusal(test::network_of({{9, 9}, {1, 1}, {2, 1}, {2, 2}}, {{0, 1}, {1, 2}, {2, 3}, {3, 1}}));
-    EXPECT_NE(text.find("network.order: "), std::string::npos);
-    EXPECT_NE(text.find("circle"), std::string::npos);
-    EXPECT_EQ(text.find("(9.000, 9.000)"), std::string::npos);
-    EXPECT_NE(refusal(test::network_of({{0, 0}}, {{0, 0, {{1, 1}}}})).find("circle"), std::string::npos);
-    EXPECT_NE(refusal(test::network_of({{0, 0}, {NAN, 1}}, {{1, 0}})).find("not a number"), std::string::npos);
+    StreamNetwork const circle = test::network_of({{9, 9}, {1, 1}, {2, 1}, {2, 2}}, {{0, 1}, {1, 2}, {2, 3}, {3, 1}});
+    EXPECT_TRUE(refused(circle, "circle"));
+    EXPECT_FALSE(refused(circle, "(9.000, 9.000)"));
+    EXPECT_TRUE(refused(test::network_of({{0, 0}}, {{0, 0, {{1, 1}}}}), "circle"));
+    EXPECT_TRUE(refused(test::network_of({{0, 0}, {NAN, 1}}, {{1, 0}}), "not a number"));
 }
 
 TEST(Order, ASmallTreeByHand) {
@@ -148,35 +145,24 @@ TEST(Order, EqualPathsKeepTheLowerArc) {
     EXPECT_EQ(o.hack, (std::vector<int>{1, 2, 1}));
 }
 
-TEST(Order, SeveralArcsIntoAnOutlet) {
-    NetworkOrders const o = order(test::network_of({{0, 0}, {1, 0}, {0, 2}}, {{1, 0}, {2, 0}}));
-    EXPECT_EQ(o.hack, (std::vector<int>{2, 1}));
-    EXPECT_EQ(o.topological, (std::vector<int>{1, 1}));
-    EXPECT_EQ(o.node_strahler[0], 1); // of what enters; nothing leaves
-}
-
 TEST(Order, EqualsTheDefinitions) {
     ASSERT_TRUE(rc::check("iterative = recursive", [] {
-        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
-        StreamNetwork const net = *rc::gen::arbitrary<bool>()
-                                      ? test::random_skeleton(seed, 24)
-                                      : test::random_forest(seed, *rc::gen::inRange<std::size_t>(0, 25),
-                                                            *rc::gen::inRange<std::size_t>(1, 4));
+        StreamNetwork const net = test::any_network();
         NetworkOrders const o = order(net);
-        Plain const plain(net);
-        for (std::size_t a = 0; a < plain.arcs.size(); ++a) {
+        Plain const plain{net};
+        for (ArcId a = 0; a < net.arc_count(); ++a) {
             RC_ASSERT(o.strahler[a] == plain.strahler(a));
             RC_ASSERT(o.shreve[a] == plain.shreve(a));
             RC_ASSERT(o.topological[a] == plain.topological(a));
             RC_ASSERT(o.hack[a] == plain.hack(a));
-            RC_ASSERT(o.arc_basin[a] == o.node_basin[net.from(plain.arcs[a])]);
+            RC_ASSERT(o.arc_basin[a] == o.node_basin[net.from(a)]);
         }
         for (NodeId n = 0; n < net.node_count(); ++n) {
-            RC_ASSERT(std::fabs(o.node_dist_out_m[n] - plain.dist_out(n)) <= 1e-9);
-            if (net.out(n) != no_arc) {
-                RC_ASSERT(o.node_strahler[n] == o.strahler[net.out(n)]);
-            }
+            double const out_m = net.out(n) == no_arc ? 0.0 : plain.dist_out(net.out(n));
+            RC_ASSERT(std::fabs(o.node_dist_out_m[n] - out_m) <= 1e-9 * (1.0 + out_m));
+            RC_ASSERT((net.out(n) == no_arc || o.node_strahler[n] == o.strahler[net.out(n)]));
         }
+        RC_ASSERT(streams(net, o) == walked(net, o));
     }));
 }
 
@@ -185,6 +171,21 @@ TEST(Order, AChainOfAMillionArcs) {
     EXPECT_EQ(o.topological.back(), 1000000);
     EXPECT_EQ(o.strahler.front(), 1);
     EXPECT_EQ(o.node_dist_out_m.back(), 1e6);
+}
+
+TEST(Streams, EmptyAndOneArc) {
+    EXPECT_TRUE(streams(StreamNetwork(), {}).empty());
+    StreamNetwork const one = test::network_of({{0, 0}, {3, 4}, {9, 9}}, {{1, 0}});
+    EXPECT_EQ(streams(one, order(one)), (Labels{1}));
+}
+
+TEST(Streams, RefusesOrdersOfAnotherNetworkAndWhatIsNoTree) {
+    StreamNetwork const two = test::chain(2);
+    EXPECT_THROW(streams(two, {}), BadInput);
+    EXPECT_THROW(streams(two, order(test::chain(3))), BadInput);
+    NetworkOrders const orders = order(two);
+    EXPECT_THROW(streams(test::network_of({{0, 0}, {1, 2}, {5, 5}}, {{1, 0}, {1, 2}}), orders), BadInput);
+    EXPECT_THROW(streams(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), orders), BadInput);
 }
 
 } // namespace order_test

@@ -4,9 +4,11 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstdlib>
 #include <limits>
 #include <map>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <network/networks.hpp>
@@ -20,8 +22,10 @@ namespace prune_test {
 namespace {
 
 using namespace thalweg;
+using network::cut_corners;
 using network::prune;
-using test::full_message_of;
+using test::refused;
+using test::same_network;
 
 /// A network as a set of lines with their thresholds.
 using Lines = std::map<std::vector<std::pair<double, double>>, double>;
@@ -49,21 +53,7 @@ bool same_lines(Lines const& a, Lines const& b) {
     });
 }
 
-/// Bit for bit, with numbering.
-bool equal(StreamNetwork const& a, StreamNetwork const& b) {
-    bool same = a.from() == b.from() && a.to() == b.to() && a.node_count() == b.node_count();
-    for (NodeId n = 0; same && n < a.node_count(); ++n) {
-        same = a.node(n).at == b.node(n).at;
-    }
-    for (std::size_t k = 0; same && k < a.arc_count(); ++k) {
-        Arc const& p = a.arc(k);
-        Arc const& q = b.arc(k);
-        same = p.line == q.line && p.persistence == q.persistence && p.feature == q.feature && p.type == q.type;
-    }
-    return same;
-}
-
-/// The rule as it is told: look for the shortest leaf, remove it, merge, measure everything anew.
+/// The rule, literally: find the shortest leaf, remove it, merge, measure everything again.
 struct PlainArc {
     std::size_t from;
     std::size_t to;
@@ -134,7 +124,7 @@ Lines plain_prune(StreamNetwork const& net, double length_cells) {
     for (PlainArc const& a : forest.arcs) {
         lines[key(a.line)] = 0.0;
     }
-    // Go on until nothing is left, to learn how long each line would have stayed.
+    // Go on until nothing is left, to find how long each line would stay.
     double longest = 0.0;
     std::vector<std::pair<std::vector<Vec2>, double>> removed;
     for (; leaf < forest.arcs.size(); leaf = forest.shortest_leaf()) {
@@ -155,26 +145,6 @@ Lines plain_prune(StreamNetwork const& net, double length_cells) {
     return lines;
 }
 
-/// Keeps the arcs that survive L and merges where two are left: what a reader of the thresholds does.
-Lines filtered(StreamNetwork const& net, double length_cells) {
-    NetworkDraft kept;
-    for (NodeId n = 0; n < net.node_count(); ++n) {
-        kept.add_node(net.node(n).at);
-    }
-    std::map<std::size_t, double> persistence;
-    for (std::size_t a = 0; a < net.arc_count(); ++a) {
-        if (net.arc(a).persistence >= length_cells) {
-            kept.add_arc(net.from(a), net.to(a), net.arc(a));
-            persistence[net.from(a)] = net.arc(a).persistence;
-        }
-    }
-    Lines lines;
-    for (PlainArc const& a : PlainForest(kept).arcs) {
-        lines[key(a.line)] = persistence[a.from];
-    }
-    return lines;
-}
-
 /// A length at which something is left: a random share of the longest threshold.
 double any_length(StreamNetwork const& net) {
     double longest = 0.0;
@@ -184,43 +154,37 @@ double any_length(StreamNetwork const& net) {
     return longest * *rc::gen::element(0.02, 0.1, 0.3, 0.7, 1.0);
 }
 
-std::string refusal(StreamNetwork const& net, network::PruneParams const& params) {
-    return full_message_of<BadParameter>([&] { prune(net, params); });
-}
-
 } // namespace
 
 TEST(Prune, RefusesBadParametersAndNetworks) {
-    StreamNetwork const net = test::chain(3);
-    EXPECT_THROW(prune(StreamNetwork(), {1.0, 1.0}), BadInput);
-    EXPECT_THROW(prune(test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}}), {1.0, 1.0}), BadInput);
-    EXPECT_THROW(prune(net, {-1.0, 1.0}), BadParameter);
-    EXPECT_THROW(prune(net, {std::numeric_limits<double>::quiet_NaN(), 1.0}), BadParameter);
-    EXPECT_THROW(prune(net, {1.0, 0.0}), BadParameter);
-    EXPECT_THROW(prune(net, {1.0, 1e-300}), BadParameter);
-}
-
-TEST(Prune, NamesTheLongestThatCanBeKept) {
     StreamNetwork const net = test::network_of({{0, 0}, {384, 0}}, {{1, 0}});
-    EXPECT_EQ(refusal(net, {500.0, 1.0}),
-              "network.prune: pruning at 500 cells removes every arc (the longest is 384). Try 384 or less.");
+    StreamNetwork const circle = test::network_of({{0, 0}, {1, 0}}, {{0, 1}, {1, 0}});
+    for (StreamNetwork const& wrong : {StreamNetwork(), circle}) {
+        EXPECT_TRUE(refused("network.prune", [&] { prune(wrong, {1.0, 1.0}); }));
+    }
+    double const nan = std::numeric_limits<double>::quiet_NaN();
+    for (auto const& [length_m, cell_m, words] :
+         std::vector<std::tuple<double, double, std::string>>{{-1.0, 1.0, ""},
+                                                              {nan, 1.0, ""},
+                                                              {1.0, 0.0, ""},
+                                                              {1.0, 1e-300, ""},
+                                                              {500.0, 1.0, "at 500 cells"},
+                                                              {12.9 * 30.0, 30.0, "at 12.9 cells"}}) {
+        EXPECT_TRUE(refused<BadParameter>(
+            "network.prune",
+            [&] {
+                prune(net, {length_m, cell_m});
+            },
+            words));
+    }
     EXPECT_EQ(prune(net, {384.0, 1.0}).network.arc_count(), 1U); // the boundary is kept
     StreamNetwork const odd = test::network_of({{0, 0}, {1, 1}}, {{1, 0}});
-    EXPECT_NE(refusal(odd, {2.0, 1.0}).find("Try 1.41 or less"), std::string::npos);
-    EXPECT_EQ(refusal(net, {12.9 * 30.0, 30.0}),
-              "network.prune: pruning at 12.9 cells removes every arc (the longest is 12.8). Try 12.8 or less.");
-}
-
-TEST(Prune, ZeroRemovesNothingButKnowsTheThresholds) {
-    //        2 (north)  two leaves of 3 and 4 at node 1, a trunk of 5
-    StreamNetwork const net = test::network_of({{0, 0}, {5, 0}, {5, 3}, {9, 0}}, {{2, 1}, {3, 1}, {1, 0}});
-    network::Pruned const pruned = prune(net, {0.0, 1.0});
-    EXPECT_EQ(pruned.arcs_before, 3);
-    Lines const lines = lines_of(pruned.network);
-    ASSERT_EQ(lines.size(), 3U);
-    EXPECT_EQ(lines.at(key({{5, 3}, {5, 0}})), 3.0);
-    EXPECT_EQ(lines.at(key({{9, 0}, {5, 0}})), 9.0); // merged with the trunk once the other is gone
-    EXPECT_EQ(lines.at(key({{5, 0}, {0, 0}})), 9.0);
+    EXPECT_TRUE(refused<BadParameter>(
+        "network.prune",
+        [&] {
+            prune(odd, {2.0, 1.0});
+        },
+        "Try 1.41 or less"));
 }
 
 TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
@@ -233,20 +197,6 @@ TEST(Prune, AMergedArcTakesTheNameOfItsLongestPiece) {
     EXPECT_EQ(arc.feature, 9);
     EXPECT_EQ(arc.type, "C");
     EXPECT_EQ(arc.persistence, 9.0);
-}
-
-TEST(Prune, OfEqualLeavesTheNorthernThenTheWesternGoes) {
-    StreamNetwork const north = test::network_of({{0, 0}, {5, 0}, {5, 3}, {5, -3}}, {{3, 1}, {2, 1}, {1, 0}});
-    EXPECT_EQ(lines_of(prune(north, {3.5, 1.0}).network).begin()->first, key({{5, -3}, {5, 0}, {0, 0}}));
-    StreamNetwork const west = test::network_of({{0, 0}, {0, 5}, {-3, 5}, {3, 5}}, {{3, 1}, {2, 1}, {1, 0}});
-    EXPECT_EQ(lines_of(prune(west, {3.5, 1.0}).network).begin()->first, key({{3, 5}, {0, 5}, {0, 0}}));
-}
-
-TEST(Prune, ASmallBasinMayVanish) {
-    StreamNetwork const net = test::network_of({{0, 0}, {3, 0}, {0, 9}, {8, 9}}, {{1, 0}, {3, 2}});
-    StreamNetwork const pruned = prune(net, {4.0, 1.0}).network;
-    EXPECT_EQ(pruned.node_count(), 2U);
-    EXPECT_EQ(lines_of(pruned).begin()->first, key({{8, 9}, {0, 9}}));
 }
 
 TEST(Prune, Laws) {
@@ -264,52 +214,18 @@ TEST(Prune, Laws) {
             RC_ASSERT(pruned.network.arc(a).line.front() == pruned.network.node(from).at);
             RC_ASSERT(pruned.network.arc(a).line.back() == pruned.network.node(pruned.network.to(a)).at);
         }
-        RC_ASSERT(equal(prune(pruned.network, {length, 1.0}).network, pruned.network));
+        RC_ASSERT(same_network(prune(pruned.network, {length, 1.0}).network, pruned.network));
+        network::Pruned const before = prune(net, {*rc::gen::element(0.3, 0.8) * length, 1.0});
+        RC_ASSERT(lines_of(prune(before.network, {length, 1.0}).network) == lines_of(pruned.network)); // as at once
+        RC_ASSERT(prune(before.network, {length, 1.0}).network.from() == pruned.network.from());
     }));
 }
 
-TEST(Prune, EqualsTheRuleAsItIsTold) {
+TEST(Prune, EqualsTheRule) {
     ASSERT_TRUE(rc::check("queue = search for the shortest leaf, arcs and thresholds", [] {
         StreamNetwork const net = test::any_network();
         double const length = any_length(prune(net, {0.0, 1.0}).network);
         RC_ASSERT(same_lines(lines_of(prune(net, {length, 1.0}).network), plain_prune(net, length)));
-    }));
-}
-
-TEST(Prune, ThresholdsAgreeWithPruningAnew) {
-    ASSERT_TRUE(rc::check("filter by survives and merge = prune; kept(L2) is a subset of kept(L1)", [] {
-        StreamNetwork const net = prune(test::any_network(), {0.0, 1.0}).network;
-        double const one = any_length(net);
-        double const two = any_length(net);
-        double const low = std::min(one, two);
-        double const high = std::max(one, two);
-        StreamNetwork const at_low = prune(net, {low, 1.0}).network;
-        StreamNetwork const at_high = prune(net, {high, 1.0}).network;
-        RC_ASSERT(lines_of(at_high) == filtered(net, high));
-        RC_ASSERT(lines_of(at_high) == filtered(at_low, high));
-        // Pruned further, the same network with the same numbers.
-        StreamNetwork const further = prune(at_low, {high, 1.0}).network;
-        RC_ASSERT(lines_of(further) == lines_of(at_high));
-        RC_ASSERT(further.from() == at_high.from());
-        // Each step of the sparser network is one of the denser.
-        std::map<std::pair<double, double>, std::pair<double, double>> steps;
-        double sum = 0.0;
-        for (auto const& [line, persistence] : lines_of(at_low)) {
-            for (std::size_t i = 1; i < line.size(); ++i) {
-                steps[line[i - 1]] = line[i];
-            }
-        }
-        double sum_of_steps = 0.0;
-        for (ArcId arc = 0; arc < at_high.arc_count(); ++arc) {
-            std::vector<Vec2> const& line = at_high.arc(arc).line;
-            sum += length_of(line);
-            for (std::size_t i = 1; i < line.size(); ++i) {
-                sum_of_steps += distance(line[i - 1], line[i]);
-                std::pair<double, double> const next{line[i].x, line[i].y};
-                RC_ASSERT((steps.at({line[i - 1].x, line[i - 1].y}) == next));
-            }
-        }
-        RC_ASSERT(std::fabs(sum - sum_of_steps) <= 1e-9 * sum);
     }));
 }
 
@@ -350,7 +266,7 @@ TEST(Prune, MetresMadeOfCellsAreThoseCells) {
 }
 
 TEST(Prune, ACombOfManyTeeth) {
-    // Teeth that grow upstream along a spine: each removal merges the spine anew, a quadratic rule would not end.
+    // Teeth that grow upstream along a spine: each removal merges the spine again, a quadratic rule would not end.
     std::size_t const teeth = 100000;
     NetworkDraft net;
     net.add_node({0.0, 0.0});
@@ -364,6 +280,46 @@ TEST(Prune, ACombOfManyTeeth) {
     StreamNetwork const pruned = prune(net, {50.0, 1.0}).network;
     std::size_t const left = teeth - 49 * 1024 + 1;
     EXPECT_EQ(pruned.arc_count(), 2 * left - 1); // the head of the spine is merged with its tooth
+}
+
+TEST(CutCorners, RefusesCellsWithoutSize) {
+    StreamNetwork const net = test::network_of({{0, 0}, {1, 0}}, {{0, 1}});
+    for (double const cell : {0.0, -1.0, std::numeric_limits<double>::quiet_NaN()}) {
+        EXPECT_THROW(cut_corners(net, cell), BadParameter);
+    }
+}
+
+TEST(CutCorners, CornersGoAndOtherVerticesStay) {
+    using Line = std::vector<Vec2>;
+    for (auto const& [what, line, wanted] : std::vector<std::tuple<std::string, Line, Line>>{
+             {"straight and diagonal steps stay",
+              {{0, 0}, {1, 0}, {2, 0}, {2, 1}, {3, 2}, {4, 3}, {5, 3}, {5, 4}},
+              {{0, 0}, {1, 0}, {2, 1}, {3, 2}, {4, 3}, {5, 4}}},
+             {"every second corner of a staircase", {{0, 0}, {1, 0}, {1, 1}, {2, 1}, {2, 2}}, {{0, 0}, {1, 1}, {2, 2}}},
+             {"not from cell to cell", {{0, 0}, {20, 0}, {20, 20}}, {{0, 0}, {20, 0}, {20, 20}}}}) {
+        StreamNetwork const net =
+            test::network_of({line.front(), line.back()}, {{0, 1, {line.begin() + 1, line.end() - 1}}});
+        EXPECT_EQ(cut_corners(net, 1.0).arcs().front().line, wanted) << what;
+    }
+}
+
+TEST(CutCorners, PrunedRiversHaveNoCornerAndKeepTheirEnds) {
+    ASSERT_TRUE(rc::check("corners", [] {
+        auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
+        StreamNetwork const net = network::prune(test::random_skeleton(seed, 48), {3.0, 1.0}).network;
+        StreamNetwork const cut = cut_corners(net, 1.0);
+        RC_ASSERT(net.from() == cut.from());
+        RC_ASSERT(net.to() == cut.to());
+        for (std::size_t a = 0; a < cut.arc_count(); ++a) {
+            auto const& line = cut.arc(a).line;
+            RC_ASSERT(line.front() == net.arc(a).line.front());
+            RC_ASSERT(line.back() == net.arc(a).line.back());
+            RC_ASSERT(cut.length_m(a) <= net.length_m(a));
+            for (std::size_t i = 2; i < line.size(); ++i) {
+                RC_ASSERT(distance(line[i - 2], line[i]) > 1.5);
+            }
+        }
+    }));
 }
 
 } // namespace prune_test

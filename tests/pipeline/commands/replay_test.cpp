@@ -9,6 +9,7 @@
 
 #include <gtest/gtest.h>
 #include <pipeline/walk_files.hpp>
+#include <support.hpp>
 
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -110,14 +111,14 @@ TEST(Replay, EstimatedDetailIsWrittenAsItWasUsed) {
     }
     std::string const rivers =
         write_recipe(make(read_recipe(dla + "[surface]\n[detail]\nsigma = 10\nlevels = 3\n", "r.toml")).recipe);
-    EXPECT_NE(rivers.find("hurst = 0.6"), std::string::npos) << rivers;
+    EXPECT_TRUE(test::has(rivers, "hurst = 0.6"));
 }
 
 TEST(Replay, DefaultsThatAreReckonedAreWritten) {
     std::string const text = write_recipe(make(read_recipe(dla + "[surface]\n", "r.toml")).recipe);
     for (char const* line : {"mean_slope = 25.0\n", "heights = 'graded'\n", "edge = 'open'\n", "drain = 'carve'\n",
                              "meander = 1.0\n", "rotate = "}) {
-        EXPECT_NE(text.find(line), std::string::npos) << line << text;
+        EXPECT_TRUE(test::has(text, line));
     }
 }
 

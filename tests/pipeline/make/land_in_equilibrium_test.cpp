@@ -1,16 +1,16 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Recipes of land in equilibrium, from keys to checks.
+// Recipes of terrain in equilibrium, from keys to checks.
 #include <thalweg/pipeline/make/make.hpp>
 
 #include <algorithm>
 #include <cmath>
 #include <cstdint>
+#include <numeric>
 #include <string>
 #include <string_view>
 #include <vector>
 
-#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <io/scratch_folder.hpp>
 #include <support.hpp>
@@ -33,25 +33,15 @@ using namespace thalweg::pipeline;
 namespace {
 
 using test::count;
-using test::fault_of;
 using test::geojson;
-using test::has;
+using test::line;
 using test::made;
+using test::polygon;
 
 std::string const grid = "[grid]\nwidth = 140\nheight = 120\norigin = [500000, 5003600]\ncrs = \"EPSG:32631\"\n";
 std::string const lines = grid + "[network]\nsource = \"lines\"\n";
 std::string const path = "[network.lines]\npath = \"rivers.geojson\"\n";
 std::string const equilibrium = "[surface]\n";
-
-std::string line(std::string const& vertices) {
-    return "{\"type\":\"Feature\",\"properties\":{},\"geometry\":{\"type\":\"LineString\",\"coordinates\":[" +
-           vertices + "]}}";
-}
-
-std::string polygon(std::string const& ring, std::string const& properties = "") {
-    return "{\"type\":\"Feature\",\"properties\":{" + properties +
-           "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[" + ring + "]]}}";
-}
 
 /// Two rivers that meet and leave in the south of 140 x 120 cells of 30 m.
 class Files : public ScratchFolder {
@@ -90,11 +80,9 @@ public:
     template <class Value> void raster(std::string const& name, Value value) const {
         write_ascii_grid(*this / name, {140, 120, 30, 500000, 5000000}, value);
     }
-
-private:
 };
 
-/// Law: every check holds, the land has no depression and needed no carving, and rivers have its heights.
+/// Law: every check holds, the DEM has no depression and needed no breaching, and rivers have its heights.
 void expect_lawful(Made const& t) {
     for (Check const& c : t.assessment.checks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
@@ -133,21 +121,17 @@ double mean_of(Made const& t, std::int64_t from_column, std::int64_t to_column) 
 
 TEST(LandInEquilibrium, KeysThatDoNotGoTogetherAreNamed) {
     Files const files;
-    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nmean_slope = 20\nrelief = 300\n", files.folder()),
-                    "do not go together"));
-    EXPECT_TRUE(
-        has(fault_of(lines + "heights = \"soft\"\n" + path + "[surface]\nmethod = \"dilate\"\n", files.folder()),
-            "\"soft\" needs surface.method"));
-    EXPECT_TRUE(has(fault_of(lines + "fill_space = true\n" + path + "[surface]\nmethod = \"dilate\"\n", files.folder()),
-                    "network.fill_space needs"));
-    EXPECT_TRUE(
-        has(fault_of(lines + "rotate = 20\n" + path + equilibrium, files.folder()), "network.rotate turns a cluster"));
-    EXPECT_TRUE(has(fault_of(lines + "concavity = 0.95\n" + path + equilibrium, files.folder()), "0.1 to 0.9"));
-    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nlakes = \"lakes.geojson\"\nlake_share = 0.5\n", files.folder()),
-                    "lakes come from a file or are chosen at random"));
-    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nmean_slope = 0\n", files.folder()), "surface.mean_slope"));
-    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nrelief = -1\n", files.folder()), "surface.relief"));
-    EXPECT_TRUE(has(fault_of("[grid]\nwidth = 60\nheight = 60\n[surface]\n", files.folder()), "needs [network]"));
+    std::string const dilate = path + "[surface]\nmethod = \"dilate\"\n";
+    test::expect_faults({{lines + path + "[surface]\nmean_slope = 20\nrelief = 300\n", "do not go together"},
+                         {lines + "heights = \"soft\"\n" + dilate, "\"soft\" needs surface.method"},
+                         {lines + "fill_space = true\n" + dilate, "network.fill_space needs"},
+                         {lines + "rotate = 20\n" + path + equilibrium, "network.rotate"},
+                         {lines + "concavity = 0.95\n" + path + equilibrium, "0.1 to 0.9"},
+                         {lines + path + "[surface]\nlakes = \"lakes.geojson\"\nlake_share = 0.5\n", "lakes"},
+                         {lines + path + "[surface]\nmean_slope = 0\n", "surface.mean_slope"},
+                         {lines + path + "[surface]\nrelief = -1\n", "surface.relief"},
+                         {"[grid]\nwidth = 60\nheight = 60\n[surface]\n", "needs [network]"}},
+                        files.folder());
 }
 
 TEST(LandInEquilibrium, ReliefOrMeanSlopeIsWhatWasAsked) {
@@ -167,7 +151,7 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     Made const ends = made(lines + "heights = \"ends\"\nslope = 0.08\n" + path + equilibrium, files.folder());
     expect_lawful(soft);
     for (Made const* t : {&fixed, &ends}) {
-        EXPECT_LE(check_of(*t, "walled_cells").value, 4.0); // heads: even slopes are none of nature's
+        EXPECT_LE(check_of(*t, "walled_cells").value, 4.0); // heads: even slopes are not natural
         EXPECT_EQ(check_of(*t, "sources_astray").value, 0.0);
     }
     // The sources lie some 2000 m from the outlet.
@@ -178,7 +162,7 @@ TEST(LandInEquilibrium, HeightsOfRiversAreKeptOrUpperBounds) {
     EXPECT_EQ(fixed.terrain.equilibrium->max_lowered_m, 0.0);
 }
 
-TEST(LandInEquilibrium, LakesAreLevelAndTold) {
+TEST(LandInEquilibrium, LakesAreLevelAndReported) {
     Files const files;
     Made const t = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
     expect_lawful(t);
@@ -217,16 +201,14 @@ TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {
 TEST(LandInEquilibrium, FieldsThatMakeNoSenseAreRefusedByPlace) {
     Files const files;
     files.raster("holes.asc", [](int c, int r) { return c == 30 && r == 20 ? -9999 : 1; });
-    EXPECT_TRUE(
-        has(fault_of(lines + path + "[surface]\nuplift = \"holes.asc\"\n", files.folder()), "none in cell (30, 20)"));
     files.raster("below.asc", [](int c, int r) { return c == 31 && r == 21 ? -2 : 1; });
-    EXPECT_TRUE(
-        has(fault_of(lines + path + "[surface]\nuplift = \"below.asc\"\n", files.folder()), "-2 in cell (31, 21)"));
-    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nerodibility = \"zero.geojson\"\n", files.folder()), "above 0"));
-    EXPECT_TRUE(has(fault_of(lines + path + "[surface]\nerodibility = \"numb.geojson\"\n", files.folder()),
-                    "no field erodibility"));
-    EXPECT_TRUE(
-        has(fault_of(lines + path + "[surface]\nerodibility = \"lakes.geojson\"\n", files.folder()), "no field"));
+    std::string const surface = lines + path + "[surface]\n";
+    test::expect_faults({{surface + "uplift = \"holes.asc\"\n", "none in cell (30, 20)"},
+                         {surface + "uplift = \"below.asc\"\n", "-2 in cell (31, 21)"},
+                         {surface + "erodibility = \"zero.geojson\"\n", "above 0"},
+                         {surface + "erodibility = \"numb.geojson\"\n", "no field erodibility"},
+                         {surface + "erodibility = \"lakes.geojson\"\n", "no field"}},
+                        files.folder());
 }
 
 TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
@@ -310,18 +292,15 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     EXPECT_EQ(t.assessment.relief->perched, 0);
 }
 
-TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToWander) {
+TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToMeander) {
     Files const files;
     Made const still = made(lines + path + equilibrium, files.folder());
     Made const bent = made(lines + "meander = 1\n" + path + equilibrium, files.folder());
     expect_lawful(bent);
     EXPECT_EQ(still.recipe.network->meander, 0.0);
     auto const length = [](Made const& t) {
-        double sum = 0.0;
-        for (double const one : t.terrain.rivers.network.plan.length_m()) {
-            sum += one;
-        }
-        return sum;
+        auto const of_arcs = t.terrain.rivers.network.plan.length_m();
+        return std::accumulate(of_arcs.begin(), of_arcs.end(), 0.0);
     };
     EXPECT_GT(length(bent), 1.005 * length(still));
 }
@@ -336,7 +315,7 @@ TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
     }
 }
 
-TEST(LandInEquilibrium, ARiverAlongTheBorderIsTold) {
+TEST(LandInEquilibrium, ARiverAlongTheBorderIsReported) {
     Files const files;
     Made const t = made(lines + "[network.lines]\npath = \"border.geojson\"\n" + equilibrium, files.folder());
     auto const found = std::ranges::find(t.assessment.findings, "border_cell", &Finding::kind);
@@ -353,7 +332,7 @@ TEST(LandInEquilibrium, HeightsThatRiseAreLowered) {
     }
 }
 
-// Scales are in metres: smaller cells show the same land in more detail.
+// Scales are in metres: smaller cells show the same terrain in more detail.
 TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
     Recipe recipe = recipe_from(THALWEG_SOURCE_DIR "/samples/relief_lines.toml");
     struct Figures {
@@ -371,8 +350,6 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
             measure::relief(dem, *land.terrain.drainage, measure::statistics(dem),
                             {.support_cells = static_cast<std::int64_t>(support_m2 / (cell_m * cell_m))});
         of_cells.push_back({-relief.slope_area->exponent, relief.drainage_density, relief.slopes.mean_deg});
-        RecordProperty(fmt::format("theta_{}", cell_m), fmt::format("{:.3f}", of_cells.back().theta));
-        RecordProperty(fmt::format("density_{}", cell_m), fmt::format("{:.6f}", of_cells.back().density_per_m));
     }
     Figures const& middle = of_cells[1];
     for (Figures const& at : of_cells) {

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/laws.hpp>
 
-#include <cmath>
 #include <limits>
 #include <string>
 
@@ -34,11 +33,7 @@ double value(std::vector<LawRow> const& rows, std::string_view key) {
     return row(rows, key).value.value();
 }
 
-DemLaws of_sample(char const* name, std::int64_t support) {
-    return laws_of_dem(io::read_dem(std::string(THALWEG_SOURCE_DIR "/samples/") + name), {.support_cells = support});
-}
-
-/// As far beside nature's range as this share of it.
+/// Within nature's range, or beside it by this share of it.
 void near_nature(std::vector<LawRow> const& rows, std::string_view key, double share) {
     LawRow const& law = row(rows, key);
     ASSERT_NE(law.nature, nullptr) << key;
@@ -63,7 +58,7 @@ TEST(Laws, OfAnExactTokunagaTreeAreItsOwn) {
     }
 }
 
-TEST(Laws, ADemWithoutRiversHasRowsWithoutFigures) {
+TEST(Laws, ADemWithoutRiversHasRowsWithoutValues) {
     Raster<float> const level({4, 3, 10.0, 0.0, 0.0, "EPSG:32631"}, 5.0F);
     DemLaws const none = laws_of_dem(level, {.support_cells = 100});
     auto const rows = law_rows(none.laws);
@@ -83,16 +78,13 @@ TEST(Laws, EveryRangeOfNatureHasItsLaw) {
     }
 }
 
-/// Mountains as the satellite saw them obey the laws that were found on maps of others.
-TEST(Laws, OfRealLandsLieInOrNearNature) {
-    struct Sample {
-        char const* file;
-        std::int64_t support;
-    };
-    for (Sample const& sample : {Sample{"bigtujunga_srtm1.tif", 100}, Sample{"bigtujunga_srtm1.tif", 200},
-                                 Sample{"jacksboro_srtm3.tif", 100}, Sample{"jacksboro_srtm3.tif", 200}}) {
-        SCOPED_TRACE(sample.file + std::string(", support ") + std::to_string(sample.support));
-        auto const rows = law_rows(of_sample(sample.file, sample.support).laws);
+/// Real mountains obey the laws that were found on maps of other rivers.
+TEST(Laws, OfReferenceDemsLieInOrNearNature) {
+    for (auto const& [file, support] : {std::pair("bigtujunga_srtm1.tif", 100), std::pair("bigtujunga_srtm1.tif", 200),
+                                        std::pair("jacksboro_srtm3.tif", 100), std::pair("jacksboro_srtm3.tif", 200)}) {
+        SCOPED_TRACE(file + std::string(", support ") + std::to_string(support));
+        Raster<float> const dem = io::read_dem(std::string(THALWEG_SOURCE_DIR "/samples/") + file);
+        auto const rows = law_rows(laws_of_dem(dem, {.support_cells = support}).laws);
         for (char const* within : {"bifurcation", "length", "area", "concavity", "drainage_density"}) {
             near_nature(rows, within, 0.1);
         }

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/relief/relief.hpp>
 
+#include <algorithm>
 #include <cmath>
 #include <cstdlib>
 #include <fstream>
@@ -9,14 +10,19 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support.hpp>
 
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/geomorphons.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
 
 namespace reference_dems_test {
 
 using namespace thalweg;
 using measure::Relief;
+using namespace thalweg::pipeline;
 
 namespace {
 
@@ -84,9 +90,37 @@ void expect_near(double found, double committed, std::string const& what) {
     EXPECT_NEAR(found, committed, 1e-5 * std::fabs(committed) + 1e-12) << what;
 }
 
+/// tests/data/grass_forms_NAME.txt: what GRASS 8.2.1 writes for samples/FILE (r.geomorphon search=15 skip=0 flat=1) in
+/// 120 rows of 120 columns from a corner on: one character a cell, ':' for 10.
+std::int64_t cells_that_differ(std::string const& name, std::string const& file, Cell corner) {
+    std::string const sources = THALWEG_SOURCE_DIR;
+    measure::Geomorphons const found = measure::geomorphons(io::read_dem(sources + "/samples/" + file));
+    std::ifstream in(sources + "/tests/data/grass_forms_" + name + ".txt");
+    std::int64_t differing = 0;
+    std::int64_t compared = 0;
+    std::string line;
+    for (std::int64_t row = corner.row; std::getline(in, line); ++row) {
+        for (std::size_t c = 0; c < line.size(); ++c) {
+            ++compared;
+            std::int64_t const col = corner.col + static_cast<std::int64_t>(c);
+            differing += found.form[Cell{col, row}] != line[c] - '0' ? 1 : 0;
+        }
+    }
+    EXPECT_EQ(compared, 120 * 120) << name;
+    return differing;
+}
+
+TerrainRelief relief_of_sample(char const* name) {
+    return relief_of_dem(io::read_dem(std::string(THALWEG_SOURCE_DIR "/samples/") + name));
+}
+
+ReliefRow const& row_of(std::vector<ReliefRow> const& rows, std::string_view key) {
+    return *std::find_if(rows.begin(), rows.end(), [&](ReliefRow const& r) { return r.key == key; });
+}
+
 } // namespace
 
-// The committed figures of reference DEM are those that the code finds in the committed files.
+// The committed values of reference DEMs are those that the code finds in the committed files.
 TEST(ReferenceDems, AsMeasuredFromTheirFiles) {
     if (std::getenv("THALWEG_RENEW") != nullptr) {
         write_anew();
@@ -130,7 +164,7 @@ TEST(ReferenceDems, FormsAsGrassHasThem) {
     }
 }
 
-// Every reference DEM lies in the range that the others are judged by.
+// Every reference DEM lies in the range that terrains are compared with.
 TEST(ReferenceDems, LieInTheirOwnRange) {
     for (measure::ReferenceDem const& land : measure::reference_dems()) {
         for (std::size_t f = 0; f < measure::relief_metric_count; ++f) {
@@ -145,6 +179,79 @@ TEST(ReferenceDems, LieInTheirOwnRange) {
             }
         }
     }
+}
+
+// Cell by cell, ties among whole metres too.
+TEST(GrassForms, CellByCell) {
+    EXPECT_EQ(cells_that_differ("bigtujunga", "bigtujunga_srtm1_utm11.tif", {500, 250}), 0);
+    EXPECT_EQ(cells_that_differ("jacksboro", "jacksboro_utm16.tif", {110, 120}), 0);
+}
+
+// A part of a reference DEM lies in the range of every metric but those that follow its extent.
+TEST(ReliefRows, APartOfRealLandIsLand) {
+    auto const rows = relief_rows(relief_of_sample("bigtujunga_srtm1.tif"));
+    EXPECT_EQ(rows.size(), measure::relief_metric_count + 1); // no rivers are drawn on it
+    for (ReliefRow const& row : rows) {
+        EXPECT_EQ(row.beside.size(), measure::reference_dems().size()) << row.key;
+        EXPECT_TRUE(row.value) << row.key;
+        bool const by_extent =
+            row.key.starts_with("length") || row.key == "gradient_anisotropy" || row.key == "level_patch";
+        if (!by_extent && row.key != "peaks") { // one peak in a thousand
+            EXPECT_TRUE(row.ok()) << row.key << " " << *row.value;
+        }
+    }
+}
+
+// Cells of degrees are measured on the ground: nearly as the same terrain in metres.
+TEST(ReliefRows, GeographicLandHasItsSlopes) {
+    TerrainRelief const degrees = relief_of_sample("jacksboro_srtm3.tif");
+    EXPECT_NEAR(degrees.land.slopes.mean_deg, relief_of_sample("jacksboro_utm16.tif").land.slopes.mean_deg, 0.7);
+}
+
+TEST(ReliefRows, NoiseIsNotLand) {
+    Grid const grid{200, 200, 30.0, 0.0, 6000.0, ""};
+    Raster<float> noise(grid);
+    for (std::int64_t i = 0; i < noise.cells(); ++i) {
+        noise[i] = static_cast<float>((i * 7919) % 1009);
+    }
+    auto const rows = relief_rows(relief_of_dem(noise));
+    EXPECT_FALSE(row_of(rows, "slope_mean").ok());
+    EXPECT_FALSE(row_of(rows, "form_distance").ok());
+    EXPECT_FALSE(row_of(rows, "peaks").ok());
+    EXPECT_TRUE(row_of(rows, "pits_over_peaks").ok()); // judges nothing
+    EXPECT_GT(*row_of(rows, "pits_over_peaks").value, 0.8);
+    std::string const unlike = unusual_relief(rows, false);
+    EXPECT_TRUE(test::has(unlike, "gradient_correlation_720 ", "form_distance "));
+    EXPECT_FALSE(test::has(unlike, "peaks"));
+    EXPECT_EQ(unusual_relief(relief_rows(relief_of_sample("jacksboro_utm16.tif")), false), "");
+}
+
+// What cannot be known is null, not a number and not a fault.
+TEST(ReliefRows, UnknownIsNull) {
+    auto const out =
+        nlohmann::json::parse(relief_json(relief_of_dem(Raster<float>({3, 3, 30.0, 0.0, 90.0, ""}, 7.0F))));
+    EXPECT_TRUE(out["figures"]["theta"]["value"].is_null());
+    EXPECT_TRUE(out["figures"]["theta"]["in_range"]);
+    EXPECT_TRUE(out["figures"]["form_distance"]["value"].is_null());
+    EXPECT_TRUE(out["slope_area"].is_null());
+    EXPECT_TRUE(out["chi"].is_null());
+    EXPECT_FALSE(out["figures"].contains("perched"));
+    EXPECT_EQ(out["figures"]["slope_mean"]["value"], 0.0);
+    EXPECT_EQ(out["beside"].size(), 2U);
+    EXPECT_EQ(out["beside"][0]["slopes"].size(), 45U);
+}
+
+// River cells are counted where there are rivers, and none may stand perched.
+TEST(ReliefRows, PerchedOnlyWithRivers) {
+    TerrainRelief relief = relief_of_dem(Raster<float>({40, 40, 30.0, 0.0, 1200.0, ""}, 7.0F));
+    EXPECT_EQ(relief_rows(relief).back().key, "form_distance");
+    relief.perched = 0;
+    EXPECT_TRUE(relief_rows(relief).back().ok());
+    relief.perched = 1;
+    ReliefRow const row = relief_rows(relief).back();
+    EXPECT_EQ(row.key, "perched");
+    EXPECT_FALSE(row.ok());
+    EXPECT_EQ(*row.value, 1.0);
 }
 
 } // namespace reference_dems_test

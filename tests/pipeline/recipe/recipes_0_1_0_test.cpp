@@ -1,19 +1,17 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// recipe.toml files that version 0.1.0 wrote, one of each method: they list every key of their sections, used or not.
+// Five recipe.toml files that version 0.1.0 wrote: they list every key of their sections, used or not.
 #include <thalweg/pipeline/make/make.hpp>
 
-#include <algorithm>
 #include <filesystem>
 #include <string>
-#include <vector>
 
 #include <fmt/format.h>
 #include <golden.hpp>
 #include <gtest/gtest.h>
 #include <house/fnv.hpp>
+#include <pipeline/old_recipes.hpp>
 
-#include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 namespace recipes_0_1_0_test {
@@ -22,28 +20,6 @@ using namespace thalweg;
 using namespace thalweg::pipeline;
 
 namespace {
-
-namespace fs = std::filesystem;
-
-std::string const folder = THALWEG_SOURCE_DIR "/tests/data/recipes_0_1_0";
-
-std::vector<std::string> names() {
-    std::vector<std::string> found;
-    for (fs::directory_entry const& entry : fs::directory_iterator(folder)) {
-        if (entry.is_directory()) {
-            found.push_back(entry.path().filename().string());
-        }
-    }
-    std::sort(found.begin(), found.end());
-    return found;
-}
-
-Recipe recipe_of(std::string const& name) {
-    std::string const file = folder + "/" + name + "/recipe.toml";
-    Recipe recipe = read_recipe(io::read_text(file, 1 << 20), file);
-    recipe.folder = folder + "/" + name;
-    return recipe;
-}
 
 std::string hash_of(Raster<float> const& raster) {
     Fnv hash;
@@ -55,8 +31,8 @@ std::string hash_of(Raster<float> const& raster) {
 
 TEST(Recipes010, RunAndGiveTheirOldTerrain) {
     std::string text;
-    for (std::string const& name : names()) {
-        Made const t = make(recipe_of(name));
+    for (std::string const& name : old_recipe_names()) {
+        Made const t = make(old_recipe(name));
         for (Check const& c : t.assessment.checks) { // of 64 x 64 cells full of rivers, some side by side
             bool const crowded = name == "tin_rivers" && c.name == "trace_f_same_cell" && c.value > 0.975;
             EXPECT_TRUE(c.ok || crowded) << name << " " << c.name << " " << c.value;
@@ -67,12 +43,12 @@ TEST(Recipes010, RunAndGiveTheirOldTerrain) {
 }
 
 TEST(Recipes010, AreWrittenWithTheKeysTheyUseAlone) {
-    for (std::string const& name : names()) {
-        Recipe const recipe = recipe_of(name);
+    for (std::string const& name : old_recipe_names()) {
+        Recipe const recipe = old_recipe(name);
         EXPECT_TRUE(unused_keys(recipe).empty()) << name;
         std::string const written = write_recipe(recipe);
         EXPECT_EQ(write_recipe(read_recipe(written, name)), written) << name;
-        EXPECT_LT(written.size(), io::read_text(folder + "/" + name + "/recipe.toml", 1 << 20).size()) << name;
+        EXPECT_LT(written.size(), std::filesystem::file_size(old_recipes / name / "recipe.toml")) << name;
     }
 }
 

@@ -46,14 +46,14 @@ TEST(FractionalSurface, OfOneCellIsZero) {
 
 TEST(FractionalSurface, RefusesWhatItCannotMake) {
     for (double const hurst : {0.0, 1.0, -0.5, std::nan("")}) {
-        EXPECT_NE(refusal_of(4, 4, hurst).find("greater than 0 and less than 1"), std::string::npos) << hurst;
+        EXPECT_TRUE(test::has(refusal_of(4, 4, hurst), "greater than 0 and less than 1"));
     }
-    EXPECT_NE(refusal_of(0, 4, 0.5).find("0 x 4 cells"), std::string::npos);
-    EXPECT_NE(refusal_of(60000, 60000, 0.5).find("more than 2^31 cells"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal_of(0, 4, 0.5), "0 x 4 cells"));
+    EXPECT_TRUE(test::has(refusal_of(60000, 60000, 0.5), "more than 2^31 cells"));
     EXPECT_THROW(solver::check_fractional_surface(40000, 30, 0.5), BadParameter);
     EXPECT_NO_THROW(solver::check_fractional_surface(30000, 30, 0.5));            // without the work
     EXPECT_THROW(solver::check_fractional_surface(30000, 30, 0.8), BadParameter); // the reach is twice as far
-    EXPECT_NE(refusal_of(std::int64_t{1} << 40, 1, 0.5).find("more than 2^31 cells"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal_of(std::int64_t{1} << 40, 1, 0.5), "more than 2^31 cells"));
 }
 
 TEST(FractionalSurface, HasNoNegativeEigenvalues) {

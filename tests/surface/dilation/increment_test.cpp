@@ -94,29 +94,27 @@ TEST(Increments, ExpressionsAreRoundedTo32Bits) {
 }
 
 TEST(Increments, DidYouMean) {
-    EXPECT_EQ(refusal("rise_fal"),
-              "surface.increments: 'rise_fal' is not an increment. Did you mean 'rise_fall'? (uniform, "
-              "decreasing, rise_fall, or an expression in x such as 3-0.01*x)");
-    EXPECT_NE(refusal("rise-fall").find("Did you mean 'rise_fall'?"), std::string::npos);
-    EXPECT_NE(refusal("Uniform").find("Did you mean 'uniform'?"), std::string::npos);
-    EXPECT_EQ(refusal("3-0.01*y").find("Did you mean"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal("rise_fal"), "'rise_fal'"));
+    EXPECT_TRUE(test::has(refusal("rise-fall"), "Did you mean 'rise_fall'?"));
+    EXPECT_TRUE(test::has(refusal("Uniform"), "Did you mean 'uniform'?"));
+    EXPECT_FALSE(test::has(refusal("3-0.01*y"), "Did you mean"));
 }
 
 TEST(Increments, WhatIsNoExpressionIsRefused) {
     for (std::string const& text : {std::string(), std::string("3-"), std::string("(x"), std::string("x)"),
                                     std::string("y"), std::string("x=5"), std::string("3*(x=5)"), std::string("x,2"),
                                     std::string("\"x\""), std::string("x<3 ? 1"), std::string(900, '(')}) {
-        EXPECT_NE(refusal(text).find("is not an increment"), std::string::npos) << text << ": " << refusal(text);
+        EXPECT_TRUE(test::has(refusal(text), "is not an increment"));
     }
-    EXPECT_NE(refusal(std::string("x\0x", 3)).find("character 2"), std::string::npos);
-    EXPECT_NE(refusal("\xff").find("character 1"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(std::string("x\0x", 3)), "character 2"));
+    EXPECT_TRUE(test::has(refusal("\xff"), "character 1"));
     EXPECT_EQ(increments(4, {"(x==2)+(x>=3)+(x!=4)+(x<=1)"}), (std::vector<double>{2, 2, 2, 1}));
-    EXPECT_NE(refusal(std::string(1001, '1')).find("1001 characters"), std::string::npos);
+    EXPECT_TRUE(test::has(refusal(std::string(1001, '1')), "1001 characters"));
 }
 
 TEST(Increments, ANumberThatIsNotFiniteNamesItsX) {
-    EXPECT_NE(refusal("1/(x-7)").find("not finite at x = 7"), std::string::npos) << refusal("1/(x-7)");
-    EXPECT_NE(refusal("sqrt(3-x)").find("not finite at x = 4"), std::string::npos) << refusal("sqrt(3-x)");
+    EXPECT_TRUE(test::has(refusal("1/(x-7)"), "not finite at x = 7"));
+    EXPECT_TRUE(test::has(refusal("sqrt(3-x)"), "not finite at x = 4"));
     EXPECT_NO_THROW(increments(6, {"1/(x-7)"}));
 }
 
@@ -136,8 +134,7 @@ TEST(Increments, AFunctionThatIsNotFiniteOrThrows) {
     IncrementParams given;
     given.function = [](double x) { return 1.0 / (x - 7.0); };
     EXPECT_NO_THROW(increments(6, given));
-    EXPECT_EQ(full_message_of<BadParameter>([&] { increments(10, given); }),
-              "surface.increments: the function is not finite at x = 7; choose one that is, for x = 1 to 10");
+    EXPECT_TRUE(test::has(full_message_of<BadParameter>([&] { increments(10, given); }), "x = 7"));
     given.function = [](double) -> double { throw std::out_of_range("a table of its own"); };
     EXPECT_THROW(increments(10, given), std::out_of_range);
 }

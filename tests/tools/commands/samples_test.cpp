@@ -6,13 +6,12 @@
 #include <string>
 #include <vector>
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
+#include <io/tiff.hpp>
+#include <io/vector_files.hpp>
+#include <support.hpp>
 
 #include "command.hpp"
-#include "report.hpp"
 
 namespace samples_test {
 
@@ -26,11 +25,6 @@ struct FileArc {
     GIntBig downstream;
     std::vector<double> z;
 };
-
-GDALDatasetUniquePtr open(fs::path const& path, unsigned kind) {
-    GDALAllRegister();
-    return GDALDatasetUniquePtr(GDALDataset::Open(path.string().c_str(), kind | GDAL_OF_READONLY));
-}
 
 std::map<GIntBig, FileArc> read_arcs(OGRLayer* layer) {
     std::map<GIntBig, FileArc> arcs;
@@ -51,7 +45,7 @@ std::map<GIntBig, FileArc> read_arcs(OGRLayer* layer) {
 void hold_to_contract(fs::path const& folder) {
     auto const report = report_of(folder);
     expect_checks_hold(report);
-    auto const gpkg = open(folder / "network.gpkg", GDAL_OF_VECTOR);
+    auto const gpkg = opened(folder / "network.gpkg");
     ASSERT_TRUE(gpkg);
     OGRLayer* const layer = gpkg->GetLayerByName("arcs");
     ASSERT_NE(layer, nullptr);
@@ -85,7 +79,7 @@ void hold_to_contract(fs::path const& folder) {
     EXPECT_EQ(nodes.size(), arcs.size() + report["network"]["outlets"].get<std::size_t>()) << "V = E + 1 a basin";
     EXPECT_GE(outlets, report["network"]["outlets"].get<std::size_t>());
 
-    auto const shape = open(folder / "network_arcs.shp", GDAL_OF_VECTOR);
+    auto const shape = opened(folder / "network_arcs.shp");
     ASSERT_TRUE(shape);
     std::map<GIntBig, FileArc> const same = read_arcs(shape->GetLayer(0));
     ASSERT_EQ(same.size(), arcs.size());
@@ -93,8 +87,8 @@ void hold_to_contract(fs::path const& folder) {
         EXPECT_EQ(arc.z, arcs.at(id).z) << "arc " << id;
     }
 
-    auto const dem = open(folder / "dem.tif", GDAL_OF_RASTER);
-    auto const network = open(folder / "network.tif", GDAL_OF_RASTER);
+    auto const dem = opened(folder / "dem.tif");
+    auto const network = opened(folder / "network.tif");
     ASSERT_TRUE(dem && network);
     EXPECT_EQ(dem->GetRasterXSize(), report["recipe"]["grid"]["width"].get<int>());
     EXPECT_EQ(network->GetRasterYSize(), dem->GetRasterYSize());
@@ -127,39 +121,28 @@ void same_bytes(fs::path const& a, fs::path const& b) {
 
 void sample(std::string const& name) {
     Workplace const place;
-    std::string const recipe = THALWEG_SOURCE_DIR "/samples/" + name + ".toml";
-    Outcome const one = thalweg_run("make " + recipe + " -o one --threads 1", place.path());
-    ASSERT_EQ(one.code, 0) << one.err;
-    Outcome const two = thalweg_run("make " + recipe + " -o two --threads 2", place.path());
-    ASSERT_EQ(two.code, 0) << two.err;
+    std::string const recipe = samples + name + ".toml";
+    expect_run(place, "make " + recipe + " -o one --threads 1", 0);
+    expect_run(place, "make " + recipe + " -o two --threads 2", 0);
     hold_to_contract(place / "one");
     same_bytes(place / "one", place / "two");
-    Outcome const replay = thalweg_run("replay one --verify", place.path());
-    EXPECT_EQ(replay.code, 0) << replay.out << replay.err;
-    Outcome const check = thalweg_run("check one", place.path());
-    EXPECT_EQ(check.code, 0) << check.out << check.err;
+    expect_run(place, "replay one --verify", 0);
+    expect_run(place, "check one", 0);
 }
 
 } // namespace
 
-TEST(Samples, Dla) {
-    sample("dla");
-}
-
-TEST(Samples, LandInEquilibrium) {
-    for (char const* name : {"relief_tokunaga", "relief_lines", "island"}) {
+TEST(Samples, AreMadeAgainWithAnyNumberOfThreads) {
+    for (char const* name : {"dla", "lines", "relief_tokunaga", "relief_lines", "island"}) {
+        SCOPED_TRACE(name);
         sample(name);
     }
 }
 
-TEST(Samples, Lines) {
-    sample("lines");
-}
-
 TEST(Samples, NoArgumentsMakeTheSampleValley) {
     Workplace const place;
-    ASSERT_EQ(thalweg_run("make -q", place.path()).code, 0);
-    ASSERT_EQ(thalweg_run("make " THALWEG_SOURCE_DIR "/samples/relief.toml -o sample -q", place.path()).code, 0);
+    expect_run(place, "make -q", 0);
+    expect_run(place, "make " + samples + "relief.toml -o sample -q", 0);
     same_bytes(place / "valley", place / "sample");
 }
 
@@ -167,13 +150,13 @@ TEST(Samples, EveryIncrementAndMetric) {
     Workplace const place;
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "'3-0.01*x'"}) {
         for (char const* metric : {"cityblock", "euclid"}) {
-            Outcome const o = thalweg_run(
+            expect_run(
+                place,
                 std::string("make --set grid.width=120 --set grid.height=90 "
                             "--set network.dla.particles=2000 --set network.prune=20 --set surface.method=dilate "
                             "--set surface.metric=") +
                     metric + " --set surface.increment=" + increment + " --overwrite -o out -q",
-                place.path());
-            EXPECT_EQ(o.code, 0) << o.err;
+                0);
             hold_to_contract(place / "out");
         }
     }
@@ -183,11 +166,11 @@ TEST(Samples, EveryBranchAndHeight) {
     Workplace const place;
     for (char const* branch : {"largest", "north", "east", "south", "west", "all"}) {
         for (char const* heights : {"straight_repaired", "along_stream"}) {
-            Outcome const o = thalweg_run(std::string("make --set network.dla.particles=3000 --set network.prune=8 "
-                                                      "--set surface.method=dilate --set network.dla.branch=") +
-                                              branch + " --set network.heights=" + heights + " --overwrite -o out -q",
-                                          place.path());
-            EXPECT_EQ(o.code, 0) << branch << o.err;
+            expect_run(place,
+                       std::string("make --set network.dla.particles=3000 --set network.prune=8 "
+                                   "--set surface.method=dilate --set network.dla.branch=") +
+                           branch + " --set network.heights=" + heights + " --overwrite -o out -q",
+                       0);
             hold_to_contract(place / "out");
         }
     }
@@ -195,51 +178,36 @@ TEST(Samples, EveryBranchAndHeight) {
 
 TEST(Samples, EvenSlopesInEquilibriumTerrainStandOnWalls) {
     Workplace const place;
-    Outcome const o = thalweg_run("make --set network.dla.particles=3000 --set network.prune=8 "
-                                  "--set network.heights=along_stream -o out",
-                                  place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
-    EXPECT_NE(o.err.find("river cells stand on walls"), std::string::npos) << o.err;
+    expect_run(place,
+               "make --set network.dla.particles=3000 --set network.prune=8 "
+               "--set network.heights=along_stream -o out",
+               3, "river cells stand on walls");
     auto const report = report_of(place / "out");
     for (auto const& check : report["checks"]) {
         EXPECT_EQ(check["ok"].get<bool>(), check["name"] != "walled_cells") << check;
     }
 }
 
-TEST(Samples, FrameLeftOutReplaysToTheSameBytes) {
-    Workplace const place;
-    place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\nbranch = \"south\"\n[surface]\n");
-    ASSERT_EQ(thalweg_run("make r.toml -o out -q", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("replay out", place.path()).code, 0);
-}
-
 TEST(Samples, WithoutASurfaceOnlyTheNetworkIsMade) {
     Workplace const place;
-    place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\n");
-    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    auto const report = nlohmann::json::parse(o.out);
+    place.write("r.toml", "[network]\nprune = 6\n[network.dla]\nparticles = 3000\nbranch = \"south\"\n");
+    auto const report = expect_run(place, "make r.toml -o out -q --json", 0).json();
     EXPECT_FALSE(report.contains("dem"));
     EXPECT_EQ(report["network"]["area_from"], "nearest");
     EXPECT_TRUE(fs::exists(place / "out/network.gpkg"));
     EXPECT_TRUE(fs::exists(place / "out/profile.svg"));
     EXPECT_FALSE(fs::exists(place / "out/dem.tif"));
     EXPECT_FALSE(fs::exists(place / "out/map.png"));
-    EXPECT_EQ(thalweg_run("replay out", place.path()).code, 0);
+    expect_run(place, "replay out", 0);
 }
 
 namespace {
 
 /// Two rivers with heights that meet, in UTM zone 31: from the north-west and the north-east, leaving to the south.
-char const* const rivers_with_heights =
-    R"({"type":"FeatureCollection","crs":{"type":"name","properties":)"
-    R"({"name":"urn:ogc:def:crs:EPSG::32631"}},"features":[)"
-    R"({"type":"Feature","id":1,"properties":{},"geometry":{"type":"LineString",)"
-    R"("coordinates":[[500000,5002000,90],[500700,5001300,70],[501000,5001000,50]]}},)"
-    R"({"type":"Feature","id":2,"properties":{},"geometry":{"type":"LineString",)"
-    R"("coordinates":[[502000,5002000,95],[501000,5001000,50]]}},)"
-    R"({"type":"Feature","id":3,"properties":{},"geometry":{"type":"LineString",)"
-    R"("coordinates":[[501000,5000000,10],[501000,5001000,50]]}}]})";
+std::string const rivers_with_heights =
+    test::geojson(line_feature("[500000,5002000,90],[500700,5001300,70],[501000,5001000,50]") + "," +
+                  line_feature("[502000,5002000,95],[501000,5001000,50]") + "," +
+                  line_feature("[501000,5000000,10],[501000,5001000,50]"));
 
 std::string lines_recipe(std::string const& grid, std::string const& surface) {
     return "[grid]\ncell = 20\n" + grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"r.geojson\"\n" +
@@ -252,12 +220,10 @@ TEST(Samples, HeightsOfTheFileAreKeptAndTheOutletGoesOnDown) {
     Workplace const place;
     place.write("r.geojson", rivers_with_heights);
     place.write("r.toml", lines_recipe("", ""));
-    Outcome const o = thalweg_run("make r.toml -o out -q --json", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
+    auto const report = expect_run(place, "make r.toml -o out -q --json", 0).json();
     hold_to_contract(place / "out");
-    auto const report = nlohmann::json::parse(o.out);
     EXPECT_EQ(report["recipe"]["network"]["heights"], "file");
-    auto const gpkg = open(place / "out/network.gpkg", GDAL_OF_VECTOR);
+    auto const gpkg = opened(place / "out/network.gpkg");
     std::set<double> heights;
     double lowest = 1e9;
     for (auto const& [id, arc] : read_arcs(gpkg->GetLayerByName("arcs"))) {
@@ -268,7 +234,7 @@ TEST(Samples, HeightsOfTheFileAreKeptAndTheOutletGoesOnDown) {
         EXPECT_EQ(heights.count(z), 1U) << z;
     }
     EXPECT_LT(lowest, 10.0);
-    EXPECT_EQ(thalweg_run("replay out", place.path()).code, 0);
+    expect_run(place, "replay out", 0);
 }
 
 TEST(Samples, ClippedRiversAndAMask) {
@@ -276,50 +242,35 @@ TEST(Samples, ClippedRiversAndAMask) {
     place.write("r.geojson", rivers_with_heights);
     std::string const grid = "width = 60\nheight = 60\norigin = [500400, 5001600]\n";
     place.write("r.toml", lines_recipe(grid, ""));
-    EXPECT_EQ(thalweg_run("make r.toml -o out -q", place.path()).code, 2);
+    expect_run(place, "make r.toml -o out -q", 2);
     place.write("r.toml", lines_recipe(grid + "clip = true\n", ""));
-    Outcome const clipped = thalweg_run("make r.toml -o out -q", place.path());
-    ASSERT_EQ(clipped.code, 0) << clipped.err;
+    expect_run(place, "make r.toml -o out -q", 0);
     hold_to_contract(place / "out");
 
     // A mask that leaves out the outermost column in the east, where no river runs.
-    GDALAllRegister();
-    GDALDriver* const driver = GetGDALDriverManager()->GetDriverByName("GTiff");
-    std::vector<unsigned char> ones(60 * 60, 1);
-    for (std::size_t row = 0; row < 60; ++row) {
-        ones[row * 60 + 59] = row > 20 ? 0 : 1;
-    }
-    {
-        GDALDatasetUniquePtr const mask(
-            driver->Create((place / "mask.tif").string().c_str(), 60, 60, 1, GDT_Byte, nullptr));
-        double frame[6] = {500400, 20, 0, 5001600, 0, -20};
-        mask->SetGeoTransform(frame);
-        ASSERT_EQ(
-            mask->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, 60, 60, ones.data(), 60, 60, GDT_Byte, 0, 0, nullptr),
-            CE_None);
-    }
+    written((place / "mask.tif").string(),
+            {.width = 60, .height = 60, .epsg = 0, .frame = {500400, 20, 0, 5001600, 0, -20}},
+            [](int col, int row) { return col == 59 && row > 20 ? 0.0 : 1.0; });
     place.write("r.toml", lines_recipe(grid + "clip = true\n", "mask = \"mask.tif\"\n"));
-    Outcome const masked = thalweg_run("make r.toml --set network.heights=graded -o masked -q --json", place.path());
-    ASSERT_EQ(masked.code, 0) << masked.err;
-    EXPECT_EQ(nlohmann::json::parse(masked.out)["dem"]["nodata"], 39);
+    Outcome const masked = expect_run(place, "make r.toml --set network.heights=graded -o masked -q --json", 0);
+    EXPECT_EQ(masked.json()["dem"]["nodata"], 39);
     hold_to_contract(place / "masked");
-    EXPECT_EQ(thalweg_run("replay masked", place.path()).code, 0);
+    expect_run(place, "replay masked", 0);
 }
 
 TEST(Samples, AFolderOfShapefilesIsKeptWhole) {
     Workplace const place;
     place.write("r.geojson", rivers_with_heights);
-    ASSERT_EQ(std::system(("cd '" + place.path().string() + "' && ogr2ogr -q rivers r.geojson -nln rivers").c_str()),
-              0);
+    place.shell("ogr2ogr rivers r.geojson -nln rivers");
     place.write("r.toml", "[grid]\ncell = 20\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers\"\n");
-    ASSERT_EQ(thalweg_run("make r.toml -o folder -q", place.path()).code, 0);
+    expect_run(place, "make r.toml -o folder -q", 0);
     EXPECT_TRUE(fs::exists(place / "folder/inputs/rivers/rivers.dbf"));
-    EXPECT_EQ(thalweg_run("replay folder", place.path()).code, 0);
+    expect_run(place, "replay folder", 0);
     place.write("r.toml",
                 "[grid]\ncell = 20\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers/rivers.shp\"\n");
-    ASSERT_EQ(thalweg_run("make r.toml -o file -q", place.path()).code, 0);
+    expect_run(place, "make r.toml -o file -q", 0);
     EXPECT_TRUE(fs::exists(place / "file/inputs/rivers.prj"));
-    EXPECT_EQ(thalweg_run("replay file", place.path()).code, 0);
+    expect_run(place, "replay file", 0);
 }
 
 } // namespace samples_test

@@ -3,17 +3,14 @@
 // Rivers in feet or degrees, and terrain in feet.
 #include <algorithm>
 #include <cmath>
-#include <cstdlib>
 #include <string>
 #include <vector>
 
-#include <gdal_priv.h>
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
-#include <ogrsf_frmts.h>
+#include <io/vector_files.hpp>
+#include <support.hpp>
 
 #include "command.hpp"
-#include "report.hpp"
 
 namespace units_test {
 
@@ -23,31 +20,19 @@ using nlohmann::json;
 namespace {
 
 constexpr double foot = 0.3048;
-std::string const walker = THALWEG_SOURCE_DIR "/samples/walker_nhdplus.gpkg";
-
-void run_gdal(std::string const& command, Workplace const& place) {
-    std::string const line = "cd '" + place.path().string() + "' && " + command + " >gdal.log 2>&1";
-    ASSERT_EQ(std::system(line.c_str()), 0) << command << file_bytes(place / "gdal.log");
-}
+std::string const walker = samples + "walker_nhdplus.gpkg";
 
 json made(Workplace const& place, std::string const& arguments, std::string const& folder) {
-    Outcome const o = thalweg_run("make " + arguments + " -o " + folder, place.path());
-    EXPECT_EQ(o.code, 0) << arguments << "\n" << o.err;
-    if (o.code != 0) {
-        return {};
-    }
+    expect_run(place, "make " + arguments + " -o " + folder, 0);
     json const report = report_of(place / folder);
     expect_checks_hold(report, arguments);
     return report;
 }
 
 bool tells(json const& report, std::string const& words) {
-    for (auto const& repair : report["repairs"]) {
-        if (repair["text"].get<std::string>().find(words) != std::string::npos) {
-            return true;
-        }
-    }
-    return false;
+    return std::ranges::any_of(report["repairs"], [&](json const& repair) {
+        return bool(test::has(repair["text"].get<std::string>(), words));
+    });
 }
 
 struct Dem {
@@ -56,11 +41,7 @@ struct Dem {
 };
 
 Dem dem_in(fs::path const& file) {
-    GDALAllRegister();
-    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str()));
-    if (!data) {
-        return {};
-    }
+    auto const data = opened(file);
     GDALRasterBand* const band = data->GetRasterBand(1);
     Dem dem{band->GetUnitType(), std::vector<float>(static_cast<std::size_t>(data->GetRasterXSize()) *
                                                     static_cast<std::size_t>(data->GetRasterYSize()))};
@@ -72,15 +53,9 @@ Dem dem_in(fs::path const& file) {
 
 /// A column of numbers of a layer, and the Z of its vertices.
 std::vector<double> column(fs::path const& file, char const* layer, char const* name) {
-    GDALAllRegister();
-    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR));
-    OGRLayer* const found = data ? data->GetLayerByName(layer) : nullptr;
+    auto const data = opened(file);
     std::vector<double> out;
-    if (found == nullptr) {
-        ADD_FAILURE() << file << layer;
-        return out;
-    }
-    for (auto const& feature : *found) {
+    for (auto const& feature : *data->GetLayerByName(layer)) {
         if (std::string(name) != "Z") {
             out.push_back(feature->GetFieldAsDouble(name));
             continue;
@@ -107,7 +82,7 @@ void expect_ratio(std::vector<double> const& metres, std::vector<double> const& 
 }
 
 std::string text_in_run(fs::path const& file, std::string const& name) {
-    GDALDatasetUniquePtr const data(GDALDataset::Open(file.string().c_str(), GDAL_OF_VECTOR));
+    auto const data = opened(file);
     for (auto const& row : *data->GetLayerByName("run")) {
         if (name == row->GetFieldAsString("name")) {
             return row->GetFieldAsString("value");
@@ -120,7 +95,7 @@ std::string text_in_run(fs::path const& file, std::string const& name) {
 
 TEST(Units, TerrainInFeetIsTheTerrainInMetres) {
     Workplace const place;
-    std::string const rivers = "'" + walker + "' --set grid.cell=60";
+    std::string const rivers = walker + " --set grid.cell=60";
     json const metres = made(place, rivers, "m");
     json const feet = made(place, rivers + " --units ft", "ft");
     EXPECT_EQ(feet["recipe"]["output"]["units"], "ft");
@@ -155,7 +130,7 @@ TEST(Units, TerrainInFeetIsTheTerrainInMetres) {
     for (double const z : column(place / "ft/contours.gpkg", "contours", "z")) {
         ASSERT_EQ(z, std::round(z / 10.0) * 10.0) << "round numbers of feet";
     }
-    EXPECT_EQ(thalweg_run("replay ft --verify", place.path()).code, 0);
+    expect_run(place, "replay ft --verify", 0);
 }
 
 /// A river along a parallel, with a tributary, in degrees.
@@ -178,51 +153,41 @@ TEST(Units, WideExtentsAreWarnedOfOrGetAnotherProjection) {
     place.write("narrow.geojson", along_parallel(6.0, 12.0));
     place.write("wide.geojson", along_parallel(0.0, 20.0));
     place.write("wider.geojson", along_parallel(-10.0, 40.0));
-    auto const words_of = [&](std::string const& name) {
-        Outcome const o = thalweg_run("make " + name + ".geojson -o " + name + " --set grid.cell=10000", place.path());
-        EXPECT_EQ(o.code, 0) << o.err;
-        EXPECT_EQ(thalweg_run("check " + name + " --dem " + name + "/dem.tif", place.path()).code, 0) << name;
-        EXPECT_EQ(thalweg_run("replay " + name + " --verify", place.path()).code, 0) << name;
-        return o.err;
-    };
-    EXPECT_EQ(words_of("narrow").find("beyond its UTM zone"), std::string::npos);
-    std::string const wide = words_of("wide");
-    EXPECT_NE(wide.find("warning: the grid reaches far beyond its UTM zone EPSG:32632"), std::string::npos) << wide;
-    EXPECT_NE(wide.find("--crs"), std::string::npos) << wide;
-    EXPECT_TRUE(tells(report_of(place / "wide"), "too long there"));
-    std::string const wider = words_of("wider");
-    EXPECT_NE(wider.find("reprojected into Equal area around 15, 48"), std::string::npos) << wider;
-    EXPECT_EQ(wider.find("beyond its UTM zone"), std::string::npos) << wider;
+    for (std::string const name : {"narrow", "wide", "wider"}) {
+        json const report = made(place, name + ".geojson --set grid.cell=10000", name);
+        EXPECT_EQ(tells(report, "too long there"), name == "wide");
+        EXPECT_EQ(test::has(report["recipe"]["grid"]["crs"].get<std::string>(), "Equal area"), name == "wider");
+        expect_run(place, "check " + name + " --dem " + name + "/dem.tif", 0);
+        expect_run(place, "replay " + name + " --verify", 0);
+    }
     // The folder's own rivers make the same terrain, and other formats hold the projection.
-    EXPECT_EQ(thalweg_run("make wider -o again --set grid.cell=10000", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("convert wider -o wider.shp --schema hydrorivers", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("check wider.shp", place.path()).code, 0);
+    expect_run(place, "make wider -o again --set grid.cell=10000", 0);
+    expect_run(place, "convert wider -o wider.shp --schema hydrorivers", 0);
+    expect_run(place, "check wider.shp", 0);
 }
 
 TEST(Units, WhatIsInFeetIsReadAsSuch) {
     Workplace const place;
-    std::string const rivers = "'" + walker + "' --set grid.cell=60 -q";
+    std::string const rivers = walker + " --set grid.cell=60 -q";
     made(place, rivers, "m");
     made(place, rivers + " --units ft", "ft");
     for (std::string const network : {"ft", "ft/network_arcs.shp"}) {
-        Outcome const check = thalweg_run("check " + network + " --dem ft/dem.tif --json", place.path());
-        EXPECT_EQ(check.code, 0) << network << check.out << check.err;
-        json const found = json::parse(check.out);
-        json const other = json::parse(thalweg_run("check m --dem m/dem.tif --json", place.path()).out);
+        json const found = expect_run(place, "check " + network + " --dem ft/dem.tif --json", 0).json();
+        json const other = expect_run(place, "check m --dem m/dem.tif --json", 0).json();
         EXPECT_EQ(found["certificate"]["traced"][1], other["certificate"]["traced"][1]) << network;
         EXPECT_GE(found["certificate"]["traced"][0]["f"], 0.98) << network; // of a folder with its network.tif
         EXPECT_EQ(found["certificate"]["depressions"]["count"], 0) << network;
     }
     auto const stats = [&](std::string const& folder) {
-        return json::parse(thalweg_run("stats " + folder + "/dem.tif --json", place.path()).out);
+        return expect_run(place, "stats " + folder + "/dem.tif --json", 0).json();
     };
     EXPECT_NEAR(stats("ft")["max"]["z"].get<double>(), stats("m")["max"]["z"].get<double>(), 1e-3);
     EXPECT_NEAR(stats("ft")["slope_rad"].get<double>(), stats("m")["slope_rad"].get<double>(), 1e-5);
 
-    ASSERT_EQ(thalweg_run("convert ft -o back.gpkg", place.path()).code, 0);
+    expect_run(place, "convert ft -o back.gpkg", 0);
     expect_ratio(column(place / "m/network.gpkg", "arcs", "Z"), column(place / "back.gpkg", "arcs", "Z"), 1.0, "back");
-    ASSERT_EQ(thalweg_run("draw ft -o ft.svg --what profile", place.path()).code, 0);
-    ASSERT_EQ(thalweg_run("draw m -o m.svg --what profile", place.path()).code, 0);
+    expect_run(place, "draw ft -o ft.svg --what profile", 0);
+    expect_run(place, "draw m -o m.svg --what profile", 0);
 
     // The rivers of a folder in feet keep their heights, but for what is lowered where they would stand on walls.
     json const again = made(place, "ft --set grid.cell=60", "again");
@@ -236,122 +201,67 @@ TEST(Units, WhatIsInFeetIsReadAsSuch) {
 
 TEST(Units, RiversInSurveyFeetWithHeightsInSurveyFeet) {
     Workplace const place;
-    // A main stem and a tributary near Oakland, first in metres.
-    place.write(
-        "m.geojson",
-        R"({"type":"FeatureCollection","crs":{"type":"name","properties":{"name":"urn:ogc:def:crs:EPSG::32610"}},)"
-        R"("features":[{"type":"Feature","properties":{"id":1},"geometry":{"type":"LineString","coordinates":)"
-        R"([[560000,4180000,300],[562000,4181000,200],[565000,4180500,100]]}},)"
-        R"({"type":"Feature","properties":{"id":2},"geometry":{"type":"LineString","coordinates":)"
-        R"([[561500,4184000,400],[562000,4181000,200]]}}]})");
-    run_gdal("ogr2ogr -f GPKG -t_srs EPSG:2227 plan.gpkg m.geojson", place);
-    // GDAL leaves Z alone: a copy gets its heights in feet and says so.
-    std::string const script =
-        "from osgeo import ogr, osr\\nogr.UseExceptions()\\n"
-        "src = ogr.Open('plan.gpkg'); layer = src.GetLayer(0)\\n"
-        "srs = osr.SpatialReference(); srs.SetFromUserInput('EPSG:2227+6360')\\n"
-        "srs.SetAxisMappingStrategy(osr.OAMS_TRADITIONAL_GIS_ORDER)\\n"
-        "out = ogr.GetDriverByName('GPKG').CreateDataSource('ft.gpkg')\\n"
-        "to = out.CreateLayer('rivers', srs, ogr.wkbLineString25D)\\n"
-        "for f in layer:\\n"
-        "    g = f.GetGeometryRef(); line = ogr.Geometry(ogr.wkbLineString25D)\\n"
-        "    for i in range(g.GetPointCount()):\\n"
-        "        x, y, z = g.GetPoint(i); line.AddPoint(x, y, z * 3937 / 1200)\\n"
-        "    new = ogr.Feature(to.GetLayerDefn()); new.SetGeometry(line); to.CreateFeature(new)\\n"
-        "out = None\\n";
-    run_gdal("printf \"" + script + "\" > scale.py && /usr/bin/python3 scale.py", place);
-
+    // A main stem and a tributary near Oakland.
+    place.write("m.geojson",
+                test::geojson(line_feature("[560000,4180000,300],[562000,4181000,200],[565000,4180500,100]") + "," +
+                              line_feature("[561500,4184000,400],[562000,4181000,200]")));
+    place.shell("ogr2ogr -a_srs EPSG:32610 utm.gpkg m.geojson && ogr2ogr -t_srs EPSG:2227 plan.gpkg utm.gpkg && "
+                "ogr2ogr -a_srs EPSG:2227+6360 ft.gpkg plan.gpkg"); // GDAL leaves Z alone
     json const report = made(place, "ft.gpkg --set grid.cell=20", "out");
     EXPECT_EQ(report["recipe"]["grid"]["crs"], "EPSG:32610");
     EXPECT_EQ(report["recipe"]["network"]["heights"], "file");
-    EXPECT_TRUE(tells(report, "NAD83 / California zone 3 (ftUS) (US survey feet) are reprojected into EPSG:32610"))
-        << report["repairs"];
-    EXPECT_TRUE(tells(report, "heights in US survey feet are converted into metres")) << report["repairs"];
+    EXPECT_TRUE(tells(report, "reprojected into EPSG:32610")) << report["repairs"];
     auto const z = column(place / "out/network.gpkg", "arcs", "z_up");
-    EXPECT_NEAR(*std::max_element(z.begin(), z.end()), 400.0, 1.0);
+    EXPECT_NEAR(*std::max_element(z.begin(), z.end()), 400.0 * 1200.0 / 3937.0, 1.0);
 
-    // Without a vertical CRS nothing says what its heights are in: they are taken for metres, and that is said.
+    // Without a vertical CRS nothing says what its heights are in: they are taken for metres, and that is reported.
     json const plan = made(place, "plan.gpkg --set grid.cell=20", "plan");
-    EXPECT_TRUE(tells(plan, "heights are treated as metres")) << plan["repairs"];
+    EXPECT_TRUE(tells(plan, "treated as metres")) << plan["repairs"];
 }
 
-TEST(Units, DegreesAreSaid) {
+TEST(Units, ADemInFeetIsReadInMetres) {
     Workplace const place;
-    run_gdal("ogr2ogr -t_srs EPSG:4326 d.gpkg '" + walker + "'", place);
-    Outcome const o = thalweg_run("make d.gpkg --set grid.cell=90 -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(o.err.find("coordinates in WGS 84 (degrees) are reprojected into EPSG:32610"), std::string::npos)
-        << o.err;
-    // A DEM in feet that is pasted comes in metres.
-    run_gdal("gdal_translate -co COMPRESS=DEFLATE '" THALWEG_SOURCE_DIR
-             "/samples/bigtujunga_srtm1_utm11.tif' piece.tif && gdal_edit.py -units ft piece.tif",
-             place);
+    place.shell("gdal_translate " + samples +
+                "bigtujunga_srtm1_utm11.tif piece.tif && gdal_edit.py -units ft piece.tif");
     Dem const piece = dem_in(place / "piece.tif");
     EXPECT_EQ(piece.unit, "ft");
-    json const stats = json::parse(thalweg_run("stats piece.tif --json", place.path()).out);
-    EXPECT_NEAR(stats["max"]["z"].get<double>(),
-                foot * static_cast<double>(*std::max_element(piece.z.begin(), piece.z.end())), 0.1);
+    json const stats = expect_run(place, "stats piece.tif --json", 0).json();
+    EXPECT_NEAR(stats["max"]["z"].get<double>(), foot * static_cast<double>(std::ranges::max(piece.z)), 0.1);
 }
 
 TEST(Units, MetresOfWebMercatorAreNone) {
     Workplace const place;
-    run_gdal("ogr2ogr -t_srs EPSG:3857 w.gpkg '" + walker + "'", place);
-    Outcome const o = thalweg_run("make w.gpkg --set grid.cell=90 -o out", place.path());
-    ASSERT_EQ(o.code, 0) << o.err;
-    EXPECT_NE(
-        o.err.find("coordinates in WGS 84 / Pseudo-Mercator (metres of 0.786 m on the ground) are reprojected into "
-                   "EPSG:32610"),
-        std::string::npos)
-        << o.err;
-    json const own = made(place, "'" + walker + "' --set grid.cell=90", "own");
-    double const length = own["network"]["length_m"];
+    place.shell("ogr2ogr -t_srs EPSG:3857 w.gpkg " + walker);
+    expect_run(place, "make w.gpkg --set grid.cell=90 -o out", 0);
+    double const length = made(place, walker + " --set grid.cell=90", "own")["network"]["length_m"];
     EXPECT_NEAR(report_of(place / "out")["network"]["length_m"].get<double>(), length, 0.03 * length);
     // A CRS that is named stays, with a warning, and the folder is read as it was made.
-    Outcome const named = thalweg_run("make w.gpkg --crs EPSG:3857 --set grid.cell=115 -o named", place.path());
-    EXPECT_EQ(named.code, 0) << named.err;
-    EXPECT_NE(named.err.find("warning: metres of the grid's CRS, EPSG:3857, are 0.786 m on the ground"),
-              std::string::npos)
-        << named.err;
-    EXPECT_EQ(thalweg_run("check named --dem named/dem.tif", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("replay named --verify", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("draw named -o pictures", place.path()).code, 0);
+    expect_run(place, "make w.gpkg --crs EPSG:3857 --set grid.cell=115 -o named", 0, "warning: ");
+    expect_run(place, "check named --dem named/dem.tif", 0);
+    expect_run(place, "replay named --verify", 0);
+    expect_run(place, "draw named -o pictures", 0);
 
-    // A DEM is warped where the cells are not returned, else refused with the command that warps it.
-    run_gdal("gdalwarp -t_srs EPSG:3857 -dstnodata -9999 out/dem.tif w.tif", place);
-    Outcome const stats = thalweg_run("stats w.tif --json", place.path());
-    ASSERT_EQ(stats.code, 0) << stats.err;
-    EXPECT_NE(stats.err.find("EPSG:3857, whose metres are 0.79 m on the ground, are reprojected into EPSG:32610"),
-              std::string::npos)
-        << stats.err;
-    double const slope = json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out)["slope_true_deg"];
-    EXPECT_NEAR(json::parse(stats.out)["slope_true_deg"].get<double>(), slope, 0.15 * slope);
-    Outcome const recipe = thalweg_run("stats w.tif --recipe", place.path());
-    EXPECT_EQ(recipe.out.find("3857"), std::string::npos) << recipe.out;
-    for (std::string const arguments :
-         {"measure w.tif -o m", "points w.tif -o p.xyz", "tin w.tif -o t.obj", "check out --dem w.tif"}) {
-        Outcome const refused = thalweg_run(arguments, place.path());
-        EXPECT_EQ(refused.code, 2) << arguments;
-        EXPECT_NE(refused.err.find("gdalwarp -t_srs EPSG:32610 w.tif"), std::string::npos) << refused.err;
-    }
+    // A DEM is warped where the cells are not returned, else refused.
+    place.shell("gdalwarp -t_srs EPSG:3857 -dstnodata -9999 out/dem.tif w.tif");
+    double const slope = expect_run(place, "stats out/dem.tif --json", 0).json()["slope_true_deg"];
+    EXPECT_NEAR(expect_run(place, "stats w.tif --json", 0).json()["slope_true_deg"].get<double>(), slope, 0.15 * slope);
+    EXPECT_FALSE(test::has(expect_run(place, "stats w.tif --recipe", 0).out, "3857"));
     // Pasted it is warped to the target, which tells where it lies; laid elsewhere its size would be unknown.
-    EXPECT_EQ(thalweg_run("blend out/dem.tif w.tif -o b.tif --window 20,20,30,30", place.path()).code, 0);
-    Outcome const far =
-        thalweg_run("blend w.tif '" THALWEG_SOURCE_DIR "/samples/bigtujunga_srtm1_utm11.tif' -o c.tif", place.path());
-    EXPECT_EQ(far.code, 2);
-    EXPECT_NE(far.err.find("gdalwarp -t_srs EPSG:32610"), std::string::npos) << far.err;
+    expect_run(place, "blend out/dem.tif w.tif -o b.tif --window 20,20,30,30", 0);
+    expect_refused(place, "",
+                   {"measure w.tif -o m", "points w.tif -o p.xyz", "tin w.tif -o t.obj", "check out --dem w.tif",
+                    "blend w.tif " + samples + "bigtujunga_srtm1_utm11.tif -o c.tif"});
 }
 
 TEST(Units, ACrsWithoutACodeIsKeptWithoutAWord) {
     Workplace const place;
     // Albers as R writes it: no code, and a transformation to WGS 84 beside it.
-    run_gdal(
-        "ogr2ogr -t_srs '+proj=aea +lat_0=37 +lon_0=-122 +lat_1=34 +lat_2=41 +ellps=GRS80 +towgs84=0,0,0 +units=m' "
-        "albers.gpkg '" +
-            walker + "'",
-        place);
+    place.shell("ogr2ogr -t_srs '+proj=aea +lat_0=37 +lon_0=-122 +lat_1=34 +lat_2=41 +ellps=GRS80 +towgs84=0,0,0 "
+                "+units=m' albers.gpkg " +
+                walker);
     json const report = made(place, "albers.gpkg --set grid.cell=80", "out");
     EXPECT_FALSE(tells(report, "reprojected"));
-    EXPECT_NE(report["recipe"]["grid"]["crs"].get<std::string>().find("Albers"), std::string::npos);
+    EXPECT_TRUE(test::has(report["recipe"]["grid"]["crs"].get<std::string>(), "Albers"));
     json const utm = made(place, "albers.gpkg --set grid.cell=80 --crs EPSG:32610", "utm");
     EXPECT_TRUE(tells(utm, "are reprojected into EPSG:32610"));
 }

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <nlohmann/json.hpp>
+#include <support.hpp>
 
 #include "command.hpp"
 
@@ -15,9 +15,6 @@ namespace fs = std::filesystem;
 
 namespace {
 
-std::string const small = "make --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 "
-                          "--set network.prune=4 ";
-
 std::size_t entries(fs::path const& folder) {
     return static_cast<std::size_t>(std::distance(fs::directory_iterator(folder), {}));
 }
@@ -26,15 +23,12 @@ std::size_t entries(fs::path const& folder) {
 
 TEST(Manners, HelpAndVersionGoToStdout) {
     Workplace const place;
-    Outcome const help = thalweg_run("--help", place.path());
-    EXPECT_EQ(help.code, 0);
-    EXPECT_NE(help.out.find("make"), std::string::npos);
-    Outcome const version = thalweg_run("--version", place.path());
-    EXPECT_EQ(version.code, 0);
+    Outcome const help = expect_run(place, "--help", 0);
+    EXPECT_TRUE(test::has(help.out, "make"));
+    Outcome const version = expect_run(place, "--version", 0);
     EXPECT_EQ(version.out.rfind("thalweg 0.", 0), 0U) << version.out;
-    Outcome const of_make = thalweg_run("make --help", place.path());
-    EXPECT_EQ(of_make.code, 0);
-    EXPECT_NE(of_make.out.find("Examples:\n  thalweg make"), std::string::npos);
+    Outcome const of_make = expect_run(place, "make --help", 0);
+    EXPECT_TRUE(test::has(of_make.out, "Examples:\n  thalweg make"));
     EXPECT_EQ(thalweg_run("help make", place.path()).out, of_make.out);
     EXPECT_EQ(thalweg_run("help", place.path()).out, help.out);
     EXPECT_EQ(thalweg_run("help make", place.path()).err, "");
@@ -42,21 +36,18 @@ TEST(Manners, HelpAndVersionGoToStdout) {
 
 TEST(Manners, WithoutAWordHelpGoesToStderr) {
     Workplace const place;
-    Outcome const o = thalweg_run("", place.path());
-    EXPECT_EQ(o.code, 2);
+    Outcome const o = expect_run(place, "", 2);
     EXPECT_EQ(o.out, "");
     EXPECT_EQ(o.err, thalweg_run("--help", place.path()).out);
 }
 
 TEST(Manners, RecipeListsKeysAndItsDumpCanBeMade) {
     Workplace const place;
-    Outcome const keys = thalweg_run("recipe", place.path());
-    EXPECT_EQ(keys.code, 0);
-    EXPECT_NE(keys.out.find("sticking"), std::string::npos);
+    Outcome const keys = expect_run(place, "recipe", 0);
+    EXPECT_TRUE(test::has(keys.out, "sticking"));
     Outcome const dump = thalweg_run("recipe --dump", place.path());
     place.write("r.toml", dump.out);
-    Outcome const made = thalweg_run("make r.toml --set grid.width=256 --set grid.height=256 -o out -q", place.path());
-    EXPECT_EQ(made.code, 0) << made.err;
+    Outcome const made = expect_run(place, "make r.toml --set grid.width=256 --set grid.height=256 -o out -q", 0);
     EXPECT_EQ(made.err, "");
 }
 
@@ -64,57 +55,70 @@ TEST(Manners, NumbersAreWrittenAsTheyWereGiven) {
     Workplace const place;
     std::regex const drawn_out("[0-9]*\\.[0-9]{12,}");
     EXPECT_FALSE(std::regex_search(thalweg_run("recipe --dump", place.path()).out, drawn_out));
-    Outcome const made = thalweg_run(small + "-q -o out --set network.slope=0.087 --set grid.cell=0.1 --set "
-                                             "network.heights=straight_repaired --set surface.method=dilate",
-                                     place.path());
-    ASSERT_EQ(made.code, 0) << made.err;
+    expect_run(place,
+               small + "out --set network.slope=0.087 --set grid.cell=0.1 --set "
+                       "network.heights=straight_repaired --set surface.method=dilate",
+               0);
     std::string const recipe = file_bytes(place / "out/recipe.toml");
-    EXPECT_NE(recipe.find("\nslope = 0.087\n"), std::string::npos) << recipe;
-    EXPECT_NE(recipe.find("\ncell = 0.1\n"), std::string::npos) << recipe;
+    EXPECT_TRUE(test::has(recipe, "\nslope = 0.087\n", "\ncell = 0.1\n"));
 }
 
 TEST(Manners, NoEscapeCodesInAPipe) {
     Workplace const place;
-    Outcome const o = thalweg_run(small + "-o out", place.path());
-    EXPECT_EQ(o.code, 0) << o.err;
-    EXPECT_EQ((o.out + o.err).find('\033'), std::string::npos);
+    Outcome const o = expect_run(place, small.substr(0, small.size() - 6) + "-o out", 0); // without -q
+    EXPECT_FALSE(test::has(o.out + o.err, "\033"));
     EXPECT_EQ(o.out, "out\n");
 }
 
 TEST(Manners, JsonIsExactlyOneObject) {
     Workplace const place;
-    Outcome const made = thalweg_run(small + "-o out --json -q", place.path());
-    ASSERT_EQ(made.code, 0) << made.err;
-    auto const report = nlohmann::json::parse(made.out);
+    auto const report = expect_run(place, small + "out --json", 0).json();
     EXPECT_EQ(report["recipe"]["grid"]["width"], 64);
     EXPECT_GT(report["network"]["arcs"], 0);
     EXPECT_TRUE(report["dem"]["max"].contains("col"));
     for (auto const& name : report["files"]) {
         EXPECT_TRUE(fs::exists(place / "out" / name.get<std::string>())) << name;
     }
-    auto const check = nlohmann::json::parse(thalweg_run("check out --json", place.path()).out);
+    auto const check = thalweg_run("check out --json", place.path()).json();
     EXPECT_EQ(check["ok"], true);
-    auto const stats = nlohmann::json::parse(thalweg_run("stats out/dem.tif --json", place.path()).out);
+    auto const stats = thalweg_run("stats out/dem.tif --json", place.path()).json();
     for (auto const& [key, value] : stats.items()) {
         EXPECT_EQ(value, report["dem"][key]) << key;
     }
     EXPECT_GT(stats["lx_cells"], 0.0);
     EXPECT_GT(stats["dimension"], 2.0);
-    std::string const text = thalweg_run("stats out/dem.tif", place.path()).out;
-    for (char const* word : {"shape ", "roughness ", "length ", "dimension "}) {
-        EXPECT_NE(text.find(word), std::string::npos) << text;
+}
+
+TEST(Manners, ADryRunWritesNothing) {
+    Workplace const place;
+    Outcome const o = expect_run(place, small + "out --dry-run", 0);
+    EXPECT_TRUE(test::has(o.out, "grow, thin, trace, prune, meander, channels, fill, carve, "));
+    EXPECT_TRUE(o.err.empty()) << o.err;
+    auto const json = expect_run(place, small + "out --dry-run --json", 0).json();
+    EXPECT_EQ(json["grid"]["width"], 64);
+    EXPECT_EQ(json["stages"][0], "grow");
+    EXPECT_EQ(json["cells"], 64 * 48);
+    expect_refused(place, small + "out --dry-run", {"--set network.source=lines", "-v"}); // -q and -v
+    EXPECT_TRUE(fs::is_empty(place.path()));
+}
+
+TEST(Manners, VerboseShowsEveryStageAndTheMemory) {
+    Workplace const place;
+    std::string const verbose = small.substr(0, small.size() - 6) + "-v -o out"; // without -q
+    Outcome const o = expect_run(place, verbose, 0);
+    for (char const* stage : {"\nthalweg ", "\ngrow ", "\ncertify ", "\nmemory ", "\ntotal "}) {
+        EXPECT_TRUE(test::has("\n" + o.err, stage));
     }
 }
 
 TEST(Manners, OverwriteReplacesOnlyItsOwn) {
     Workplace const place;
-    ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
+    expect_run(place, small + "out", 0);
     std::string const before = file_bytes(place / "out/dem.tif");
     place.write("out/mine.txt", "mine");
-    EXPECT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 2);
+    expect_run(place, small + "out", 2);
     EXPECT_EQ(file_bytes(place / "out/dem.tif"), before);
-    Outcome const again = thalweg_run(small + "--seed 8 -o out -q --overwrite", place.path());
-    EXPECT_EQ(again.code, 0) << again.err;
+    expect_run(place, small + "out --seed 8 --overwrite", 0);
     EXPECT_NE(file_bytes(place / "out/dem.tif"), before);
     EXPECT_EQ(file_bytes(place / "out/mine.txt"), "mine");
     EXPECT_EQ(entries(place.path()), 1U) << "nothing temporary stays";
@@ -122,35 +126,32 @@ TEST(Manners, OverwriteReplacesOnlyItsOwn) {
 
 TEST(Manners, StraightHeightsThatRiseFailTheCheckAndLeaveTheFiles) {
     Workplace const place;
-    Outcome const o =
-        thalweg_run("make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
-                    "network.prune=3 --set network.heights=straight --set surface.method=dilate -o out",
-                    place.path());
-    EXPECT_EQ(o.code, 3) << o.err;
+    expect_run(place,
+               "make --set grid.width=256 --set grid.height=256 --set network.dla.particles=6000 --set "
+               "network.prune=3 --set network.heights=straight --set surface.method=dilate -o out",
+               3, "uphill_arcs");
     EXPECT_TRUE(fs::exists(place / "out/dem.tif"));
-    EXPECT_NE(o.err.find("uphill_arcs"), std::string::npos) << o.err;
-    EXPECT_EQ(thalweg_run("check out", place.path()).code, 3);
+    Outcome const check = expect_run(place, "check out", 3);
+    EXPECT_TRUE(test::has(check.out, "FAILED"));
+    EXPECT_TRUE(test::has(expect_run(place, "check out --json", 3).out, "\"ok\":false"));
 }
 
 TEST(Manners, ATamperedFileIsFoundByReplay) {
     Workplace const place;
-    ASSERT_EQ(thalweg_run(small + "-o out -q", place.path()).code, 0);
-    EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0);
+    expect_run(place, small + "out", 0);
+    expect_run(place, "replay out --verify", 0);
     std::string bytes = file_bytes(place / "out/network.tif");
     bytes[bytes.size() / 2] = static_cast<char>(bytes[bytes.size() / 2] ^ 1);
     place.write("out/network.tif", bytes);
     fs::remove(place / "out/map.png");
-    Outcome const o = thalweg_run("replay out --verify", place.path());
-    EXPECT_EQ(o.code, 3);
-    EXPECT_NE(o.out.find("DIFFERS  network.tif"), std::string::npos) << o.out;
-    EXPECT_NE(o.out.find("MISSING  map.png"), std::string::npos) << o.out;
+    Outcome const o = expect_run(place, "replay out --verify", 3);
+    EXPECT_TRUE(test::has(o.out, "DIFFERS  network.tif", "MISSING  map.png"));
 }
 
 TEST(Manners, TheOpenClDeviceIsNamed) {
     Workplace const place;
-    Outcome const there = thalweg_run(small + "-o out --device opencl", place.path());
-    ASSERT_EQ(there.code, 0) << there.err;
-    EXPECT_NE(("\n" + there.err).find("\ndevice "), std::string::npos) << there.err;
+    Outcome const there = expect_run(place, small + "out --device opencl", 0);
+    EXPECT_TRUE(test::has(("\n" + there.err), "\ndevice "));
     EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0) << "a device is no part of a recipe";
 }
 

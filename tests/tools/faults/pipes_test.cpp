@@ -6,6 +6,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "spawned.hpp"
@@ -22,9 +23,7 @@ class Pipes : public MadeOnce {
 protected:
     static void SetUpTestSuite() {
         MadeOnce::SetUpTestSuite();
-        place().write("region.geojson",
-                      R"({"type":"FeatureCollection","features":[{"type":"Feature","properties":{},"geometry":)"
-                      R"({"type":"Polygon","coordinates":[[[0,0],[9,0],[9,9],[0,0]]]}}]})");
+        place().write("region.geojson", test::geojson(feature("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]")));
         place().write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         place().write("points.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
         fs::create_directory(place() / "folder");
@@ -33,14 +32,14 @@ protected:
             ASSERT_EQ(mkfifo((place() / name).c_str(), 0600), 0);
         }
     }
-    static void expect_refused(Words const& words) {
+    static void expect_refused_pipe(Words const& words) {
         std::string line;
         for (std::string const& word : words) {
             line += word + " ";
         }
         Ended const ended = spawn(words, place().path());
         EXPECT_EQ(ended.code, 2) << line << ended.err;
-        EXPECT_NE(ended.err.find("a pipe or a device"), std::string::npos) << line << ended.err;
+        EXPECT_TRUE(test::has(ended.err, "a pipe or a device")) << line;
         EXPECT_FALSE(fs::exists(place() / "out")) << line;
     }
 };
@@ -93,22 +92,23 @@ TEST_F(Pipes, AreRefusedAsTheInputOfEveryCommand) {
                             {"grow", "--lsystem", "--rules", "p.toml"},
                             {"replay", "folder"},
                             {"recipe", "--for", "p.gpkg"}}) {
-        expect_refused(words);
+        expect_refused_pipe(words);
     }
 }
 
 TEST_F(Pipes, AreRefusedAsTheFilesOfARecipe) {
-    expect_refused(make_with("surface.mask", "p.tif", {"--set", "surface.method=dilate"}));
-    expect_refused(make_with("surface.uplift", "p.tif"));
-    expect_refused(make_with("surface.lakes", "p.geojson"));
-    expect_refused(make_with("skeleton.points", "p.csv", {"--set", "surface.method=diffuse"}));
-    expect_refused({"make", "-o", "out", "--set", "network.source=lines", "--set", "network.lines.path=p.gpkg"});
+    expect_refused_pipe(make_with("surface.mask", "p.tif", {"--set", "surface.method=dilate"}));
+    expect_refused_pipe(make_with("surface.uplift", "p.tif"));
+    expect_refused_pipe(make_with("surface.lakes", "p.geojson"));
+    expect_refused_pipe(make_with("skeleton.points", "p.csv", {"--set", "surface.method=diffuse"}));
+    expect_refused_pipe({"make", "-o", "out", "--set", "network.source=lines", "--set", "network.lines.path=p.gpkg"});
     place().write("lines.toml", "[network]\nsource = \"lines\"\n[network.lines]\npath = \"p.gpkg\"\n[surface]\n");
-    expect_refused({"make", "lines.toml", "-o", "out"});
-    expect_refused(
+    expect_refused_pipe({"make", "lines.toml", "-o", "out"});
+    expect_refused_pipe(
         {"make", "-o", "out", "--set", "network.source=tokunaga", "--set", "network.tokunaga.strokes=p.geojson"});
-    expect_refused({"make", "-o", "out", "--set", "network.source=forest", "--set", "network.forest.region=p.geojson"});
-    expect_refused(make_with("patch.1.source", "p.tif"));
+    expect_refused_pipe(
+        {"make", "-o", "out", "--set", "network.source=forest", "--set", "network.forest.region=p.geojson"});
+    expect_refused_pipe(make_with("patch.1.source", "p.tif"));
 }
 
 TEST_F(Pipes, AreRefusedBesideAFileAndWhereAnotherNamesThem) {
@@ -120,24 +120,24 @@ TEST_F(Pipes, AreRefusedBesideAFileAndWhereAnotherNamesThem) {
         fs::path const part = place() / ("lines." + ending);
         fs::rename(part, place() / "aside");
         ASSERT_EQ(mkfifo(part.c_str(), 0600), 0);
-        expect_refused({"check", "lines.shp"});
-        expect_refused({"make", "lines.shp", "-o", "out"});
-        expect_refused({"make", "lines.toml", "-o", "out"});
+        expect_refused_pipe({"check", "lines.shp"});
+        expect_refused_pipe({"make", "lines.shp", "-o", "out"});
+        expect_refused_pipe({"make", "lines.toml", "-o", "out"});
         fs::remove(part);
         fs::rename(place() / "aside", part);
     }
     for (std::string const ending : {"-journal", "-wal"}) {
         fs::path const beside = place() / ("base/network.gpkg" + ending);
         ASSERT_EQ(mkfifo(beside.c_str(), 0600), 0);
-        expect_refused({"check", "base/network.gpkg"});
+        expect_refused_pipe({"check", "base/network.gpkg"});
         EXPECT_TRUE(fs::remove(beside)) << "it is not ours";
     }
     place().write("land.vrt",
                   "<VRTDataset rasterXSize='9' rasterYSize='9'><GeoTransform>0,9,0,0,0,-9</GeoTransform><VRTRasterBand "
                   "dataType='Float32' band='1'><SimpleSource><SourceFilename relativeToVRT='1'>p.tif</SourceFilename>"
                   "<SourceBand>1</SourceBand></SimpleSource></VRTRasterBand></VRTDataset>");
-    expect_refused({"stats", "land.vrt"});
-    expect_refused({"draw", "land.vrt", "-o", "out"});
+    expect_refused_pipe({"stats", "land.vrt"});
+    expect_refused_pipe({"draw", "land.vrt", "-o", "out"});
 }
 
 } // namespace pipes_test

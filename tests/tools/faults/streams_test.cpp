@@ -7,6 +7,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include "command.hpp"
 #include "spawned.hpp"
@@ -76,7 +77,7 @@ TEST_F(Streams, ResultsThatDoNotArriveAreAFailure) {
             Ended const ended = spawn(words, place().path(), prepare);
             EXPECT_EQ(ended.code, usual.out.empty() ? usual.code : 1) << joined(words) << how << ended.err;
             if (!usual.out.empty()) {
-                EXPECT_NE(ended.err.find("error: cannot write to "), std::string::npos) << joined(words) << ended.err;
+                EXPECT_TRUE(test::has(ended.err, "error: cannot write to ")) << joined(words);
             }
         }
     }

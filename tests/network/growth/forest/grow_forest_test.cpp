@@ -7,18 +7,22 @@
 #include <cstddef>
 #include <cstdint>
 #include <limits>
-#include <stop_token>
 #include <vector>
 
 #include <gtest/gtest.h>
 #include <network/chi_squared.hpp>
 #include <network/growth_params.hpp>
-#include <network/masks.hpp>
+#include <network/networks.hpp>
 #include <network/plain_forest.hpp>
 #include <rapidcheck.h>
 #include <support.hpp>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/network/elevation/set_heights.hpp>
+#include <thalweg/network/growth/forest/coast.hpp>
+#include <thalweg/network/order/order.hpp>
 
 namespace grow_forest_test {
 
@@ -31,7 +35,7 @@ using test::random_blob;
 
 namespace {
 
-using test::full_message_of;
+using test::count;
 using test::on_threads;
 
 /// Some cells of a region that lie two steps apart, at least one.
@@ -66,55 +70,40 @@ Shape shape(GrownForest const& forest) {
             (south.row - north.row) / 4};
 }
 
+/// By cell the basin of the river that runs there, 0 for none.
+Raster<std::int64_t> basins(StreamNetwork const& network, Grid const& grid) {
+    Raster<std::int64_t> basin(grid, 0);
+    for (std::size_t a = 0; a < network.arc_count(); ++a) {
+        for (Cell const c : cells_along(network.arc(a).line, grid)) {
+            basin[c] = network.basin(network.to(a));
+        }
+    }
+    return basin;
+}
+
 } // namespace
-
-TEST(GrowForest, one_cell_is_its_seed) {
-    GrownForest const f = grow_forest(mask_of({"#"}), {{0, 0}});
-    EXPECT_EQ(f.cells, (std::vector<Cell>{{0, 0}}));
-    EXPECT_EQ(f.parent, std::vector<std::int64_t>{-1});
-    EXPECT_EQ(f.tree, std::vector<std::int64_t>{0});
-    EXPECT_EQ(f.walkers, 0);
-    EXPECT_EQ(f.stop, ForestStop::full);
-}
-
-TEST(GrowForest, a_row_of_cells_is_a_chain) {
-    GrownForest const f = grow_forest(mask_of({"#######"}), {{0, 0}}, growth(2, 7));
-    EXPECT_EQ(f.cells, (std::vector<Cell>{{0, 0}, {2, 0}, {4, 0}, {6, 0}}));
-    EXPECT_EQ(f.parent, (std::vector<std::int64_t>{-1, 0, 1, 2}));
-}
 
 TEST(GrowForest, refuses_parameters_and_seeds) {
     Mask const land = mask_of({"####", "####", "..##"});
-    std::vector<Cell> const one = {{0, 0}};
-    for (double const s : {0.0, -0.5, 1.0000001, std::numeric_limits<double>::quiet_NaN()}) {
-        EXPECT_THROW(grow_forest(land, one, growth(1, 7, s)), BadParameter) << s;
+    ForestParams negative;
+    negative.particles = -1;
+    for (ForestParams const& wrong :
+         {growth(1, 7, 0.0), growth(1, 7, 1.0000001), growth(1, 7, std::numeric_limits<double>::quiet_NaN()),
+          growth(0, 7), growth(101, 7), growth(1, 7, 1.0, 0), growth(1, 7, 1.0, 256), negative}) {
+        EXPECT_TRUE(test::refused<BadParameter>("network.grow_forest", [&] { grow_forest(land, {{0, 0}}, wrong); }));
     }
-    EXPECT_THROW(grow_forest(land, one, growth(0, 7)), BadParameter);
-    EXPECT_THROW(grow_forest(land, one, growth(101, 7)), BadParameter);
-    EXPECT_THROW(grow_forest(land, one, growth(1, 7, 1.0, 0)), BadParameter);
-    EXPECT_THROW(grow_forest(land, one, growth(1, 7, 1.0, 256)), BadParameter);
-    ForestParams params;
-    params.particles = -1;
-    EXPECT_THROW(grow_forest(land, one, params), BadParameter);
-    EXPECT_THROW(grow_forest(land, {}), BadInput);
-    EXPECT_THROW(grow_forest(land, {{0, 2}}), BadInput);
-    EXPECT_THROW(grow_forest(land, {{4, 0}}), BadInput);
-    EXPECT_THROW(grow_forest(land, {{0, 0}, {1, 1}}, growth(1, 7)), BadInput);
+    for (double const sticking : {1e-300, 1e-12}) { // it would not end
+        EXPECT_THROW(grow_forest(Mask(frame(40, 40), 1), {{20, 20}}, {.sticking = sticking}), BadParameter);
+    }
+    for (std::vector<Cell> const& seeds : std::vector<std::vector<Cell>>{{}, {{0, 2}}, {{4, 0}}, {{0, 0}, {1, 1}}}) {
+        EXPECT_TRUE(test::refused("network.grow_forest", [&] { grow_forest(land, seeds, growth(1, 7)); }));
+    }
     EXPECT_NO_THROW(grow_forest(land, {{0, 0}, {2, 0}}, growth(1, 7)));
-    EXPECT_EQ(full_message_of<BadInput>([&] {
-                  grow_forest(land, {{0, 0}, {1, 0}}, growth(1, 7));
-              }),
-              "network.grow_forest: the seed (1, 0) lies nearer than 2 cells to another");
 }
 
 TEST(GrowForest, is_cancelled_while_nothing_grows) {
-    Mask const land(frame(300, 300), 1);
-    std::stop_source source;
-    source.request_stop();
-    thalweg::Run stopped;
-    stopped.stop = source.get_token();
-    EXPECT_THROW(grow_forest(land, {{0, 0}}, growth(5, 7), stopped), Cancelled);
-    EXPECT_THROW(grow_forest(Mask(frame(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-9), stopped), Cancelled);
+    EXPECT_THROW(grow_forest(Mask(frame(300, 300), 1), {{0, 0}}, growth(5, 7), test::stopped_run()), Cancelled);
+    EXPECT_THROW(grow_forest(Mask(frame(3, 3), 1), {{0, 0}}, growth(1, 7, 1e-9), test::stopped_run()), Cancelled);
 }
 
 // Laws of the header: a particle hangs on the one nearest to it, s to s + 1 away; it keeps 2 s from all others, but
@@ -163,11 +152,9 @@ TEST(GrowForest, land_without_a_seed_stays_empty) {
 TEST(GrowForest, same_cells_for_any_number_of_threads) {
     Mask const land = random_blob(5, 200, 200, 8, 60);
     std::vector<Cell> const seeds = random_seeds(land, 5, 6, 9);
-    thalweg::Run const one = on_threads(1);
-    thalweg::Run const two = on_threads(2);
-    GrownForest const first = grow_forest(land, seeds, growth(5, 7), one);
+    GrownForest const first = grow_forest(land, seeds, growth(5, 7), on_threads(1));
     for (GrownForest const& again :
-         {grow_forest(land, seeds, growth(5, 7), two), grow_forest(land, seeds, growth(5, 7))}) {
+         {grow_forest(land, seeds, growth(5, 7), on_threads(2)), grow_forest(land, seeds, growth(5, 7))}) {
         EXPECT_EQ(again.cells, first.cells);
         EXPECT_EQ(again.parent, first.parent);
         EXPECT_EQ(again.walkers, first.walkers);
@@ -217,8 +204,8 @@ TEST(RegionWalk, arrivals_have_the_distribution_of_unit_steps) {
     EXPECT_LT(chi_squared::two_samples(planted, slow).p, 0.01);
 }
 
-// Law: forests come out in each shape as often as by the rules written out over unit steps and all pairs of particles,
-// with walkers from everywhere.
+// Law: forests take each shape as often as by the rules written out over unit steps and all pairs of particles, with
+// walkers from everywhere.
 TEST(GrowForest, shapes_come_as_often_as_by_unit_steps) {
     Mask const land = mask_of({"############.....", "############.....", "#################", "#####...#########",
                                "#####...#########", "#################", "#################", "....#############",
@@ -237,10 +224,99 @@ TEST(GrowForest, shapes_come_as_often_as_by_unit_steps) {
     }
 }
 
-TEST(GrowForest, what_would_not_end_is_refused_before_it_begins) {
-    Mask const region(frame(40, 40), 1);
-    EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-300}), BadParameter);
-    EXPECT_THROW(grow_forest(region, {{20, 20}}, {.sticking = 1e-12}), BadParameter);
+TEST(PlantForest, refuses_what_leaves_no_room) {
+    Mask const land(frame(40, 40), 1);
+    for (auto const& [on, outlets] : std::vector<std::pair<Mask, std::vector<Cell>>>{
+             {Mask(frame(40, 40), 0), {}}, {Mask(frame(5, 5), 1), {{0, 0}}}, {land, {{20, 20}}}, {land, {{40, 20}}}}) {
+        EXPECT_TRUE(test::refused("network.plant_forest", [&] { plant_forest(on, outlets); }));
+    }
+    EXPECT_THROW(plant_forest(land, {{0, 20}}, growth(3, 7)), BadParameter);
+    EXPECT_THROW(plant_forest(land, {{0, 20}}, growth(101, 7)), BadParameter);
+}
+
+TEST(PlantForest, outlets_are_added_and_left_out_with_notes) {
+    PlantedForest const one = plant_forest(Mask(frame(60, 60), 1), {});
+    EXPECT_EQ(one.outlets, 1);
+    EXPECT_EQ(count(one.notes, "added_outlet"), 1);
+    EXPECT_EQ(one.stop, ForestStop::full);
+    PlantedForest const crowded = plant_forest(Mask(frame(80, 60), 1), {{0, 30}, {0, 32}, {79, 30}, {79, 30}});
+    EXPECT_EQ(crowded.outlets, 2);
+    EXPECT_EQ(count(crowded.notes, "crowded_outlet"), 2);
+    // Two large islands and a small one.
+    Mask land(frame(200, 80), 0);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        Cell const c = land.grid().at(i);
+        bool const wide = c.row > 2 && c.row < 77 && ((c.col > 2 && c.col < 90) || (c.col > 92 && c.col < 180));
+        land[i] = wide || (c.col > 185 && c.col < 190 && c.row > 20 && c.row < 25) ? 1 : 0;
+    }
+    PlantedForest const f = plant_forest(land, {{3, 40}});
+    EXPECT_EQ(f.outlets, 2);
+    EXPECT_EQ(count(f.notes, "added_outlet"), 1);
+    ASSERT_EQ(count(f.notes, "dry_land"), 1);
+    EXPECT_EQ(f.notes.back().amount, 16.0);
+}
+
+// Laws: one tree an outlet, on its cell of the coast; rivers run on land, those of two trees with two cells between
+// them; every island has an outlet or a note.
+TEST(PlantForest, laws_of_a_planted_forest) {
+    ASSERT_TRUE(rc::check([] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        auto const step = *rc::gen::inRange<std::int64_t>(4, 9);
+        Mask const land = random_blob(seed, *rc::gen::inRange(40, 160), *rc::gen::inRange(40, 160),
+                                      *rc::gen::inRange(1, 9), *rc::gen::inRange(14, 50));
+        std::vector<Cell> const coast = coast_cells(land);
+        std::vector<Cell> const outlets = spread_outlets(land, coast, {*rc::gen::inRange(1, 30), 60.0, seed});
+        PlantedForest f;
+        try {
+            f = plant_forest(land, outlets, growth(step, seed));
+        } catch (BadInput const&) {
+            RC_DISCARD("no room");
+        }
+        Grid const& grid = land.grid();
+        RC_ASSERT(static_cast<std::int64_t>(f.network.outlets().size()) == f.outlets);
+        for (NodeId const n : f.network.outlets()) {
+            Cell const c = grid.cell_of(f.network.node(n).at);
+            RC_ASSERT(f.network.node(n).at == grid.centre(c));
+            RC_ASSERT(std::ranges::find(coast, c) != coast.end());
+        }
+        Raster<std::int64_t> const basin = basins(f.network, grid);
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            if (basin[i] == 0) {
+                continue;
+            }
+            RC_ASSERT(land[i] != 0);
+            Cell const c = grid.at(i);
+            for (std::int64_t row = c.row - 2; row <= c.row + 2; ++row) {
+                for (std::int64_t col = c.col - 2; col <= c.col + 2; ++col) {
+                    RC_ASSERT((!grid.contains({col, row}) || basin[Cell{col, row}] == 0 ||
+                               basin[Cell{col, row}] == basin[i]));
+                }
+            }
+        }
+        RC_ASSERT(test::components(land, 1, 4) <= f.outlets + count(f.notes, "dry_land"));
+    }));
+}
+
+// Law: the network passes every check, with many outlets.
+TEST(PlantForest, networks_pass_every_check) {
+    for (std::uint64_t const seed : {1U, 2U, 3U}) {
+        Grid const grid = frame(400, 300);
+        Mask const land = shape_island(grid, {0.7, seed});
+        PlantedForest const f = plant_forest(land, spread_outlets(land, coast_cells(land), {}), growth(5, seed));
+        EXPECT_GT(f.outlets, 10);
+        ElevatedNetwork const raised = set_heights(f.network).network;
+        measure::TopologyReport const report = measure::check_topology(measure::as_file(raised, order(raised.plan)));
+        for (Check const& check : report.checks) {
+            EXPECT_TRUE(check.ok) << check.name << " " << check.value;
+        }
+    }
+}
+
+TEST(PlantForest, same_network_for_any_number_of_threads) {
+    Mask const land = shape_island(frame(220, 200), {0.5, 4});
+    std::vector<Cell> const outlets = spread_outlets(land, coast_cells(land), {});
+    EXPECT_TRUE(test::same_network(plant_forest(land, outlets, growth(5, 7), on_threads(1)).network,
+                                   plant_forest(land, outlets, growth(5, 7)).network));
 }
 
 } // namespace grow_forest_test

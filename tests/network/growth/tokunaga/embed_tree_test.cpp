@@ -6,7 +6,6 @@
 #include <cmath>
 #include <limits>
 #include <set>
-#include <stop_token>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -15,6 +14,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
 
@@ -29,9 +29,6 @@ using network::TokunagaTree;
 
 namespace {
 
-using test::has;
-using test::message_of;
-
 constexpr double not_a_number = std::numeric_limits<double>::quiet_NaN();
 
 std::vector<Vec2> square(double side_m) {
@@ -40,10 +37,6 @@ std::vector<Vec2> square(double side_m) {
 
 EmbedParams in_square(double side_m) {
     return {.region = square(side_m), .mouth = {0.5 * side_m, 0.0}};
-}
-
-std::string refusal(EmbedParams const& params, TokunagaTree const& tree = grow_tokunaga({.order = 3})) {
-    return message_of<BadParameter>([&] { embed_tree(tree, params); });
 }
 
 struct PlacedLink {
@@ -64,11 +57,7 @@ std::vector<PlacedLink> placed_links(EmbeddedTree const& out) {
 }
 
 double from_link(Vec2 p, PlacedLink const& l) {
-    double const dx = l.lower.x - l.upper.x;
-    double const dy = l.lower.y - l.upper.y;
-    double const along = ((p.x - l.upper.x) * dx + (p.y - l.upper.y) * dy) / (dx * dx + dy * dy);
-    double const t = std::min(1.0, std::max(0.0, along));
-    return distance(p, {l.upper.x + t * dx, l.upper.y + t * dy});
+    return distance(p, geometry::foot_on(l.upper, l.lower, p).at);
 }
 
 /// Of links that do not cross.
@@ -214,53 +203,54 @@ int highest_order_below(int lambda, std::size_t links) {
 
 } // namespace
 
-TEST(EmbedTree, RefusesWhatIsNoRegion) {
-    EXPECT_TRUE(has(refusal({}), "the region has 0 vertices"));
-    EXPECT_TRUE(has(refusal({.region = {{0, 0}, {1, 0}}}), "the region has 2 vertices"));
-    EXPECT_TRUE(
-        has(refusal({.region = {{0, 0}, {9, 9}, {9, 0}, {0, 9}}, .mouth = {1, 1}}), "meets itself at (4.5, 4.5)"));
-    EXPECT_TRUE(has(refusal({.region = {{5, 5}, {5, 5}, {5, 5}}, .mouth = {5, 5}}), "has no area"));
-    EXPECT_NE(refusal({.region = {{0, 0}, {5, 5}, {9, 9}}, .mouth = {5, 5}}), "");
-    EXPECT_TRUE(has(refusal({.region = {{0, 0}, {9, not_a_number}, {9, 9}}}), "vertex (9, nan) is not finite"));
-    EXPECT_TRUE(has(refusal({.region = square(0.001)}), "21 links"));
-}
-
-TEST(EmbedTree, RefusesParametersOutOfRange) {
-    auto params = in_square(100);
-    for (double const clearance : {not_a_number, 0.0, 0.0499, 0.3501, -1.0}) {
-        params.clearance = clearance;
-        EXPECT_TRUE(has(refusal(params), "it must be between 0.05 and 0.35"));
+TEST(EmbedTree, RefusesRegionsAndParameters) {
+    auto const changed = [](auto change) {
+        EmbedParams params = in_square(100);
+        change(params);
+        return params;
+    };
+    std::vector<std::pair<EmbedParams, std::string>> cases{
+        {{}, "the region has 0 vertices"},
+        {{.region = {{0, 0}, {1, 0}}}, "the region has 2 vertices"},
+        {{.region = {{0, 0}, {9, 9}, {9, 0}, {0, 9}}, .mouth = {1, 1}}, "meets itself at (4.5, 4.5)"},
+        {{.region = {{5, 5}, {5, 5}, {5, 5}}, .mouth = {5, 5}}, "has no area"},
+        {{.region = {{0, 0}, {5, 5}, {9, 9}}, .mouth = {5, 5}}, ""},
+        {{.region = {{0, 0}, {9, not_a_number}, {9, 9}}}, "vertex (9, nan)"},
+        {{.region = square(0.001)}, "21 links"},
+        {changed([](EmbedParams& p) {
+             p.mouth = {50, -3};
+         }),
+         "the outlet (50, -3) lies 3 m outside"},
+        {changed([](EmbedParams& p) {
+             p.mouth = {not_a_number, 0};
+         }),
+         ""},
+        {changed([](EmbedParams& p) {
+             p.direction = {0, not_a_number};
+         }),
+         ""}};
+    for (double const wrong : {not_a_number, 0.0499, 0.3501}) {
+        cases.emplace_back(changed([=](EmbedParams& p) { p.clearance = wrong; }), "clearance");
     }
-    params = in_square(100);
-    for (double const spacing : {not_a_number, -1.0, std::numeric_limits<double>::infinity()}) {
-        params.min_spacing_m = spacing;
-        EXPECT_TRUE(has(refusal(params), "min_spacing_m is"));
+    for (double const wrong : {not_a_number, -1.0, std::numeric_limits<double>::infinity()}) {
+        cases.emplace_back(changed([=](EmbedParams& p) { p.min_spacing_m = wrong; }), "min_spacing_m");
     }
-    params = in_square(100);
-    params.mouth = {50, -3};
-    EXPECT_TRUE(has(refusal(params), "the outlet (50, -3) lies 3 m outside"));
-    params.mouth = {not_a_number, 0};
-    EXPECT_TRUE(has(refusal(params), "must be finite"));
-    params = in_square(100);
-    params.direction = {0, not_a_number};
-    EXPECT_TRUE(has(refusal(params), "must be finite"));
+    auto const tree = grow_tokunaga({.order = 3});
+    for (auto const& [params, words] : cases) {
+        EXPECT_TRUE(test::refused<BadParameter>(
+            "network.embed_tree", [&] { embed_tree(tree, params); }, words));
+    }
 }
 
 TEST(EmbedTree, StopsWhenAsked) {
-    std::stop_source source;
-    source.request_stop();
-    thalweg::Run run;
-    run.stop = source.get_token();
-    EXPECT_THROW(embed_tree(grow_tokunaga(), in_square(100), run), Cancelled);
+    EXPECT_THROW(embed_tree(grow_tokunaga(), in_square(100), test::stopped_run()), Cancelled);
 }
 
-TEST(EmbedTree, OneLinkIsOneArc) {
-    auto const tree = grow_tokunaga({.order = 1});
-    auto const out = embed_tree(tree, in_square(100));
-    EXPECT_EQ(out.placed, 1);
-    EXPECT_EQ(out.links_of_arc, (std::vector<std::vector<std::int64_t>>{{0}}));
-    EXPECT_EQ(out.spacing_m, 100.0);
-    EXPECT_EQ(broken(tree, in_square(100), out), "");
+TEST(Polygon, OfATriangle) {
+    std::vector<Vec2> const ring{{1, 0}, {5, 0}, {1, 2}};
+    EXPECT_EQ(network::area_of(ring), 4.0);
+    EXPECT_LT(distance(network::centroid_of(ring), {7.0 / 3.0, 2.0 / 3.0}), 1e-12);
+    EXPECT_EQ(network::lattice_in(ring, 1.0), (std::vector<Vec2>{{1.5, 0.5}, {2.5, 0.5}, {3.5, 0.5}, {1.5, 1.5}}));
 }
 
 TEST(EmbedTree, OutlineOfAGrid) {
@@ -279,6 +269,7 @@ TEST(EmbedTree, FillsASquareAndKeepsEveryLaw) {
             auto const out = embed_tree(tree, params);
             std::string const which = "lambda " + std::to_string(lambda) + ", seed " + std::to_string(seed);
             EXPECT_EQ(broken(tree, params, out), "") << which;
+            EXPECT_NEAR(out.spacing_m, 5000.0 / std::sqrt(static_cast<double>(tree.links.size())), 1e-9);
             EXPECT_GE(static_cast<double>(out.placed), 0.97 * static_cast<double>(tree.links.size())) << which;
             if (out.dropped == 0) {
                 auto const orders = network::order(out.network);
@@ -353,16 +344,6 @@ TEST(EmbedTree, ACrowdedPentagonLosesItsLowestOrders) {
     EXPECT_GT(out.dropped, 0);
 }
 
-TEST(EmbedTree, ManyLinksFindRoom) {
-    auto const tree = grow_tokunaga({.generator = 2, .order = 8});
-    ASSERT_EQ(tree.links.size(), 21845U);
-    auto const params = in_square(20000);
-    auto const out = embed_tree(tree, params);
-    EXPECT_GE(out.placed, 20753); // 95 of 100
-    EXPECT_EQ(broken_tree(tree, params, out), "");
-    EXPECT_EQ(broken_plane(params, out), "");
-}
-
 TEST(EmbedTree, SpreadsEvenly) {
     auto const tree = grow_tokunaga({.generator = 2, .order = 6});
     auto const params = in_square(6400);
@@ -392,25 +373,18 @@ TEST(EmbedTree, WhereRoomIsShortTheHighestOrdersStay) {
     auto params = in_square(1000);
     params.min_spacing_m = 30.0; // the links' own is 27
     auto const out = embed_tree(tree, params);
-    EXPECT_EQ(broken_plane(params, out), "");
-    EXPECT_EQ(out.placed + out.dropped, 1365);
+    EXPECT_EQ(broken(tree, params, out), ""); // what flows into a dropped link is dropped
     EXPECT_GT(out.dropped, 200);
     EXPECT_GT(out.placed, 300);
     std::vector<double> all(7, 0.0);
     std::vector<double> kept(7, 0.0);
-    std::vector<int> here(tree.links.size(), 0);
     for (auto const& link : tree.links) {
         all[static_cast<std::size_t>(link.order)] += 1.0;
     }
     for (auto const& links : out.links_of_arc) {
         for (std::int64_t const link : links) {
             kept[static_cast<std::size_t>(tree.links[static_cast<std::size_t>(link)].order)] += 1.0;
-            EXPECT_EQ(++here[static_cast<std::size_t>(link)], 1);
         }
-    }
-    for (std::size_t i = 0; i < tree.links.size(); ++i) { // what flows into a dropped link is dropped
-        std::int64_t const down = tree.links[i].down;
-        EXPECT_TRUE(here[i] == 0 || down < 0 || here[static_cast<std::size_t>(down)] == 1);
     }
     EXPECT_EQ(kept[6], all[6]);
     EXPECT_EQ(kept[1], 0.0);

@@ -22,35 +22,30 @@ using test::plain_streams;
 
 namespace {
 
-using test::full_message_of;
-
 TEST(GrowTokunaga, RefusesWhatCannotGrow) {
-    EXPECT_THROW(grow_tokunaga({.generator = 0}), BadParameter);
-    EXPECT_THROW(grow_tokunaga({.generator = 51}), BadParameter);
-    EXPECT_THROW(grow_tokunaga({.order = 0}), BadParameter);
-    EXPECT_THROW(grow_tokunaga({.order = 31}), BadParameter);
-    EXPECT_THROW(grow_tokunaga({.max_links = 0}), BadParameter);
-    EXPECT_EQ(full_message_of<BadParameter>([&] { grow_tokunaga({.generator = 50, .order = 30}); }),
-              "network.grow_tokunaga: order 30 with generator 50 has more than 2000000 "
-              "links; lower the order or the generator");
+    for (network::TokunagaParams const& wrong :
+         std::vector<network::TokunagaParams>{{.generator = 0},
+                                              {.generator = 51},
+                                              {.order = 0},
+                                              {.order = 31},
+                                              {.max_links = 0},
+                                              {.generator = 50, .order = 30},
+                                              {.order = 8, .max_links = 21844}}) {
+        EXPECT_TRUE(test::refused<BadParameter>("network.grow_tokunaga", [&] { grow_tokunaga(wrong); }));
+    }
     EXPECT_NO_THROW(grow_tokunaga({.order = 8, .max_links = 21845}));
-    EXPECT_THROW(grow_tokunaga({.order = 8, .max_links = 21844}), BadParameter);
 }
 
-TEST(GrowTokunaga, OrderOneIsOneLink) {
+TEST(GrowTokunaga, OrdersOneAndTwo) {
     auto const tree = grow_tokunaga({.generator = 7, .order = 1});
     ASSERT_EQ(tree.links.size(), 1U);
     EXPECT_EQ(tree.links[0].down, -1);
     EXPECT_EQ(tree.links[0].up[0], -1);
     EXPECT_EQ(tree.links[0].order, 1);
     EXPECT_EQ(tree.link_length, 1.0);
-}
-
-TEST(GrowTokunaga, OrderTwoIsTheGenerator) {
-    for (int lambda = 1; lambda <= 50; ++lambda) {
-        auto const tree = grow_tokunaga({.generator = lambda, .order = 2});
-        EXPECT_EQ(tree.links.size(), static_cast<std::size_t>(2 * lambda + 1));
-        EXPECT_EQ(plain_streams(down_of(tree)).streams.at(1), lambda + 1.0);
+    for (int lambda = 1; lambda <= 50; ++lambda) { // order 2 is the generator
+        EXPECT_EQ(grow_tokunaga({.generator = lambda, .order = 2}).links.size(),
+                  static_cast<std::size_t>(2 * lambda + 1));
     }
 }
 
@@ -64,14 +59,6 @@ TEST(GrowTokunaga, GeneratorTwoHasExactlyTheNumbersOfTokunaga) {
     }
     EXPECT_NEAR(plain.ratio(1), 4.0, 5e-4);
     EXPECT_EQ(tree.link_length, 1.0 / 64.0);
-}
-
-TEST(GrowTokunaga, GeneratorOneHasNoSideBranches) {
-    auto const tree = grow_tokunaga({.generator = 1, .order = 9});
-    EXPECT_EQ(tree.links.size(), 511U);
-    auto const plain = plain_streams(down_of(tree));
-    EXPECT_TRUE(plain.branches.empty());
-    EXPECT_EQ(plain.ratio(1), 2.0);
 }
 
 TEST(GrowTokunaga, SideBranchesFollowTheLawInTheMean) {
@@ -169,18 +156,6 @@ RC_GTEST_PROP(GrowTokunaga, GivesABinaryTreeOfItsOrder, ()) {
     }
 }
 
-TEST(GrowTokunaga, IsTheSameForTheSameSeedOnly) {
-    auto const turns = [](std::uint64_t seed) {
-        std::vector<int> out;
-        for (auto const& link : grow_tokunaga({.seed = seed, .generator = 3, .order = 4}).links) {
-            out.push_back(link.turn);
-        }
-        return out;
-    };
-    EXPECT_EQ(turns(1), turns(1));
-    EXPECT_NE(turns(1), turns(2));
-}
-
 TEST(TokunagaLaws, AreThePapersTable) {
     double const share[] = {1.6180, 1.0, 0.7676, 0.6404};
     double const bifurcation[] = {2.0, 4.0, 5.459, 6.809};
@@ -199,13 +174,11 @@ TEST(TokunagaLaws, AreThePapersTable) {
 
 TEST(CountStreams, CountsByHand) {
     using Down = std::vector<std::int64_t>;
-    EXPECT_EQ(network::count_streams(Down{}).links, 0);
     EXPECT_EQ(network::count_streams(Down{}).order, 0);
     // A stream of order 2 with one side branch, and beside it a lone link.
     auto const counts = network::count_streams(Down{-1, 0, 0, 1, 1, -1});
     EXPECT_EQ(counts.links, 6);
     EXPECT_EQ(counts.sources, 4);
-    EXPECT_EQ(counts.order, 2);
     EXPECT_EQ(counts.streams, (std::vector<std::int64_t>{4, 1}));
     EXPECT_EQ(counts.branches[1], std::vector<std::int64_t>{1});
     EXPECT_EQ(counts.side, std::vector<double>{1.0});

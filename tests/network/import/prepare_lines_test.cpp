@@ -1,0 +1,294 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/network/import/prepare_lines.hpp>
+
+#include <algorithm>
+#include <limits>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <network/rivers.hpp>
+#include <rapidcheck.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/crossings.hpp>
+
+namespace prepare_lines_test {
+
+using namespace thalweg;
+using network::cut_loops;
+using network::CutLine;
+using Line = std::vector<Vec3>;
+
+namespace {
+
+using network::fill_heights;
+using test::lines_of;
+
+constexpr double none = std::numeric_limits<double>::quiet_NaN();
+
+RiverLine line(std::int64_t feature, std::vector<Vec2> const& plan, std::string artificial = "") {
+    RiverLine one;
+    one.feature = feature;
+    for (Vec2 const p : plan) {
+        one.vertices.push_back({p.x, p.y, none});
+    }
+    one.artificial = std::move(artificial);
+    return one;
+}
+
+RiverLines file(std::vector<RiverLine> rivers, std::vector<RiverLine> channels) {
+    RiverLines lines;
+    lines.lines = std::move(rivers);
+    lines.channels = std::move(channels);
+    return lines;
+}
+
+/// Feature and length of the channels that are kept.
+std::vector<std::pair<std::int64_t, double>> kept(RiverLines const& before) {
+    RiverLines const after = network::keep_connectors(before, 0.0);
+    EXPECT_TRUE(after.channels.empty());
+    std::vector<std::pair<std::int64_t, double>> result;
+    double of_channels = 0.0;
+    for (std::size_t l = 0; l < after.lines.size(); ++l) {
+        if (l < before.lines.size()) {
+            EXPECT_EQ(after.lines[l].feature, before.lines[l].feature);
+        } else {
+            EXPECT_FALSE(after.lines[l].artificial.empty());
+            result.emplace_back(after.lines[l].feature, length_in_plan(after.lines[l].vertices));
+            of_channels += result.back().second;
+        }
+    }
+    EXPECT_EQ(std::ranges::count(after.findings, "connector", &Finding::kind), std::ssize(result));
+    for (SecondaryLine const& one : after.secondary) {
+        EXPECT_EQ(one.cause, LeftOut::filter);
+        EXPECT_EQ(one.reason, "waterway ditch");
+        of_channels += length_in_plan(one.vertices);
+    }
+    double given = 0.0;
+    for (RiverLine const& channel : before.channels) {
+        given += length_in_plan(channel.vertices);
+    }
+    EXPECT_NEAR(of_channels, given, 1e-9); // law: each metre is kept or left out
+    return result;
+}
+
+using Kept = std::vector<std::pair<std::int64_t, double>>;
+
+std::string const ditch = "waterway ditch";
+
+Grid const ten{10, 10, 1.0, 0.0, 10.0, ""};
+
+std::vector<double> heights(RiverLines const& lines, std::size_t line) {
+    std::vector<double> z;
+    for (Vec3 const& v : lines.lines[line].vertices) {
+        z.push_back(v.z);
+    }
+    return z;
+}
+
+} // namespace
+
+TEST(KeepConnectors, NothingToKeep) {
+    EXPECT_EQ(kept(file({}, {})), Kept{});
+    EXPECT_EQ(kept(file({}, {line(1, {{0, 0}, {5, 0}}, ditch)})), Kept{});
+    EXPECT_EQ(kept(file({line(1, {{0, 9}, {0, 0}})}, {line(2, {{50, 0}, {60, 0}}, ditch)})), Kept{});
+}
+
+TEST(KeepConnectors, ARiverContinuesThroughADitch) {
+    std::vector<RiverLine> const rivers = {line(1, {{0, 100}, {0, 50}}), line(2, {{0, 30}, {0, 0}})};
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {0, 30}}, ditch)})), (Kept{{3, 20.0}}));
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 30}, {0, 50}}, ditch)})), (Kept{{3, 20.0}})) << "drawn against the flow";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {0, 40}}, ditch), line(4, {{0, 40}, {0, 30}}, ditch)})),
+              (Kept{{3, 10.0}, {4, 10.0}}));
+    // By the shorter of two ways.
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {15, 40}, {0, 30}}, ditch), line(4, {{0, 50}, {0, 30}}, ditch)})),
+              (Kept{{4, 20.0}}));
+    // Of a canal only the part that is needed.
+    EXPECT_EQ(kept(file({line(1, {{0, 100}, {0, 50}}), line(2, {{20, 50}, {20, 0}})},
+                        {line(3, {{-40, 50}, {0, 50}, {10, 50}, {20, 50}, {90, 50}}, ditch)})),
+              (Kept{{3, 20.0}}));
+}
+
+TEST(KeepConnectors, DitchesThatNoRiverNeedsAreLeftOut) {
+    std::vector<RiverLine> const rivers = {line(1, {{0, 100}, {0, 50}, {0, 0}}), line(2, {{80, 90}, {80, 0}})};
+    EXPECT_EQ(kept(file(rivers, {line(3, {{30, 60}, {0, 50}}, ditch)})), Kept{}) << "it drains a field";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {30, 40}}, ditch)})), Kept{}) << "it irrigates one";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 50}, {80, 90}}, ditch)})), Kept{}) << "it feeds another river";
+    EXPECT_EQ(kept(file(rivers, {line(3, {{0, 0}, {0, -50}}, ditch)})), Kept{}) << "it leads to no river";
+}
+
+TEST(KeepConnectors, RiversThatAreDrawnUpstreamEndWhereTheyBegin) {
+    // One source and two ends: the group is drawn upstream, and so is the river without a tributary.
+    EXPECT_EQ(kept(file({line(1, {{0, 50}, {0, 80}}), line(2, {{0, 80}, {9, 99}}), line(3, {{0, 80}, {-9, 99}}),
+                         line(4, {{0, 0}, {0, 30}})},
+                        {line(5, {{0, 50}, {0, 30}}, ditch)})),
+              (Kept{{5, 20.0}}));
+}
+
+TEST(KeepConnectors, HeightsDecideWhereARiverEnds) {
+    RiverLines lines =
+        file({line(1, {{0, 50}, {0, 100}}), line(2, {{0, 30}, {0, 0}})}, {line(3, {{0, 50}, {0, 30}}, ditch)});
+    EXPECT_EQ(kept(lines), Kept{});
+    lines.lines[0].vertices[0].z = 5.0;
+    lines.lines[0].vertices[1].z = 9.0;
+    lines.lines[1].vertices[0].z = lines.lines[1].vertices[1].z = 1.0;
+    lines.has_z = true;
+    EXPECT_EQ(kept(lines), (Kept{{3, 20.0}}));
+    EXPECT_FALSE(network::keep_connectors(lines, 0.0).has_z); // the ditch has none yet
+}
+
+TEST(KeepConnectors, EndsMeetWithinTheSnappingDistance) {
+    RiverLines const lines =
+        file({line(1, {{0, 100}, {0, 52}}), line(2, {{1, 29}, {0, 0}})}, {line(3, {{0, 50}, {0, 30}}, ditch)});
+    EXPECT_EQ(kept(lines), Kept{});
+    EXPECT_EQ(network::keep_connectors(lines, 3.0).lines.size(), 3U);
+}
+
+TEST(ClipLines, NothingInside) {
+    EXPECT_TRUE(network::clip_lines({}, ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(lines_of({{{-5, 5, 1}, {-1, 5, 0}}}), ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(lines_of({{{-5, 0, 1}, {0, -5, 0}}}), ten).lines.empty());
+    EXPECT_TRUE(network::clip_lines(lines_of({{{0, 5, 1}, {-3, 5, 0}}}), ten).lines.empty())
+        << "touches the edge in one point";
+}
+
+TEST(ClipLines, AllInsideIsKeptBitForBit) {
+    RiverLines const lines = lines_of({{{0.1, 0.2, 3}, {5, 5, 2}, {10, 10, 1}}});
+    RiverLines const out = network::clip_lines(lines, ten);
+    ASSERT_EQ(out.lines.size(), 1U);
+    EXPECT_EQ(out.lines[0].vertices, lines.lines[0].vertices);
+}
+
+TEST(ClipLines, LeavesAndReturns) {
+    RiverLines const out = network::clip_lines(lines_of({{{2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}}}), ten);
+    ASSERT_EQ(out.lines.size(), 2U);
+    EXPECT_EQ(out.lines[0].vertices, (std::vector<Vec3>{{2, 5, 8}, {10, 5, 6.4}}));
+    EXPECT_EQ(out.lines[1].vertices, (std::vector<Vec3>{{10, 7, 3.6}, {2, 7, 2}}));
+    EXPECT_EQ(out.lines[1].feature, 1);
+    // Without a vertex inside.
+    RiverLines const across = network::clip_lines(lines_of({{{-10, 5, 30}, {20, 5, 0}}}), ten);
+    ASSERT_EQ(across.lines.size(), 1U);
+    EXPECT_EQ(across.lines[0].vertices, (std::vector<Vec3>{{0, 5, 20}, {10, 5, 10}}));
+}
+
+// Law: every metre is inside or beyond.
+TEST(ClipLines, WhatLiesBeyondIsSecondary) {
+    auto const lines = lines_of({{{-10, 5, 30}, {2, 5, 8}, {12, 5, 6}, {12, 7, 4}, {2, 7, 2}, {2, 20, 0}}});
+    RiverLines const out = network::clip_lines(lines, ten);
+    double inside = 0.0;
+    double beyond = 0.0;
+    for (RiverLine const& line : out.lines) {
+        inside += length_in_plan(line.vertices);
+    }
+    for (SecondaryLine const& line : out.secondary) {
+        EXPECT_EQ(line.cause, LeftOut::grid);
+        EXPECT_EQ(line.record, line.feature);
+        beyond += length_in_plan(line.vertices);
+    }
+    EXPECT_EQ(out.secondary.size(), 3U);
+    EXPECT_NEAR(inside + beyond, length_in_plan(lines.lines.front().vertices), 1e-9);
+    EXPECT_TRUE(network::clip_lines(lines_of({{{2, 5, 8}, {3, 5, 6}}}), ten).secondary.empty());
+    EXPECT_EQ(network::clip_lines(lines_of({{{-5, 0, 1}, {0, -5, 0}}}), ten).secondary.size(), 1U);
+}
+
+TEST(FillHeights, NothingToFill) {
+    EXPECT_EQ(fill_heights({}, 0.01).filled, 0);
+    EXPECT_THROW(fill_heights({}, 0.0), BadParameter);
+    auto const all = fill_heights(lines_of({{{0, 0, 5}, {10, 0, 4}}}), 0.01);
+    EXPECT_EQ(all.filled, 0);
+    auto const no_heights = fill_heights(lines_of({{{0, 0, none}, {10, 0, none}}}), 0.01);
+    EXPECT_EQ(no_heights.filled, 0);
+    EXPECT_FALSE(no_heights.lines.has_z);
+    auto const zeros = fill_heights(lines_of({{{0, 0, 0}, {10, 0, 0}}, {{10, 0, none}, {20, 0, none}}}), 0.01);
+    EXPECT_FALSE(zeros.lines.has_z) << "heights that are all 0 are none";
+}
+
+TEST(FillHeights, BetweenTwoKnownHeightsLinearByLength) {
+    auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}},
+                                               {{100, 0, none}, {130, 0, none}, {200, 0, none}},
+                                               {{200, 0, 80}, {300, 0, 70}}}),
+                                     0.01);
+    EXPECT_EQ(filled.filled, 1);
+    EXPECT_EQ(filled.first, 2);
+    EXPECT_TRUE(filled.lines.has_z);
+    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{90, 87, 80}));
+    EXPECT_EQ(heights(filled.lines, 0), (std::vector<double>{100, 90}));
+}
+
+TEST(FillHeights, FreeEndsRiseUpstreamAndFallDownstream) {
+    std::vector<std::vector<Vec3>> const drawn = {{{0, 0, 100}, {100, 0, 90}},
+                                                  {{-100, 0, none}, {0, 0, none}},
+                                                  {{100, 0, none}, {300, 0, none}},
+                                                  {{300, 0, none}, {400, 0, none}}};
+    auto const filled = fill_heights(lines_of(drawn), 0.1);
+    EXPECT_EQ(filled.filled, 3);
+    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{110, 100}));
+    EXPECT_EQ(heights(filled.lines, 2), (std::vector<double>{90, 70}));
+    EXPECT_EQ(heights(filled.lines, 3), (std::vector<double>{70, 60}));
+
+    std::vector<std::vector<Vec3>> upstream = drawn;
+    for (auto& line : upstream) {
+        line = {line.rbegin(), line.rend()};
+    }
+    auto const turned = fill_heights(lines_of(upstream), 0.1);
+    EXPECT_EQ(heights(turned.lines, 1), (std::vector<double>{100, 110}));
+    EXPECT_EQ(heights(turned.lines, 3), (std::vector<double>{60, 70}));
+}
+
+TEST(FillHeights, ARiverOfItsOwnBeginsAtTheNearestHeight) {
+    auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}}, {{90, 200, none}, {90, 100, none}}}), 0.1);
+    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{100, 90}));
+}
+
+TEST(CutLoops, NothingToCut) {
+    EXPECT_TRUE(cut_loops({}).line.empty());
+    EXPECT_EQ(cut_loops({{1, 2, 3}}).line, (Line{{1, 2, 3}}));
+    Line const bend{{0, 0, 3}, {1, 0, 2}, {1, 1, 1}};
+    EXPECT_EQ(cut_loops(bend).line, bend);
+    EXPECT_EQ(cut_loops(bend).cut_m, 0.0);
+    EXPECT_EQ(cut_loops({{0, 0, 2}, {0, 0, 2}, {1, 0, 1}}).line, (Line{{0, 0, 2}, {1, 0, 1}}));
+    EXPECT_THROW(cut_loops({{0, 0, 0}, {std::numeric_limits<double>::infinity(), 0, 0}, {1, 1, 0}}), BadInput);
+}
+
+TEST(CutLoops, ACrossingBecomesAVertexAndARingAPoint) {
+    CutLine const cut = cut_loops({{0, 0, 5}, {4, 0, 4}, {4, 2, 3}, {2, 2, 2}, {2, -2, 1}});
+    EXPECT_EQ(cut.line, (Line{{0, 0, 5}, {2, 0, 4.5}, {2, -2, 1}}));
+    EXPECT_EQ(cut.cut_m, 8.0);
+    EXPECT_EQ(cut_loops({{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {0, 0, 1}}).line.size(), 1U);
+}
+
+TEST(CutLoops, SpikesGo) {
+    EXPECT_EQ(cut_loops({{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {1, 0, 2}, {2, 0, 1}}).line,
+              (Line{{0, 0, 2}, {1, 0, 2}, {2, 0, 1}}));
+    // Back along itself: it goes on from where it turned.
+    EXPECT_EQ(cut_loops({{0, 0, 2}, {2, 0, 2}, {1, 0, 2}, {1, 1, 1}}).line, (Line{{0, 0, 2}, {1, 0, 2}, {1, 1, 1}}));
+    // Nearly.
+    Line const nearly{{0, 0, 2}, {1, 0, 2}, {1, 1, 2}, {1.001, 0, 2}, {2, 0, 1}};
+    EXPECT_EQ(cut_loops(nearly).line, nearly);
+    EXPECT_EQ(cut_loops(nearly, 0.01).line, (Line{{0, 0, 2}, {1, 0, 2}, {1.001, 0, 2}, {2, 0, 1}}));
+}
+
+TEST(CutLoops, AnyLineBecomesSimple) {
+    ASSERT_TRUE(rc::check("ends stay, nothing meets itself, nothing is added", [] {
+        auto const whole = [](int beyond) { return *rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, beyond)); };
+        Line line(static_cast<std::size_t>(2 + whole(9)));
+        for (Vec3& p : line) {
+            p = {static_cast<double>(whole(7)), static_cast<double>(whole(7)), static_cast<double>(whole(3))};
+        }
+        CutLine const cut = cut_loops(line);
+        std::vector<Vec2> plan;
+        for (Vec3 const p : cut.line) {
+            plan.push_back({p.x, p.y});
+        }
+        RC_ASSERT(geometry::crossings({plan}).empty());
+        RC_ASSERT(plan.front() == (Vec2{line.front().x, line.front().y}));
+        RC_ASSERT(plan.back() == (Vec2{line.back().x, line.back().y}));
+        RC_ASSERT(cut.cut_m >= 0.0);
+    }));
+}
+
+} // namespace prepare_lines_test
