@@ -34,17 +34,17 @@ int main(int count, char** words) try {
 
     // A stream runs where 500 cells drain through one.
     flow::ExtractedStreams const streams = flow::extract_streams(drainage, dem, {.support_cells = 500});
-    NetworkOrders const orders = network::order(streams.network.plan);
+    NetworkOrders const orders = network::order(streams.network.planform);
     //! [route]
-    std::printf("%zu arcs, highest order %d\n", streams.network.plan.arc_count(),
+    std::printf("%zu arcs, highest order %d\n", streams.network.planform.arc_count(),
                 *std::max_element(orders.strahler.begin(), orders.strahler.end()));
-    measure::HortonLaws const laws = measure::horton(streams.network.plan, orders, streams.areas.ds_area_m2);
+    measure::HortonLaws const laws = measure::horton(streams.network.planform, orders, streams.areas.ds_area_m2);
     if (laws.bifurcation) { // a short network may have none
         std::printf("bifurcation ratio %.2f\n", laws.bifurcation->ratio);
     }
 
     // Every cell belongs to the catchment of the first stream that its water meets.
-    flow::Reaches const reaches = flow::reaches_of(streams.network.plan);
+    flow::Reaches const reaches = flow::reaches_of(streams.network.planform);
     flow::Catchments const catchments = flow::catchments(reaches, drainage);
     auto const largest = std::max_element(catchments.upstream.begin(), catchments.upstream.end());
     std::int64_t const drained = std::accumulate(catchments.cells.begin(), catchments.cells.end(), std::int64_t{0});

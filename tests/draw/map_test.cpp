@@ -88,7 +88,7 @@ TEST(Map, RiversAreAsWideAsTheRootOfWhatTheyDrain) {
         return draw::map({land.dem, land.hillshade, &land.network, &land.orders, {}, nullptr, std::move(areas_m2)})
             .bytes;
     };
-    std::size_t const arcs = land.network.plan.arc_count();
+    std::size_t const arcs = land.network.planform.arc_count();
     std::vector<double> small(arcs, 1e4);
     small.back() = 1e8;
     auto const thin = test::river_pixels(test::decode(drawn_by(small)));

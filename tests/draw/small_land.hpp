@@ -47,10 +47,10 @@ inline SmallLand small_land() {
     net.add_arc(0, 2);
     net.add_arc(1, 2);
     net.add_arc(2, 3);
-    land.network.plan = std::move(net);
+    land.network.planform = std::move(net);
     land.network.node_z = {160, 150, 100, 4};
     land.network.arc_z = {{160, 100}, {150, 100}, {100, 4}};
-    land.orders = network::order(land.network.plan);
+    land.orders = network::order(land.network.planform);
     return land;
 }
 

@@ -159,7 +159,7 @@ rc::Gen<std::pair<StreamNetwork, Grid>> gen_rivers() {
                    *evenly<std::int64_t>(0, 4);
         };
         Grid const grid = frame(cells(cols), cells(rows));
-        return std::pair{random_rivers(seed, cols, rows, spacing).plan, grid};
+        return std::pair{random_rivers(seed, cols, rows, spacing).planform, grid};
     });
 }
 
@@ -206,7 +206,7 @@ TEST(Catchments, FollowTheDefinitionAndAgreeWithAreas) {
         auto const [rivers, dem] = *gen_rivers_and_land();
         Grid const& grid = dem.grid();
         FlowField const drainage = route(dem);
-        auto const reaches = reaches_of(rivers.plan);
+        auto const reaches = reaches_of(rivers.planform);
         Catchments const c = catchments(reaches, drainage);
         std::map<std::int64_t, std::pair<std::int64_t, std::size_t>> owner; // cell -> steps to the outlet, arc
         for (std::size_t a = 0; a < reaches.size(); ++a) {
@@ -238,7 +238,7 @@ TEST(Catchments, FollowTheDefinitionAndAgreeWithAreas) {
         }
         RC_ASSERT(c.cells == count);
         RC_ASSERT(c.without == without);
-        auto const areas = flow::areas_d8(rivers.plan, drainage);
+        auto const areas = flow::areas_d8(rivers.planform, drainage);
         for (std::size_t a = 0; a < reaches.size(); ++a) {
             RC_ASSERT(areas.ds_area_m2[a] == static_cast<double>(c.upstream[a]) * grid.cell_m * grid.cell_m);
         }

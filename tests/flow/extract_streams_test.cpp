@@ -62,7 +62,7 @@ TEST(ExtractStreams, NoDataAndLoneCellsHaveNoRivers) {
     for (Raster<float> const& dem : {Raster<float>(frame(3, 2), hole), dem_of(1, {4})}) {
         FlowField const drainage = flow::route(dem);
         ExtractedStreams const streams = extract_streams(drainage, dem, {.support_cells = 1});
-        EXPECT_EQ(streams.network.plan.node_count(), 0U);
+        EXPECT_EQ(streams.network.planform.node_count(), 0U);
         EXPECT_EQ(support_for_length(drainage, 1.0), 1);
     }
 }
@@ -78,10 +78,10 @@ TEST(ExtractStreams, AFork) {
                                         });
     FlowField const drainage = flow::route(dem);
     ExtractedStreams const streams = extract_streams(drainage, dem, {.support_cells = 4});
-    ASSERT_EQ(streams.network.plan.node_count(), 4U);
-    ASSERT_EQ(streams.network.plan.arc_count(), 3U);
-    EXPECT_EQ(streams.network.plan.outlets(), std::vector<NodeId>{3});
-    EXPECT_EQ(streams.network.plan.arc(2).line.size(), 3U);
+    ASSERT_EQ(streams.network.planform.node_count(), 4U);
+    ASSERT_EQ(streams.network.planform.arc_count(), 3U);
+    EXPECT_EQ(streams.network.planform.outlets(), std::vector<NodeId>{3});
+    EXPECT_EQ(streams.network.planform.arc(2).line.size(), 3U);
     EXPECT_EQ(streams.network.arc_z[2], (std::vector<double>{4, 3, 1}));
     EXPECT_EQ(streams.network.node_z, (std::vector<double>{6, 6, 4, 1}));
 }
@@ -92,7 +92,7 @@ TEST(ExtractStreams, IsWhatDrainsThroughEnoughCells) {
         auto const support = *evenly<std::int64_t>(1, 12);
         FlowField const drainage = flow::route(dem);
         ExtractedStreams const streams = extract_streams(drainage, dem, {.support_cells = support});
-        StreamNetwork const& plan = streams.network.plan;
+        StreamNetwork const& plan = streams.network.planform;
         std::set<std::pair<std::int64_t, std::int64_t>> walked;
         double length = 0.0;
         for (std::size_t a = 0; a < plan.arc_count(); ++a) {

@@ -151,9 +151,9 @@ Fnv hash_of(Tin const& tin) {
 /// Breaklines of a network.
 std::vector<std::vector<Vec3>> lines_of(ElevatedNetwork const& network) {
     std::vector<std::vector<Vec3>> lines;
-    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
+    for (ArcId a = 0; a < network.planform.arc_count(); ++a) {
         auto& line = lines.emplace_back();
-        for (std::size_t k = 0; Vec2 const& p : network.plan.arc(a).line) {
+        for (std::size_t k = 0; Vec2 const& p : network.planform.arc(a).line) {
             line.push_back({p.x, p.y, network.arc_z[a][k++]});
         }
     }
@@ -255,7 +255,7 @@ void print_points(Run const& run) {
 
 /// Ridges between streams, by both methods.
 void print_ridges(ElevatedNetwork const& rivers, Grid const& grid, Run const& run) {
-    auto const streams = network::streams(rivers.plan, network::order(rivers.plan));
+    auto const streams = network::streams(rivers.planform, network::order(rivers.planform));
     Fnv labels;
     labels.add_all(streams);
     print("streams", labels);
@@ -655,7 +655,7 @@ int main(int count, char** words) {
     print_ridges(raised.network, grid, run);
     print_skeleton(valley, run);
     print_drained(land, valley, run);
-    print_water(land, raised.network.plan, run);
+    print_water(land, raised.network.planform, run);
     print_trees(run);
     print_equilibrium(pruned, grid, run);
 }

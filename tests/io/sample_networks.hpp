@@ -47,8 +47,8 @@ struct SampleNetwork {
 
     /// Fills orders, and areas that grow downstream.
     void settle() {
-        network.plan = draft;
-        thalweg::StreamNetwork const& plan = network.plan;
+        network.planform = draft;
+        thalweg::StreamNetwork const& plan = network.planform;
         orders = thalweg::network::order(plan);
         us_area_m2.assign(plan.arc_count(), 0.1);
         ds_area_m2.assign(plan.arc_count(), 0.0);
@@ -71,7 +71,7 @@ struct SampleNetwork {
 /// A network with orders and areas of its own.
 inline SampleNetwork sample_of(thalweg::ElevatedNetwork network) {
     SampleNetwork sample;
-    sample.draft = network.plan.draft();
+    sample.draft = network.planform.draft();
     sample.network = std::move(network);
     sample.settle();
     return sample;

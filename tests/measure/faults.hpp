@@ -30,7 +30,7 @@ inline double const no_number = std::numeric_limits<double>::quiet_NaN();
 
 inline NetworkFile clean(std::uint64_t seed, std::int64_t cols = 12, std::int64_t rows = 12) {
     thalweg::ElevatedNetwork const rivers = random_rivers(seed, cols, rows);
-    return thalweg::measure::as_file(rivers, orders_of(rivers.plan));
+    return thalweg::measure::as_file(rivers, orders_of(rivers.planform));
 }
 
 /// The least square lattice's with so many arcs.

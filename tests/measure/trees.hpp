@@ -57,7 +57,7 @@ inline thalweg::ElevatedNetwork random_rivers(std::uint64_t seed, std::int64_t c
             plan.add_arc(node[p], node[at], std::move(arc));
         }
     }
-    rivers.plan = std::move(plan);
+    rivers.planform = std::move(plan);
     return rivers;
 }
 

@@ -102,15 +102,15 @@ inline StreamNetwork chain(std::size_t arcs) {
 /// Heights of nodes; along arcs linear by length.
 inline ElevatedNetwork elevated(StreamNetwork plan, std::vector<double> node_z) {
     ElevatedNetwork out{std::move(plan), std::move(node_z), {}};
-    for (std::size_t a = 0; a < out.plan.arc_count(); ++a) {
-        auto const& line = out.plan.arc(a).line;
-        double const high = out.node_z[out.plan.from(a)];
-        double const low = out.node_z[out.plan.to(a)];
+    for (std::size_t a = 0; a < out.planform.arc_count(); ++a) {
+        auto const& line = out.planform.arc(a).line;
+        double const high = out.node_z[out.planform.from(a)];
+        double const low = out.node_z[out.planform.to(a)];
         double along = 0.0;
         auto& z = out.arc_z.emplace_back(1, high);
         for (std::size_t i = 1; i < line.size(); ++i) {
             along += distance(line[i - 1], line[i]);
-            z.push_back(i + 1 == line.size() ? low : high + (low - high) * along / out.plan.length_m(a));
+            z.push_back(i + 1 == line.size() ? low : high + (low - high) * along / out.planform.length_m(a));
         }
     }
     return out;
@@ -138,12 +138,12 @@ inline ElevatedNetwork star(int rivers, bool outlet_in_the_middle, double reach_
 
 /// Law: an arc has one height a vertex, those of its nodes at its ends, and does not rise downstream.
 inline void require_heights(ElevatedNetwork const& rivers) {
-    RC_ASSERT(rivers.arc_z.size() == rivers.plan.arc_count());
+    RC_ASSERT(rivers.arc_z.size() == rivers.planform.arc_count());
     for (std::size_t a = 0; a < rivers.arc_z.size(); ++a) {
         std::vector<double> const& z = rivers.arc_z[a];
-        RC_ASSERT(z.size() == rivers.plan.arc(a).line.size());
-        RC_ASSERT(z.front() == rivers.node_z[rivers.plan.from(a)]);
-        RC_ASSERT(z.back() == rivers.node_z[rivers.plan.to(a)]);
+        RC_ASSERT(z.size() == rivers.planform.arc(a).line.size());
+        RC_ASSERT(z.front() == rivers.node_z[rivers.planform.from(a)]);
+        RC_ASSERT(z.back() == rivers.node_z[rivers.planform.to(a)]);
         RC_ASSERT(std::is_sorted(z.rbegin(), z.rend()));
     }
 }

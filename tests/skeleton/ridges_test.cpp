@@ -98,8 +98,8 @@ struct Near {
 class Rivers {
 public:
     Rivers(Land const& land, Method method) {
-        for (std::size_t a = 0; a < land.rivers.plan.arc_count(); ++a) {
-            auto const& line = land.rivers.plan.arc(a).line;
+        for (std::size_t a = 0; a < land.rivers.planform.arc_count(); ++a) {
+            auto const& line = land.rivers.planform.arc(a).line;
             auto const& z = land.rivers.arc_z[a];
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 double const length = distance(line[i], line[i + 1]);
@@ -279,7 +279,7 @@ TEST(Ridges, TwoRiversHaveOneFromEdgeToEdge) {
 
 TEST(Ridges, MeetNoRiver) {
     everywhere([](Land const& land, RidgesParams const&, RidgeLines const& made) {
-        auto drawn = plan_of(land.rivers.plan);
+        auto drawn = plan_of(land.rivers.planform);
         std::size_t const rivers = drawn.size();
         for (auto& line : plan_of(made)) {
             drawn.push_back(std::move(line));
@@ -423,11 +423,11 @@ TEST(Ridges, BothMethodsAgree) {
             params.method = method;
             return plan_of(ridges(land.rivers, land.stream, grid, params));
         };
-        auto const rivers = plan_of(land.rivers.plan);
+        auto const rivers = plan_of(land.rivers.planform);
         std::vector<Vec2> shared; // places of several streams, which nothing keeps apart
-        for (NodeId n = 0; n < land.rivers.plan.node_count(); ++n) {
-            if (land.rivers.plan.in(n).size() > 1) {
-                shared.push_back(land.rivers.plan.node(n).at);
+        for (NodeId n = 0; n < land.rivers.planform.node_count(); ++n) {
+            if (land.rivers.planform.in(n).size() > 1) {
+                shared.push_back(land.rivers.planform.node(n).at);
             }
         }
         int looked_at = 0;

@@ -170,7 +170,7 @@ int make(MakeOptions const& options, Session const& session) {
     if (made.assessment.passed()) {
         std::string words = fmt::format("{} checks", made.assessment.checks.size());
         if (made.recipe.network) {
-            std::size_t const outlets = made.terrain.rivers.network.plan.outlets().size();
+            std::size_t const outlets = made.terrain.rivers.network.planform.outlets().size();
             words += fmt::format(", {} outlet{}", outlets, outlets == 1 ? "" : "s");
         }
         if (made.terrain.surface) {

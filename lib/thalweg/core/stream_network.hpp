@@ -151,7 +151,7 @@ double length_of(std::vector<Vec2> const& line);
 
 /// A network with heights.
 struct ElevatedNetwork {
-    StreamNetwork plan;
+    StreamNetwork planform;                 ///< seen from above
     std::vector<double> node_z;             ///< [m] by node
     std::vector<std::vector<double>> arc_z; ///< [m] by arc, by vertex; ends equal node_z bit for bit
 };

@@ -100,16 +100,16 @@ struct Reach {
 };
 
 std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders const& orders) {
-    std::size_t const arcs = network.plan.arc_count();
+    std::size_t const arcs = network.planform.arc_count();
     refuse_if<BadInput>(
         network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
-            orders.node_dist_out_m.size() != network.plan.node_count(),
+            orders.node_dist_out_m.size() != network.planform.node_count(),
         "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again", arcs);
     std::vector<Reach> reaches;
     std::size_t number_of_arc = 0;
-    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
+    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
         std::size_t const k = number_of_arc++;
-        std::vector<Vec2> const& line = network.plan.arc(arc).line;
+        std::vector<Vec2> const& line = network.planform.arc(arc).line;
         std::vector<double> const& z = network.arc_z[k];
         refuse_if<BadInput>(z.size() != line.size(),
                             "draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
@@ -118,7 +118,7 @@ std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders cons
             continue;
         }
         Reach reach{std::vector<Vec2>(line.size()), orders.hack[k]};
-        double to_outlet = orders.node_dist_out_m[network.plan.to(arc)];
+        double to_outlet = orders.node_dist_out_m[network.planform.to(arc)];
         for (std::size_t i = line.size(); i-- > 0;) {
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
             refuse_if<BadInput>(!std::isfinite(to_outlet) || !std::isfinite(z[i]),

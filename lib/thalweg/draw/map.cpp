@@ -377,7 +377,7 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
         return;
     }
     std::vector<std::pair<double, ArcId>> arcs; // wide ones on top
-    for (ArcId a = 0; a < sheet.network->plan.arc_count(); ++a) {
+    for (ArcId a = 0; a < sheet.network->planform.arc_count(); ++a) {
         arcs.emplace_back(scale.largest_area_m2 > 0.0 ? known(sheet.areas_m2[a]) : sheet.orders->strahler[a], a);
     }
     std::stable_sort(arcs.begin(), arcs.end(), [](auto const& a, auto const& b) { return a.first < b.first; });
@@ -386,7 +386,7 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
     for (auto const& [size, a] : arcs) {
         LineStyle const style = scale.largest_area_m2 > 0.0 ? style_of_area(size, scale, unit)
                                                             : style_of_order(static_cast<int>(size), scale, unit);
-        trace_line(canvas, on_sheet(sheet.network->plan.arc(a).line, window), corner_px);
+        trace_line(canvas, on_sheet(sheet.network->planform.arc(a).line, window), corner_px);
         set_colour(canvas, style.colour);
         cairo_set_line_width(canvas, style.width_px);
         cairo_stroke(canvas);
@@ -459,7 +459,7 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
     if (sheet.network == nullptr) {
         return;
     }
-    std::size_t const arcs = sheet.network->plan.arc_count();
+    std::size_t const arcs = sheet.network->planform.arc_count();
     if (sheet.orders == nullptr || sheet.orders->strahler.size() != arcs) {
         throw BadInput(fmt::format("draw.map: a network of {} arcs comes with {} orders; order this network", arcs,
                                    sheet.orders == nullptr ? 0 : sheet.orders->strahler.size()));
@@ -468,7 +468,7 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
                         "draw.map: a network of {} arcs comes with {} areas; measure the areas of this network", arcs,
                         sheet.areas_m2.size());
     for (ArcId a = 0; a < arcs; ++a) {
-        require_finite(sheet.network->plan.arc(a).line, "arc", a + 1);
+        require_finite(sheet.network->planform.arc(a).line, "arc", a + 1);
     }
 }
 

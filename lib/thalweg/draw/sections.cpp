@@ -117,7 +117,7 @@ std::vector<Section> cut_sections(Raster<float> const& dem, ElevatedNetwork cons
     refuse_if<BadInput>(grid.width < 1 || grid.height < 1 || !(grid.cell_m > 0.0),
                         "draw.cut_sections: a DEM of {} x {} cells of {} m; take one that has some", grid.width,
                         grid.height, grid.cell_m);
-    MainStem const stem = network == nullptr || orders == nullptr ? MainStem{} : main_stem(network->plan, *orders);
+    MainStem const stem = network == nullptr || orders == nullptr ? MainStem{} : main_stem(network->planform, *orders);
     if (stem.line.size() < 2 || !(stem.from_out_m.back() > 0.0)) {
         return through_the_middle(dem);
     }
@@ -348,9 +348,9 @@ void draw_scale_of_x(Cairo* sheet, Box box, Ticks const& ticks, double metres_a_
 void require_sections(ElevatedNetwork const* network, NetworkOrders const* orders, SectionsParams const& params) {
     require_in("draw.sections", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.sections", "count", params.count, Range::between(1, 9));
-    if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->plan.arc_count())) {
+    if (network != nullptr && (orders == nullptr || orders->strahler.size() != network->planform.arc_count())) {
         throw BadInput(fmt::format("draw.sections: a network of {} arcs comes with {} orders; order this network",
-                                   network->plan.arc_count(), orders == nullptr ? 0 : orders->strahler.size()));
+                                   network->planform.arc_count(), orders == nullptr ? 0 : orders->strahler.size()));
     }
 }
 
@@ -441,7 +441,7 @@ Picture sections(Raster<float> const& dem, ElevatedNetwork const* network, Netwo
     require_sections(network, orders, params);
     std::vector<Section> const cuts = cut_sections(dem, network, orders, params.count);
     bool const across = cuts.front().kind == Section::Kind::river;
-    MainStem const stem = across ? main_stem(network->plan, *orders) : MainStem{};
+    MainStem const stem = across ? main_stem(network->planform, *orders) : MainStem{};
     PanelSheet const sheet = sheet_for_panels(cuts, params.width_px);
     return paint(sheet.width, sheet.height, params.format, [&](Cairo* cairo) {
         std::string const name = across ? "Cross-sections" : "Sections";

@@ -345,7 +345,7 @@ void require_scene(WireframeScene const& scene, WireframeParams const& params) {
                         "draw.wireframe: a DEM of {} x {} cells of {} m; draw one that has some", grid.width,
                         grid.height, grid.cell_m);
     if (scene.network != nullptr) {
-        std::size_t const arcs = scene.network->plan.arc_count();
+        std::size_t const arcs = scene.network->planform.arc_count();
         if (scene.orders == nullptr || scene.orders->strahler.size() != arcs) {
             throw BadInput(fmt::format("draw.wireframe: a network of {} arcs comes with {} orders; order this network",
                                        arcs, scene.orders == nullptr ? 0 : scene.orders->strahler.size()));
@@ -375,13 +375,13 @@ Rivers rivers_on(WireframeScene const& scene, Fishnet const& knots) {
     for (int const order : scene.orders->strahler) {
         rivers.highest = std::max(rivers.highest, order);
     }
-    for (ArcId a = 0; a < scene.network->plan.arc_count(); ++a) {
+    for (ArcId a = 0; a < scene.network->planform.arc_count(); ++a) {
         int const order = scene.orders->strahler[a];
         if (order <= rivers.highest - orders_shown) {
             continue;
         }
         Thread thread;
-        for (Vec2 const p : scene.network->plan.arc(a).line) {
+        for (Vec2 const p : scene.network->planform.arc(a).line) {
             Vec2 const at{index_of(knots.col_at, (p.x - grid.west) / grid.cell_m - 0.5),
                           index_of(knots.row_at, (grid.north - p.y) / grid.cell_m - 0.5)};
             // Vertices far off the net are not drawn, but would be cut at every line between.
@@ -553,7 +553,7 @@ double azimuth_up_valley(WireframeScene const& scene) {
     if (scene.network == nullptr || scene.orders == nullptr) {
         return standard;
     }
-    std::vector<Vec2> const stem = main_stem(scene.network->plan, *scene.orders).line;
+    std::vector<Vec2> const stem = main_stem(scene.network->planform, *scene.orders).line;
     if (stem.empty()) {
         return standard;
     }

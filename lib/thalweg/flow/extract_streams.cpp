@@ -108,8 +108,8 @@ ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const&
         streams.areas.us_area_m2.push_back(area_m2(cells[from]));
         streams.areas.ds_area_m2.push_back(area_m2(last));
     }
-    streams.network.plan = std::move(plan);
-    add_outlet_areas(streams.network.plan, streams.areas);
+    streams.network.planform = std::move(plan);
+    add_outlet_areas(streams.network.planform, streams.areas);
     return streams;
 }
 

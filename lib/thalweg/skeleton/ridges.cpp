@@ -257,12 +257,12 @@ void require(RidgesParams const& params, Grid const& grid) {
 }
 
 void require(ElevatedNetwork const& network, std::vector<std::int64_t> const& labels) {
-    std::size_t const arcs = network.plan.arc_count();
+    std::size_t const arcs = network.planform.arc_count();
     refuse_if<BadInput>(labels.size() != arcs || network.arc_z.size() != arcs,
                         "skeleton.ridges: {} labels and heights of {} arcs for a network of {}; give one for each arc",
                         labels.size(), network.arc_z.size(), arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
-        auto const& line = network.plan.arc(a).line;
+        auto const& line = network.planform.arc(a).line;
         auto const& z = network.arc_z[a];
         auto const bad = std::ranges::find_if_not(z, [](double h) { return std::isfinite(h); });
         if (z.size() != line.size() || bad != z.end()) {
@@ -353,8 +353,8 @@ RidgeLines ridges(ElevatedNetwork const& network, std::vector<std::int64_t> cons
     require(params, grid);
     require(network, stream_of_arc);
     LabelledRivers rivers;
-    for (std::size_t const a : downstream_first(network.plan)) {
-        rivers.lines.push_back({network.plan.arc(a).line, stream_of_arc[a]});
+    for (std::size_t const a : downstream_first(network.planform)) {
+        rivers.lines.push_back({network.planform.arc(a).line, stream_of_arc[a]});
         rivers.z.push_back(network.arc_z[a]);
     }
     geometry::Bounds const bounds{grid.west, grid.south(), grid.east(), grid.north};

@@ -142,7 +142,7 @@ TEST(ReadNetwork, EveryNameOfANetworkReadsTheSame) {
         EXPECT_EQ(file.arcs[3].ds_arc, 5);
         EXPECT_EQ(file.arcs[5].basin, 2);
         EXPECT_EQ(file.arcs[5].line.back(), (Vec3{1000.1, 0.0, 3.0}));
-        StreamNetwork const& plan = sample.network.plan;
+        StreamNetwork const& plan = sample.network.planform;
         for (ArcId a = 0; a < plan.arc_count(); ++a) {
             NetworkFile::ArcColumns const& columns = file.arcs[a].columns;
             EXPECT_EQ(columns.n_up, static_cast<double>(plan.in(plan.from(a)).size()));

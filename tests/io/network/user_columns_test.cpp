@@ -165,8 +165,8 @@ TEST(UserColumns, EveryFormatGivesBackWhatAFileSaid) {
         io::read_network(written(folder, "lines.geojson", {with_every_type()}), {.any_lines = true});
     network::FileNetwork made = network::from_file(file);
     made.records[2] = 0;
-    NetworkOrders const orders = network::order(made.network.plan);
-    std::vector<double> const node_area_m2(made.network.plan.node_count(), -1.0);
+    NetworkOrders const orders = network::order(made.network.planform);
+    std::vector<double> const node_area_m2(made.network.planform.node_count(), -1.0);
     io::UserData const user{file.attributes, made.records, made.stretches};
     std::vector<double> const area_m2(file.arcs.size(), -1.0);
     io::NetworkTables tables{made.network, orders, area_m2, area_m2, node_area_m2, "EPSG:32631", {}};

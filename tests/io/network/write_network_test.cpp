@@ -187,15 +187,15 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
             for (auto const& feature : Written::layer(*dataset, "arcs")) {
                 auto const whole = [&](char const* name) { return feature->GetFieldAsInteger64(name); };
                 auto const real = [&](char const* name) { return feature->GetFieldAsDouble(name); };
-                Arc const& arc = sample.network.plan.arc(a);
+                Arc const& arc = sample.network.planform.arc(a);
                 auto const& z = sample.network.arc_z[a];
-                NodeId const from = sample.network.plan.from(a);
-                NodeId const to = sample.network.plan.to(a);
+                NodeId const from = sample.network.planform.from(a);
+                NodeId const to = sample.network.planform.to(a);
                 EXPECT_EQ(whole("arc_id"), static_cast<std::int64_t>(a) + 1);
                 EXPECT_EQ(whole("from_node"), static_cast<std::int64_t>(from) + 1);
                 EXPECT_EQ(whole("to_node"), static_cast<std::int64_t>(to) + 1);
-                EXPECT_EQ(whole("ds_arc"), sample.network.plan.out(to) + 1);
-                EXPECT_EQ(whole("n_up"), static_cast<std::int64_t>(sample.network.plan.in(from).size()));
+                EXPECT_EQ(whole("ds_arc"), sample.network.planform.out(to) + 1);
+                EXPECT_EQ(whole("n_up"), static_cast<std::int64_t>(sample.network.planform.in(from).size()));
                 EXPECT_EQ(whole("basin_id"), sample.orders.arc_basin[a]);
                 EXPECT_EQ(whole("topo_ord"), sample.orders.topological[a]);
                 EXPECT_EQ(whole("strahler"), sample.orders.strahler[a]);
@@ -204,12 +204,12 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_EQ(whole("feature"), arc.feature);
                 EXPECT_EQ(whole("braided"), 0);
                 EXPECT_EQ(feature->GetFieldAsString("type"), arc.type.empty() ? "none" : arc.type);
-                EXPECT_NEAR(real("length"), sample.network.plan.length_m(a), 1e-9);
+                EXPECT_NEAR(real("length"), sample.network.planform.length_m(a), 1e-9);
                 EXPECT_NEAR(real("straight"),
-                            distance(sample.network.plan.node(from).at, sample.network.plan.node(to).at), 1e-9);
+                            distance(sample.network.planform.node(from).at, sample.network.planform.node(to).at), 1e-9);
                 EXPECT_NEAR(real("z_up"), sample.network.node_z[from], 1e-9);
                 EXPECT_NEAR(real("z_down"), sample.network.node_z[to], 1e-9);
-                EXPECT_NEAR(real("slope"), (z.front() - z.back()) / sample.network.plan.length_m(a), 1e-15);
+                EXPECT_NEAR(real("slope"), (z.front() - z.back()) / sample.network.planform.length_m(a), 1e-15);
                 EXPECT_NEAR(real("dist_out"), sample.orders.node_dist_out_m[to], 1e-9);
                 EXPECT_NEAR(real("us_area"), sample.us_area_m2[a], 1e-6);
                 EXPECT_NEAR(real("ds_area"), sample.ds_area_m2[a], 1e-6);
@@ -231,28 +231,28 @@ TEST(WriteNetwork, ValuesAreTheNetworksInBothFormats) {
                 EXPECT_NEAR(real("length_3d"), along, 1e-9);
                 ++a;
             }
-            EXPECT_EQ(a, sample.network.plan.arc_count());
+            EXPECT_EQ(a, sample.network.planform.arc_count());
         }
         for (auto const& dataset : written.both("nodes")) {
             NodeId n = 0;
             for (auto const& feature : Written::layer(*dataset, "nodes")) {
                 EXPECT_EQ(feature->GetFieldAsInteger64("node_id"), static_cast<std::int64_t>(n) + 1);
-                EXPECT_STREQ(feature->GetFieldAsString("kind"), name_of(kind_of(sample.network.plan, n)));
+                EXPECT_STREQ(feature->GetFieldAsString("kind"), name_of(kind_of(sample.network.planform, n)));
                 EXPECT_EQ(feature->GetFieldAsInteger64("deg_in"),
-                          static_cast<std::int64_t>(sample.network.plan.in(n).size()));
-                EXPECT_EQ(feature->GetFieldAsInteger64("deg_out"), sample.network.plan.out(n) == no_arc ? 0 : 1);
+                          static_cast<std::int64_t>(sample.network.planform.in(n).size()));
+                EXPECT_EQ(feature->GetFieldAsInteger64("deg_out"), sample.network.planform.out(n) == no_arc ? 0 : 1);
                 EXPECT_EQ(feature->GetFieldAsInteger64("basin_id"), sample.orders.node_basin[n]);
                 EXPECT_EQ(feature->GetFieldAsInteger64("strahler"), sample.orders.node_strahler[n]);
                 EXPECT_NEAR(feature->GetFieldAsDouble("z"), sample.network.node_z[n], 1e-9);
                 EXPECT_NEAR(feature->GetFieldAsDouble("area"), sample.node_area_m2[n], 1e-6);
                 EXPECT_NEAR(feature->GetFieldAsDouble("dist_out"), sample.orders.node_dist_out_m[n], 1e-9);
                 auto const& point = *feature->GetGeometryRef()->toPoint();
-                EXPECT_EQ(point.getX(), sample.network.plan.node(n).at.x);
-                EXPECT_EQ(point.getY(), sample.network.plan.node(n).at.y);
+                EXPECT_EQ(point.getX(), sample.network.planform.node(n).at.x);
+                EXPECT_EQ(point.getY(), sample.network.planform.node(n).at.y);
                 EXPECT_EQ(point.getZ(), sample.network.node_z[n]);
                 ++n;
             }
-            EXPECT_EQ(n, sample.network.plan.node_count());
+            EXPECT_EQ(n, sample.network.planform.node_count());
         }
     }
 }

@@ -222,7 +222,7 @@ TEST(WriteSchemas, MaskHasTheCellsOfRivers) {
     }
     EXPECT_GT(rivers, 20);
     for (NodeId n = 0; n < 4; ++n) {
-        EXPECT_EQ(mask[grid.cell_of(sample.network.plan.node(n).at)], 1.0F);
+        EXPECT_EQ(mask[grid.cell_of(sample.network.planform.node(n).at)], 1.0F);
     }
     Grid const small{4, 4, 10.0, -150.0, 250.0, "EPSG:32631"};
     EXPECT_THROW(io::write_network(sample.tables(), folder / "out.tif", {NetworkFormat::mask, Schema::native, small}),
@@ -263,12 +263,12 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 12),
                           *rc::gen::inRange<std::int64_t>(2, 12), 1000.0 / 7.0);
         std::int64_t feature = 0;
-        NetworkDraft named = rivers.plan.draft();
+        NetworkDraft named = rivers.planform.draft();
         for (DraftArc& drawn : named.arcs) {
             feature = (7 * feature + 3) % 1000003;
             drawn.arc.feature = feature;
         }
-        rivers.plan = std::move(named);
+        rivers.planform = std::move(named);
         SampleNetwork const drawn = sample_of(std::move(rivers));
         ScratchFolder const folder;
         CPLErrorReset();
@@ -280,32 +280,32 @@ TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
         RC_ASSERT(file.crs == "EPSG:32631");
         RC_ASSERT(file.arcs.size() == drawn.us_area_m2.size());
         network::FileNetwork const made = network::from_file(file);
-        NetworkOrders const orders = network::order(made.network.plan);
+        NetworkOrders const orders = network::order(made.network.planform);
         RC_ASSERT(orders.strahler == drawn.orders.strahler);
         RC_ASSERT(orders.shreve == drawn.orders.shreve);
         RC_ASSERT(orders.hack == drawn.orders.hack);
         RC_ASSERT(made.network.arc_z == drawn.network.arc_z);
         std::vector<std::int64_t> numbers;
-        for (std::size_t a = 0; a < drawn.network.plan.arc_count(); ++a) {
-            RC_ASSERT(made.network.plan.arc(a).line == drawn.network.plan.arc(a).line);
-            RC_ASSERT(made.network.plan.out(made.network.plan.to(a)) ==
-                      drawn.network.plan.out(drawn.network.plan.to(a)));
+        for (std::size_t a = 0; a < drawn.network.planform.arc_count(); ++a) {
+            RC_ASSERT(made.network.planform.arc(a).line == drawn.network.planform.arc(a).line);
+            RC_ASSERT(made.network.planform.out(made.network.planform.to(a)) ==
+                      drawn.network.planform.out(drawn.network.planform.to(a)));
             if (schema != Schema::grass) {
                 RC_ASSERT(std::fabs(made.us_area_m2[a] - drawn.us_area_m2[a]) < 2e-6);
                 RC_ASSERT(std::fabs(made.ds_area_m2[a] - drawn.ds_area_m2[a]) < 2e-6);
             }
-            numbers.push_back(made.network.plan.arc(a).feature);
+            numbers.push_back(made.network.planform.arc(a).feature);
         }
         if (schema != Schema::native && format == NetworkFormat::flatgeobuf) { // which sorts its features
             std::sort(numbers.begin(), numbers.end());
         }
         for (std::size_t a = 0; a < numbers.size(); ++a) {
-            std::int64_t const own = drawn.network.plan.arc(a).feature;
+            std::int64_t const own = drawn.network.planform.arc(a).feature;
             RC_ASSERT(numbers[a] == (schema == Schema::native ? own : static_cast<std::int64_t>(a) + 1));
         }
         for (auto const& node : file.nodes) {
             auto const n = static_cast<NodeId>(node.id - 1);
-            Vec2 const at = schema == Schema::native ? drawn.network.plan.node(n).at : Vec2{node.at.x, node.at.y};
+            Vec2 const at = schema == Schema::native ? drawn.network.planform.node(n).at : Vec2{node.at.x, node.at.y};
             double const z = schema == Schema::native ? drawn.network.node_z[n] : node.at.z;
             RC_ASSERT(node.at == (Vec3{at.x, at.y, z}));
         }
@@ -327,7 +327,7 @@ TEST(WriteSchemas, SamplesComeBackFromEverySchemaOnceTheyAreSplit) {
             network::FileNetwork const made =
                 network::from_file(io::read_network(folder / "net.gpkg", io::ReadNetworkParams{}));
             EXPECT_EQ(made.network.arc_z, drawn.network.arc_z) << table.name;
-            EXPECT_EQ(network::order(made.network.plan).shreve, drawn.orders.shreve) << table.name;
+            EXPECT_EQ(network::order(made.network.planform).shreve, drawn.orders.shreve) << table.name;
         }
     }
 }

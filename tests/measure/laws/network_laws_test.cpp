@@ -40,12 +40,12 @@ struct MadeToOrder {
     NetworkOrders orders;
 
     explicit MadeToOrder(std::uint64_t seed, std::int64_t cols = 24, std::int64_t rows = 60)
-        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.plan)) {
-        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
+        : rivers(random_rivers(seed, cols, rows, 30.0)), orders(orders_of(rivers.planform)) {
+        for (std::size_t a = 0; a < rivers.planform.arc_count(); ++a) {
             areas.us_area_m2.push_back(1e5 * static_cast<double>(orders.shreve[a]));
-            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * rivers.plan.length_m(a));
+            areas.ds_area_m2.push_back(areas.us_area_m2.back() + 40.0 * rivers.planform.length_m(a));
         }
-        areas.node_m2.assign(rivers.plan.node_count(), 0.0);
+        areas.node_m2.assign(rivers.planform.node_count(), 0.0);
     }
 };
 
@@ -211,9 +211,9 @@ TEST(PowerLaw, EveryBinCountsOnce) {
 
 TEST(Concavity, OneArcHasNone) {
     MadeToOrder one(1, 1, 2);
-    ASSERT_EQ(one.rivers.plan.arc_count(), 1U);
+    ASSERT_EQ(one.rivers.planform.arc_count(), 1U);
     EXPECT_FALSE(concavity(one.rivers, one.areas));
-    EXPECT_FALSE(hack(one.rivers.plan, one.areas.ds_area_m2));
+    EXPECT_FALSE(hack(one.rivers.planform, one.areas.ds_area_m2));
     EXPECT_THROW(concavity(one.rivers, {}), BadInput);
     EXPECT_FALSE(concavity({}, {}));
 }
@@ -222,9 +222,9 @@ TEST(Concavity, IsRecoveredFromRiversThatHaveIt) {
     ASSERT_TRUE(rc::check("S = k A^-theta by construction gives theta to 1e-6; arcs that do not fall are left out", [] {
         MadeToOrder made(*rc::gen::arbitrary<std::uint64_t>());
         double const theta = static_cast<double>(*evenly(-20, 120)) / 100.0;
-        for (std::size_t a = 0; a < made.rivers.plan.arc_count(); ++a) {
+        for (std::size_t a = 0; a < made.rivers.planform.arc_count(); ++a) {
             double const area = 0.5 * (made.areas.us_area_m2[a] + made.areas.ds_area_m2[a]);
-            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.rivers.plan.length_m(a), 0.0};
+            made.rivers.arc_z[a] = {1.7 * std::pow(area, -theta) * made.rivers.planform.length_m(a), 0.0};
         }
         auto const law = concavity(made.rivers, made.areas);
         RC_ASSERT(law.has_value());
@@ -241,8 +241,8 @@ TEST(Concavity, IsRecoveredFromRiversThatHaveIt) {
 
 TEST(Hack, RefusesWhatDoesNotBelongTogether) {
     MadeToOrder const made(3);
-    EXPECT_THROW(hack(made.rivers.plan, {}), BadInput);
-    EXPECT_THROW(hack(made.rivers.plan, made.areas.ds_area_m2, {1.0}), BadInput);
+    EXPECT_THROW(hack(made.rivers.planform, {}), BadInput);
+    EXPECT_THROW(hack(made.rivers.planform, made.areas.ds_area_m2, {1.0}), BadInput);
 }
 
 TEST(Hack, IsRecoveredFromRiversThatHaveIt) {
@@ -251,16 +251,16 @@ TEST(Hack, IsRecoveredFromRiversThatHaveIt) {
         double const h = static_cast<double>(*evenly(40, 110)) / 100.0;
         Numbers head;
         if (*rc::gen::arbitrary<bool>()) {
-            for (NodeId n = 0; n < made.rivers.plan.node_count(); ++n) {
+            for (NodeId n = 0; n < made.rivers.planform.node_count(); ++n) {
                 head.push_back(500.0 * unit(random_word(9, n)));
             }
         }
-        Numbers const longest = longest_slowly(made.rivers.plan, head);
-        for (std::size_t a = 0; a < made.rivers.plan.arc_count(); ++a) {
-            NodeId const from = made.rivers.plan.from(a);
-            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.rivers.plan.length_m(a)) / 1.4, 1.0 / h);
+        Numbers const longest = longest_slowly(made.rivers.planform, head);
+        for (std::size_t a = 0; a < made.rivers.planform.arc_count(); ++a) {
+            NodeId const from = made.rivers.planform.from(a);
+            made.areas.ds_area_m2[a] = std::pow((longest[from] + made.rivers.planform.length_m(a)) / 1.4, 1.0 / h);
         }
-        auto const law = hack(made.rivers.plan, made.areas.ds_area_m2, head);
+        auto const law = hack(made.rivers.planform, made.areas.ds_area_m2, head);
         RC_ASSERT(law.has_value());
         RC_ASSERT(std::fabs(law->exponent - h) < 1e-6);
     }));
@@ -289,7 +289,7 @@ TEST(LinkLengths, NoneAndOne) {
     EXPECT_EQ(none.exterior.links + none.interior.links, 0);
     EXPECT_TRUE(std::isnan(none.exterior.mean_m));
     EXPECT_FALSE(none.ratio);
-    LinkLengths const one = link_lengths(random_rivers(1, 1, 5, 2.0).plan);
+    LinkLengths const one = link_lengths(random_rivers(1, 1, 5, 2.0).planform);
     EXPECT_EQ(one.exterior.links, 1);
     EXPECT_EQ(one.exterior.mean_m, 8.0);
     EXPECT_EQ(one.exterior.median_m, 8.0);
@@ -363,13 +363,15 @@ TEST(NetworkLaws, AreThoseOfTheirVerbs) {
     NetworkLaws const laws =
         network_laws(made.rivers, made.orders, made.areas,
                      {.land_m2 = 2e6, .junction_reach_m = 60.0, .head_m = {}, .side_branches = {1.0, 2.0, 4.0}});
-    double const length = std::accumulate(made.rivers.plan.length_m().begin(), made.rivers.plan.length_m().end(), 0.0);
+    double const length =
+        std::accumulate(made.rivers.planform.length_m().begin(), made.rivers.planform.length_m().end(), 0.0);
     EXPECT_NEAR(laws.drainage_density_m, length / 2e6, 1e-15);
     EXPECT_NEAR(laws.tokunaga.value().c, 2.0, 1e-12);
-    EXPECT_EQ(laws.hack.value().exponent, hack(made.rivers.plan, made.areas.ds_area_m2)->exponent);
-    EXPECT_EQ(laws.junctions.mean_deg, junction_angles(made.rivers.plan, 60.0).mean_deg);
-    EXPECT_EQ(laws.links.exterior.mean_m, link_lengths(made.rivers.plan).exterior.mean_m);
-    EXPECT_EQ(laws.horton.orders.size(), horton(made.rivers.plan, made.orders, made.areas.ds_area_m2).orders.size());
+    EXPECT_EQ(laws.hack.value().exponent, hack(made.rivers.planform, made.areas.ds_area_m2)->exponent);
+    EXPECT_EQ(laws.junctions.mean_deg, junction_angles(made.rivers.planform, 60.0).mean_deg);
+    EXPECT_EQ(laws.links.exterior.mean_m, link_lengths(made.rivers.planform).exterior.mean_m);
+    EXPECT_EQ(laws.horton.orders.size(),
+              horton(made.rivers.planform, made.orders, made.areas.ds_area_m2).orders.size());
 }
 
 TEST(NaturalRanges, SayWhereTheyComeFrom) {
@@ -443,7 +445,7 @@ TEST(Horton, StreamsAreChainsOfEqualOrder) {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>();
         auto const cols = *evenly<std::int64_t>(1, 16);
         auto const rows = *evenly<std::int64_t>(2, 24);
-        StreamNetwork const net = random_rivers(seed, cols, rows, 2.0).plan;
+        StreamNetwork const net = random_rivers(seed, cols, rows, 2.0).planform;
         NetworkOrders const orders = orders_of(net);
         std::size_t const arcs = net.arc_count();
         Numbers areas(arcs);

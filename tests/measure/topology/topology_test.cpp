@@ -356,9 +356,9 @@ TEST(AsFile, NumbersFromOne) {
     net.node_z = {2, 1, 0};
     plan.add_arc(1, 2);
     plan.add_arc(0, 1);
-    net.plan = std::move(plan);
+    net.planform = std::move(plan);
     net.arc_z = {{1, 0}, {2, 1}};
-    NetworkOrders const orders = orders_of(net.plan);
+    NetworkOrders const orders = orders_of(net.planform);
     NetworkFile const file = as_file(net, orders);
     ASSERT_EQ(file.nodes.size(), 3U);
     EXPECT_EQ(file.nodes[0].id, 1);

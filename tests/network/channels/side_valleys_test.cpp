@@ -67,7 +67,7 @@ std::set<std::pair<double, double>> vertices_of(StreamNetwork const& plan) {
 }
 
 void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t support) {
-    StreamNetwork const& plan = made.network.plan;
+    StreamNetwork const& plan = made.network.planform;
     test::require_heights(made.network);
     std::int64_t grown = 0;
     double given_m = 0.0;
@@ -92,11 +92,11 @@ void expect_lawful(Scene const& scene, SideValleys const& made, std::int64_t sup
     }
 
     // Input rivers stay as they were, vertex for vertex.
-    auto const before = vertices_of(scene.rivers.plan);
+    auto const before = vertices_of(scene.rivers.planform);
     auto const after = vertices_of(plan);
     RC_ASSERT(std::includes(after.begin(), after.end(), before.begin(), before.end()));
     double length_m = 0.0;
-    for (double const one : scene.rivers.plan.length_m()) {
+    for (double const one : scene.rivers.planform.length_m()) {
         length_m += one;
     }
     RC_ASSERT(std::fabs(length_m - given_m) <= 1e-6 * length_m);
@@ -125,7 +125,7 @@ TEST(SideValleys, WithoutEnoughWaterNothingIsAdded) {
     Scene const scene = plain_scene();
     SideValleys const made = side_valleys(scene.rivers, scene.channels, scene.dem, scene.drainage, {1'000'000});
     EXPECT_EQ(made.grown, 0);
-    ASSERT_EQ(made.network.plan.arc_count(), scene.rivers.plan.arc_count());
+    ASSERT_EQ(made.network.planform.arc_count(), scene.rivers.planform.arc_count());
     EXPECT_EQ(made.network.arc_z, scene.rivers.arc_z);
     EXPECT_EQ(made.network.node_z, scene.rivers.node_z);
 }
@@ -144,7 +144,7 @@ TEST(SideValleys, TheyReachTheGivenRivers) {
     EXPECT_GT(made.grown, 20);
     expect_lawful(scene, made, 40);
     // Most of the terrain drains to the outlet of the input rivers, and so do most valleys.
-    StreamNetwork const& plan = made.network.plan;
+    StreamNetwork const& plan = made.network.planform;
     std::int64_t joined = 0;
     for (std::size_t a = 0; a < plan.arc_count(); ++a) { // the first arc is an input
         joined += !plan.arc(a).is_input && plan.basin(plan.to(a)) == plan.basin(plan.to(0)) ? 1 : 0;

@@ -43,7 +43,7 @@ Raster<float> land_around(Channels const& rivers, std::uint64_t seed, double sha
 }
 
 void require_consistent(ElevatedNetwork const& raised, StreamNetwork const& net) {
-    RC_ASSERT(test::same_network(raised.plan, net));
+    RC_ASSERT(test::same_network(raised.planform, net));
     test::require_heights(raised);
 }
 
@@ -66,7 +66,7 @@ ElevatedNetwork known_rivers() {
 
 /// Law: each vertex has the least of the heights at it and upstream of it.
 void require_least(ElevatedNetwork const& lowered, std::vector<std::vector<double>> const& before) {
-    StreamNetwork const& net = lowered.plan;
+    StreamNetwork const& net = lowered.planform;
     std::function<double(std::size_t, std::size_t)> const least = [&](std::size_t a, std::size_t vertices) {
         double low = *std::min_element(before[a].begin(), before[a].begin() + static_cast<std::ptrdiff_t>(vertices));
         for (ArcId const up : net.in(net.from(a))) {
@@ -183,10 +183,10 @@ TEST(ChannelHeights, NeverRiseDownstream) {
 TEST(Drape, RefusesWhereTheDemHasNoHeight) {
     ElevatedNetwork const rivers = random_rivers(1, 5, 5);
     Raster<float> dem = land(1, 5, 5);
-    EXPECT_NO_THROW(network::drape(rivers.plan, dem));
+    EXPECT_NO_THROW(network::drape(rivers.planform, dem));
     dem[Cell{0, 0}] = std::numeric_limits<float>::quiet_NaN(); // sources lie in the northernmost row
-    EXPECT_THROW(network::drape(rivers.plan, dem), BadInput);
-    EXPECT_THROW(network::drape(rivers.plan, land(1, 5, 3)), BadInput);
+    EXPECT_THROW(network::drape(rivers.planform, dem), BadInput);
+    EXPECT_THROW(network::drape(rivers.planform, land(1, 5, 3)), BadInput);
 }
 
 TEST(Drape, LeastHeightOfAllUpstream) {
@@ -196,12 +196,12 @@ TEST(Drape, LeastHeightOfAllUpstream) {
         auto const rows = *rc::gen::inRange<std::int64_t>(2, 20);
         ElevatedNetwork rivers = random_rivers(seed, cols, rows);
         Raster<float> const dem = land(seed, cols, rows);
-        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
-            auto const& line = rivers.plan.arc(a).line;
+        for (std::size_t a = 0; a < rivers.planform.arc_count(); ++a) {
+            auto const& line = rivers.planform.arc(a).line;
             std::ranges::transform(line, rivers.arc_z[a].begin(),
                                    [&](Vec2 p) { return static_cast<double>(dem[dem.grid().cell_of(p)]); });
         }
-        require_least(network::drape(rivers.plan, dem), rivers.arc_z);
+        require_least(network::drape(rivers.planform, dem), rivers.arc_z);
     }));
 }
 
@@ -215,7 +215,7 @@ TEST(LowerRises, IsTheHighestThatFalls) {
                 height = static_cast<double>(*rc::gen::resize(rc::kNominalSize, rc::gen::inRange(0, 20)));
             }
         }
-        require_least(lower_rises(rivers.plan, rivers.arc_z).network, rivers.arc_z);
+        require_least(lower_rises(rivers.planform, rivers.arc_z).network, rivers.arc_z);
     }));
 }
 

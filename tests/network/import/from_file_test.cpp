@@ -80,9 +80,9 @@ TEST(FromFile, FirstFaultIsNamed) {
 TEST(FromFile, WhatTheFileSaysIsKeptInTheOrderOfIds) {
     network::FileNetwork const made = from_file(y_shape());
     EXPECT_EQ(made.arc_ids, (std::vector<std::int64_t>{10, 20, 30}));
-    EXPECT_EQ(made.network.plan.outlets(), (std::vector<NodeId>{3}));
+    EXPECT_EQ(made.network.planform.outlets(), (std::vector<NodeId>{3}));
     EXPECT_EQ(made.network.arc_z[1], (std::vector<double>{3, 2.5, 1}));
-    Arc const& arc = made.network.plan.arc(1);
+    Arc const& arc = made.network.planform.arc(1);
     EXPECT_EQ(arc.type, "C4");
     EXPECT_EQ(arc.feature, 123);
     EXPECT_EQ(arc.persistence, 4.5);
@@ -96,11 +96,11 @@ TEST(FromFile, RecordsAndSourcesGoWithTheArcs) {
     file.arcs[1].record = 2;
     file.arcs[1].feature = 5;
     network::FileNetwork const made = from_file(file);
-    EXPECT_EQ(made.network.plan.arc(1).feature, 5);
+    EXPECT_EQ(made.network.planform.arc(1).feature, 5);
     EXPECT_EQ(made.records[1], 2);
     ASSERT_EQ(made.stretches[1].size(), 1U);
     EXPECT_EQ(made.stretches[1][0].feature, 5);
-    EXPECT_EQ(made.stretches[1][0].to_m, made.network.plan.length_m(1));
+    EXPECT_EQ(made.stretches[1][0].to_m, made.network.planform.length_m(1));
     file.arcs[1].sources = {{5, 0.0, 1.0}, {6, 1.0, 2.0}};
     EXPECT_EQ(from_file(file).stretches[1].size(), 2U);
 }
@@ -138,10 +138,10 @@ TEST(FromFile, NodesWithoutNumbersAreNumberedAlongTheArcs) {
     for (auto& node : shuffled.nodes) {
         node.id = 100 - node.id;
     }
-    EXPECT_EQ(from_file(file).network.plan.from(), (std::vector<NodeId>{0, 2, 1}));
-    EXPECT_EQ(from_file(file).network.plan.to(), (std::vector<NodeId>{1, 1, 3}));
-    EXPECT_EQ(from_file(shuffled).network.plan.from(), from_file(file).network.plan.from());
-    EXPECT_EQ(from_file(shuffled).network.plan.to(), from_file(file).network.plan.to());
+    EXPECT_EQ(from_file(file).network.planform.from(), (std::vector<NodeId>{0, 2, 1}));
+    EXPECT_EQ(from_file(file).network.planform.to(), (std::vector<NodeId>{1, 1, 3}));
+    EXPECT_EQ(from_file(shuffled).network.planform.from(), from_file(file).network.planform.from());
+    EXPECT_EQ(from_file(shuffled).network.planform.to(), from_file(file).network.planform.to());
 }
 
 // Law: what as_file makes of a network is that network again, bit for bit.
@@ -150,14 +150,14 @@ TEST(FromFile, UndoesAsFile) {
         ElevatedNetwork const rivers =
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 30),
                           *rc::gen::inRange<std::int64_t>(2, 30), 1.0 / 3.0);
-        NetworkFile const file = measure::as_file(rivers, network::order(rivers.plan));
+        NetworkFile const file = measure::as_file(rivers, network::order(rivers.planform));
         network::FileNetwork const made = from_file(file);
         RC_ASSERT(made.network.node_z == rivers.node_z);
         RC_ASSERT(made.network.arc_z == rivers.arc_z);
-        RC_ASSERT(made.network.plan.from() == rivers.plan.from());
-        RC_ASSERT(made.network.plan.to() == rivers.plan.to());
-        for (std::size_t a = 0; a < rivers.plan.arc_count(); ++a) {
-            RC_ASSERT(made.network.plan.arc(a).line == rivers.plan.arc(a).line);
+        RC_ASSERT(made.network.planform.from() == rivers.planform.from());
+        RC_ASSERT(made.network.planform.to() == rivers.planform.to());
+        for (std::size_t a = 0; a < rivers.planform.arc_count(); ++a) {
+            RC_ASSERT(made.network.planform.arc(a).line == rivers.planform.arc(a).line);
         }
     }));
 }

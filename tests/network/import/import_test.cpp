@@ -351,9 +351,9 @@ TEST(AdoptHeights, CrossingTakesTheLowerInterpolation) {
     auto const raised = network::take_file_heights(imported, lines);
     EXPECT_EQ(first(imported, "height").amount, 1.0);
     EXPECT_EQ(raised.arc_z, (std::vector<std::vector<double>>{{8, 5}, {5, 4}, {9, 5}}));
-    for (std::size_t i = 0; i < raised.plan.arc_count(); ++i) {
-        EXPECT_EQ(raised.arc_z[i].front(), raised.node_z[raised.plan.from(i)]);
-        EXPECT_EQ(raised.arc_z[i].back(), raised.node_z[raised.plan.to(i)]);
+    for (std::size_t i = 0; i < raised.planform.arc_count(); ++i) {
+        EXPECT_EQ(raised.arc_z[i].front(), raised.node_z[raised.planform.from(i)]);
+        EXPECT_EQ(raised.arc_z[i].back(), raised.node_z[raised.planform.to(i)]);
     }
 }
 
@@ -470,8 +470,8 @@ TEST(AdoptLaws, TheTreeIsFound) {
         for (std::size_t v = 0; v < tree.at.size(); ++v) {
             z[{tree.at[v].x, tree.at[v].y}] = tree.z[v];
         }
-        for (std::size_t i = 0; i < raised.plan.arc_count(); ++i) {
-            auto const& line = raised.plan.arc(i).line;
+        for (std::size_t i = 0; i < raised.planform.arc_count(); ++i) {
+            auto const& line = raised.planform.arc(i).line;
             for (std::size_t v = 0; v < line.size(); ++v) {
                 RC_ASSERT(raised.arc_z[i][v] == z.at({line[v].x, line[v].y}));
             }

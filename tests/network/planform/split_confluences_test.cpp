@@ -49,7 +49,7 @@ std::size_t most_upstream(StreamNetwork const& network) {
 
 /// The first fault that the check finds, or "".
 std::string fault(ElevatedNetwork const& network) {
-    auto const report = measure::check_topology(measure::as_file(network, network::order(network.plan)));
+    auto const report = measure::check_topology(measure::as_file(network, network::order(network.planform)));
     return report.findings.empty() ? "" : report.findings.front().text;
 }
 
@@ -81,7 +81,7 @@ TEST(SplitConfluences, BinaryNetworkStaysAsItIs) {
     EXPECT_TRUE(split.pieces.empty());
     EXPECT_EQ(split.network.node_z, network.node_z);
     EXPECT_EQ(split.network.arc_z, network.arc_z);
-    EXPECT_EQ(most_upstream(split_confluences(star(3, false), {.max_upstream = 3}).network.plan), 3U);
+    EXPECT_EQ(most_upstream(split_confluences(star(3, false), {.max_upstream = 3}).network.planform), 3U);
 }
 
 TEST(SplitConfluences, ThirdRiverJoinsOneDistanceDownstream) {
@@ -90,10 +90,10 @@ TEST(SplitConfluences, ThirdRiverJoinsOneDistanceDownstream) {
     ASSERT_EQ(split.pieces.size(), 1U);
     EXPECT_EQ(split.pieces[0].of, 3U);
     EXPECT_FALSE(split.pieces[0].upstream);
-    EXPECT_EQ(most_upstream(split.network.plan), 2U);
+    EXPECT_EQ(most_upstream(split.network.planform), 2U);
     EXPECT_EQ(fault(split.network), "");
-    Vec2 const centre = split.network.plan.node(0).at;
-    Vec2 const joined = split.network.plan.node(5).at;
+    Vec2 const centre = split.network.planform.node(0).at;
+    Vec2 const joined = split.network.planform.node(5).at;
     EXPECT_EQ(joined.x, centre.x);
     EXPECT_NEAR(joined.y, centre.y - 5.0, 1e-9);
     EXPECT_NEAR(split.network.node_z[5], 10.0 - 10.0 * 5.0 / 100.0, 1e-9);
@@ -106,10 +106,10 @@ TEST(SplitConfluences, ManyRiversAroundAPointAreSplitWhereverTheyLeave) {
                 for (int most = 2; most < rivers; most += 3) {
                     ElevatedNetwork const network = star(rivers, outlet, 100.0, leaving_m);
                     network::Split const split = split_confluences(network, {.max_upstream = most, .distance_m = 3.0});
-                    EXPECT_LE(most_upstream(split.network.plan), static_cast<std::size_t>(most));
+                    EXPECT_LE(most_upstream(split.network.planform), static_cast<std::size_t>(most));
                     EXPECT_EQ(split.pieces.size(), static_cast<std::size_t>(rivers - most));
                     EXPECT_EQ(fault(split.network), "") << rivers << outlet << leaving_m << most;
-                    EXPECT_EQ(split.network.plan.outlets().size(), 1U);
+                    EXPECT_EQ(split.network.planform.outlets().size(), 1U);
                 }
             }
         }
@@ -120,9 +120,9 @@ TEST(SplitConfluences, OutletIsSplitUpstream) {
     network::Split const split = split_confluences(star(3, true), {.distance_m = 5.0});
     ASSERT_EQ(split.pieces.size(), 1U);
     EXPECT_TRUE(split.pieces[0].upstream);
-    EXPECT_EQ(split.network.plan.outlets(), (std::vector<NodeId>{0}));
-    EXPECT_EQ(split.network.plan.in(0).size(), 2U);
-    EXPECT_NEAR(distance(split.network.plan.node(0).at, split.network.plan.node(4).at), 5.0, 1e-9);
+    EXPECT_EQ(split.network.planform.outlets(), (std::vector<NodeId>{0}));
+    EXPECT_EQ(split.network.planform.in(0).size(), 2U);
+    EXPECT_NEAR(distance(split.network.planform.node(0).at, split.network.planform.node(4).at), 5.0, 1e-9);
 }
 
 TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
@@ -136,7 +136,7 @@ TEST(SplitConfluences, RiversOnOneSideAreLedAroundTheOthers) {
     ElevatedNetwork const network =
         test::elevated(test::network_of(nodes, reaches), {1.0, 0.0, 5.0, 5.0, 5.0, 5.0, 5.0});
     network::Split const split = split_confluences(network, {.distance_m = 2.0});
-    EXPECT_EQ(most_upstream(split.network.plan), 2U);
+    EXPECT_EQ(most_upstream(split.network.planform), 2U);
     EXPECT_EQ(fault(split.network), "");
 }
 
@@ -162,18 +162,19 @@ TEST(SplitConfluences, LawsHoldOnRandomRivers) {
         RC_PRE(fault(network).empty());
         network::Split const split = split_confluences(network, {most, distance_m});
         RC_CLASSIFY(!split.pieces.empty(), "split");
-        RC_ASSERT(most_upstream(split.network.plan) <= static_cast<std::size_t>(most));
+        RC_ASSERT(most_upstream(split.network.planform) <= static_cast<std::size_t>(most));
         RC_ASSERT(fault(split.network) == "");
-        RC_ASSERT(sources_by_outlet(split.network.plan) == sources_by_outlet(network.plan));
-        RC_ASSERT(split.network.plan.arc_count() == network.plan.arc_count() + split.pieces.size());
-        RC_ASSERT(split.network.plan.node_count() == network.plan.node_count() + split.pieces.size());
-        for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
-            RC_ASSERT(split.network.plan.arc(a).feature == network.plan.arc(a).feature);
+        RC_ASSERT(sources_by_outlet(split.network.planform) == sources_by_outlet(network.planform));
+        RC_ASSERT(split.network.planform.arc_count() == network.planform.arc_count() + split.pieces.size());
+        RC_ASSERT(split.network.planform.node_count() == network.planform.node_count() + split.pieces.size());
+        for (std::size_t a = 0; a < network.planform.arc_count(); ++a) {
+            RC_ASSERT(split.network.planform.arc(a).feature == network.planform.arc(a).feature);
         }
         for (std::size_t i = 0; i < split.pieces.size(); ++i) {
-            std::size_t const arc = network.plan.arc_count() + i;
-            RC_ASSERT(split.network.plan.arc(arc).feature == split.network.plan.arc(split.pieces[i].of).feature);
-            RC_ASSERT(split.network.plan.to(split.pieces[i].moved) == network.plan.node_count() + i);
+            std::size_t const arc = network.planform.arc_count() + i;
+            RC_ASSERT(split.network.planform.arc(arc).feature ==
+                      split.network.planform.arc(split.pieces[i].of).feature);
+            RC_ASSERT(split.network.planform.to(split.pieces[i].moved) == network.planform.node_count() + i);
         }
     }));
 }

@@ -31,8 +31,8 @@ ElevatedNetwork raised(StreamNetwork const& net, std::vector<std::vector<double>
 std::map<std::int64_t, float> plain_valley(ElevatedNetwork const& net, Grid const& grid, std::int64_t& lowered) {
     std::map<std::int64_t, float> z;
     std::vector<std::vector<std::int64_t>> paths;
-    for (std::size_t a = 0; a < net.plan.arc_count(); ++a) {
-        std::vector<Vec2> const& line = net.plan.arc(a).line;
+    for (std::size_t a = 0; a < net.planform.arc_count(); ++a) {
+        std::vector<Vec2> const& line = net.planform.arc(a).line;
         std::vector<std::int64_t> path;
         for (std::size_t i = 1; i < line.size(); ++i) {
             std::vector<Cell> const cells = cells_along({line[i - 1], line[i]}, grid);

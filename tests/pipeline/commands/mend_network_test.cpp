@@ -100,9 +100,9 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
     RepairedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), (std::vector<std::string>{"turned", "mended"}));
-    ASSERT_EQ(mended.network.plan.arc_count(), file.arcs.size());
-    for (std::size_t a = 0; a < mended.network.plan.arc_count(); ++a) {
-        auto const was = static_cast<std::size_t>(mended.network.plan.arc(a).feature - 1000);
+    ASSERT_EQ(mended.network.planform.arc_count(), file.arcs.size());
+    for (std::size_t a = 0; a < mended.network.planform.arc_count(); ++a) {
+        auto const was = static_cast<std::size_t>(mended.network.planform.arc(a).feature - 1000);
         EXPECT_EQ(mended.us_area_m2[a], file.arcs[was].us_area_m2);
         EXPECT_EQ(mended.ds_area_m2[a], file.arcs[was].ds_area_m2);
         EXPECT_EQ(mended.braided[a], was == 7 ? 1 : 0);

@@ -23,12 +23,12 @@ namespace {
 /// The rivers 1 and 2 of a file, which go on as 3.
 Made terrain() {
     Made t;
-    t.terrain.rivers.network.plan =
+    t.terrain.rivers.network.planform =
         test::network_of({{0, 40}, {40, 40}, {0, 20}, {0, 0}},
                          {{.from = 0, .to = 2, .between = {}, .feature = 1}, {1, 2, {}, 2}, {2, 3, {}, 3}});
     t.terrain.rivers.network.node_z = {4.0, 4.0, 2.0, 0.0};
     t.terrain.rivers.network.arc_z = {{4.0, 2.0}, {4.0, 2.0}, {2.0, 0.0}};
-    t.terrain.rivers.orders = network::order(t.terrain.rivers.network.plan);
+    t.terrain.rivers.orders = network::order(t.terrain.rivers.network.planform);
     t.terrain.areas.us_area_m2 = t.terrain.areas.ds_area_m2 = {-1.0, -1.0, -1.0};
     t.terrain.areas.node_m2 = {-1.0, -1.0, -1.0, -1.0};
     t.planform.file.attributes.columns = {{"name", AttributeTable::Type::text},
@@ -36,8 +36,8 @@ Made terrain() {
     for (std::string const name : {"one", "two", "three", "four", "five"}) {
         t.planform.file.attributes.rows.push_back({name, name});
     }
-    t.planform.file.sources =
-        pipeline::LineSources(t.terrain.rivers.network.plan, {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
+    t.planform.file.sources = pipeline::LineSources(t.terrain.rivers.network.planform,
+                                                    {{{1, 0.0, 20.0}}, {{2, 0.0, 44.72}}, {{3, 0.0, 20.0}}});
     return t;
 }
 
@@ -67,7 +67,7 @@ TEST(SplitAreas, WhatArrivesLeaves) {
                 ds.push_back(sum + 8.0);
             }
             network::Split const split = network::split_confluences(test::star(rivers, outlet), {.distance_m = 2.0});
-            StreamNetwork const& plan = split.network.plan;
+            StreamNetwork const& plan = split.network.planform;
             pipeline::add_pieces(split.pieces, us, ds);
             ASSERT_EQ(us.size(), plan.arc_count());
             for (NodeId n = 0; n < plan.node_count(); ++n) {
@@ -94,7 +94,7 @@ TEST(SplitAreas, UnknownStaysUnknown) {
 
 TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
     Made t = terrain();
-    auto const user = pipeline::user_data(t, t.terrain.rivers.network.plan);
+    auto const user = pipeline::user_data(t, t.terrain.rivers.network.planform);
     ASSERT_TRUE(user);
     EXPECT_EQ(user->record, (std::vector<std::int64_t>{1, 2, 3}));
     EXPECT_EQ(user->attributes.rows.size(), 5U);
@@ -111,7 +111,7 @@ TEST(UserData, ArcsHaveTheRecordOfTheirFeature) {
     EXPECT_EQ(names[0].name, "name_of_the_river");
     EXPECT_EQ(names[0].in_shapefile, "name_of_th");
     t.planform.file.sources = {}; // as of grown rivers
-    EXPECT_FALSE(pipeline::user_data(t, t.terrain.rivers.network.plan));
+    EXPECT_FALSE(pipeline::user_data(t, t.terrain.rivers.network.planform));
     EXPECT_TRUE(pipeline::shortened_names(t).empty());
 }
 

@@ -59,7 +59,7 @@ void expect_balanced(GivenLength const& given) {
 }
 
 double stretches_m(Made const& t) {
-    return t.planform.file.sources.length_m(t.terrain.rivers.network.plan);
+    return t.planform.file.sources.length_m(t.terrain.rivers.network.planform);
 }
 
 } // namespace
@@ -148,7 +148,7 @@ TEST(GivenAreas, OfTheFileStandBesideThoseOfTheTerrain) {
         GivenAreas const& given = *t.assessment.given_areas;
         EXPECT_EQ(given.arcs, 2);
         std::vector<double> ratios;
-        StreamNetwork const& network = t.terrain.rivers.network.plan;
+        StreamNetwork const& network = t.terrain.rivers.network.planform;
         for (ArcId a = 0; a < network.arc_count(); ++a) {
             double const km2 = network.arc(a).feature == 1 ? 2.0 : network.arc(a).feature == 2 ? 4.0 : 0.0;
             if (km2 > 0.0) {

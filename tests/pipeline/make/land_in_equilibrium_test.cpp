@@ -226,7 +226,7 @@ TEST(LandInEquilibrium, RiversThatEndInsideAreCarriedOrSinks) {
         EXPECT_TRUE(c.ok) << c.name << " " << c.value;
     }
     ASSERT_EQ(drained.assessment.sinks.size(), 1U);
-    EXPECT_EQ(drained.terrain.rivers.network.plan.node(drained.assessment.sinks.front()).at,
+    EXPECT_EQ(drained.terrain.rivers.network.planform.node(drained.assessment.sinks.front()).at,
               (Vec2{502000.0, 5001500.0}));
 }
 
@@ -285,8 +285,8 @@ TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {
     expect_lawful(t);
     EXPECT_GT(t.terrain.side_valleys.grown, 30);
     std::int64_t grown = 0;
-    for (ArcId arc = 0; arc < t.terrain.rivers.network.plan.arc_count(); ++arc) {
-        grown += t.terrain.rivers.network.plan.arc(arc).is_input ? 0 : 1;
+    for (ArcId arc = 0; arc < t.terrain.rivers.network.planform.arc_count(); ++arc) {
+        grown += t.terrain.rivers.network.planform.arc(arc).is_input ? 0 : 1;
     }
     EXPECT_EQ(grown, t.terrain.side_valleys.grown);
     EXPECT_EQ(t.assessment.relief->perched, 0);
@@ -299,7 +299,7 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToMeander) {
     expect_lawful(bent);
     EXPECT_EQ(still.recipe.network->meander, 0.0);
     auto const length = [](Made const& t) {
-        auto const of_arcs = t.terrain.rivers.network.plan.length_m();
+        auto const of_arcs = t.terrain.rivers.network.planform.length_m();
         return std::accumulate(of_arcs.begin(), of_arcs.end(), 0.0);
     };
     EXPECT_GT(length(bent), 1.005 * length(still));
@@ -361,7 +361,7 @@ TEST(LandInEquilibrium, OtherCellsAreTheSameLand) {
 
 TEST(LandInEquilibrium, RiversOfAnIslandMeetAtAcuteAngles) {
     Made const land = make(recipe_from(THALWEG_SOURCE_DIR "/samples/island.toml"));
-    measure::JunctionAngles const angles = measure::junction_angles(land.terrain.rivers.network.plan, 300.0);
+    measure::JunctionAngles const angles = measure::junction_angles(land.terrain.rivers.network.planform, 300.0);
     EXPECT_GT(angles.junctions, 20);
     EXPECT_GT(angles.mean_deg, 45.0);
     EXPECT_LT(angles.mean_deg, 90.0);
@@ -375,8 +375,8 @@ TEST(LandInEquilibrium, AForestTilesALargeMap) {
                         files.folder());
     expect_lawful(t);
     std::vector<std::int64_t> outlets;
-    for (NodeId const n : t.terrain.rivers.network.plan.outlets()) {
-        outlets.push_back(t.terrain.grid.index(t.terrain.grid.cell_of(t.terrain.rivers.network.plan.node(n).at)));
+    for (NodeId const n : t.terrain.rivers.network.planform.outlets()) {
+        outlets.push_back(t.terrain.grid.index(t.terrain.grid.cell_of(t.terrain.rivers.network.planform.node(n).at)));
     }
     EXPECT_GT(outlets.size(), 50U);
     flow::FlowField const drainage = flow::route(t.terrain.surface->dem);

@@ -103,8 +103,8 @@ TEST(Land, OverTheTrianglesOfRivers) {
     }
     EXPECT_GE(t.assessment.statistics->min.z, low - 1e-3);
     EXPECT_LE(t.assessment.statistics->max.z, high + 1e-3);
-    for (ArcId arc = 0; arc < t.terrain.rivers.network.plan.arc_count(); ++arc) {
-        for (Vec2 const p : t.terrain.rivers.network.plan.arc(arc).line) {
+    for (ArcId arc = 0; arc < t.terrain.rivers.network.planform.arc_count(); ++arc) {
+        for (Vec2 const p : t.terrain.rivers.network.planform.arc(arc).line) {
             EXPECT_TRUE(std::any_of(t.terrain.tin->vertices.begin(), t.terrain.tin->vertices.end(),
                                     [&](Vec3 const& v) { return v.x == p.x && v.y == p.y; }));
         }

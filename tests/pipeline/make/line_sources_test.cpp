@@ -154,7 +154,7 @@ TEST(LineSources, NothingIsKnownOfGrownRivers) {
 
 TEST(LineSources, ArcsThatStayHaveTheirStretches) {
     for (std::uint64_t seed = 0; seed < 20; ++seed) {
-        StreamNetwork net = fans(seed, 4, 4).plan;
+        StreamNetwork net = fans(seed, 4, 4).planform;
         Stretches const drawn = stretches_in(net, seed);
         LineSources const sources(net, drawn);
         EXPECT_TRUE(sources.knows_any());
@@ -195,7 +195,7 @@ TEST(LineSources, WhatIsDrawnBeyondTheFileIsInNoStretch) {
 TEST(LineSources, MeanderedRiversAreCovered) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
-        StreamNetwork net = fans(seed, 4, 2).plan;
+        StreamNetwork net = fans(seed, 4, 2).planform;
         Stretches const drawn = stretches_in(net, seed);
         Grid const grid{100, 480, 10.0, -500.0, 4400.0, "EPSG:32631"};
         std::vector<double> const area_m2(net.arc_count(), 1e6);
@@ -228,12 +228,12 @@ TEST(LineSources, SplitConfluencesAreCovered) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1000);
         ElevatedNetwork rivers = fans(seed, 4, 5);
-        Stretches const drawn = stretches_in(rivers.plan, seed);
+        Stretches const drawn = stretches_in(rivers.planform, seed);
         std::map<std::int64_t, std::size_t> arc_of;
         std::map<std::pair<double, double>, std::int64_t> leaving; // features by place
         for (std::size_t a = 0; a < drawn.size(); ++a) {
             double along_m = 0.0;
-            auto const& line = rivers.plan.arc(a).line;
+            auto const& line = rivers.planform.arc(a).line;
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 auto const at = std::ranges::find_if(
                     drawn[a], [&](Stretch const& s) { return along_m >= s.from_m && along_m < s.to_m; });
@@ -246,8 +246,8 @@ TEST(LineSources, SplitConfluencesAreCovered) {
         }
         network::Split const split = network::split_confluences(rivers, {2, 30.0});
         RC_CLASSIFY(split.pieces.empty());
-        Stretches const is = LineSources(rivers.plan, drawn).redrawn(split.network.plan);
-        expect_covered(split.network.plan, is);
+        Stretches const is = LineSources(rivers.planform, drawn).redrawn(split.network.planform);
+        expect_covered(split.network.planform, is);
         RC_ASSERT(!testing::Test::HasFailure());
         for (std::size_t a = 0; a < is.size(); ++a) {
             std::size_t first = a;
@@ -258,7 +258,7 @@ TEST(LineSources, SplitConfluencesAreCovered) {
                 RC_ASSERT(arc_of.at(s.feature) == first);
             }
             double along_m = 0.0;
-            auto const& line = split.network.plan.arc(a).line;
+            auto const& line = split.network.planform.arc(a).line;
             for (std::size_t i = 0; i + 1 < line.size(); ++i) {
                 if (auto const known = leaving.find({line[i].x, line[i].y}); known != leaving.end()) {
                     auto const at = std::ranges::find_if(

@@ -51,7 +51,7 @@ TEST(Make, RiversAloneHaveNoTerrain) {
     EXPECT_FALSE(made.terrain.surface);
     EXPECT_FALSE(made.terrain.drainage);
     EXPECT_FALSE(made.assessment.given);
-    EXPECT_GT(made.terrain.rivers.network.plan.arc_count(), 0U);
+    EXPECT_GT(made.terrain.rivers.network.planform.arc_count(), 0U);
     EXPECT_TRUE(made.assessment.passed());
 }
 

@@ -53,7 +53,7 @@ KnownRivers of_dem(std::string const& name, std::string const& path, double leng
     flow::ExtractedStreams const streams =
         flow::extract_streams(drainage, known.dem, {flow::support_for_length(drainage, length_m)});
     known.lines.name = name;
-    for (Arc const& arc : streams.network.plan.arcs()) {
+    for (Arc const& arc : streams.network.planform.arcs()) {
         RiverLine& line = known.lines.lines.emplace_back();
         line.feature = static_cast<std::int64_t>(known.lines.lines.size());
         for (Vec2 const v : arc.line) {

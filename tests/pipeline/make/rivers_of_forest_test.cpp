@@ -67,9 +67,9 @@ void expect_lawful(Made const& t) {
     for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
         ASSERT_EQ(std::isfinite(t.terrain.surface->dem[i]), is_land(t.terrain.grid.at(i))) << i;
     }
-    EXPECT_FALSE(t.terrain.rivers.network.plan.outlets().empty());
-    for (NodeId const n : t.terrain.rivers.network.plan.outlets()) {
-        Cell const c = t.terrain.grid.cell_of(t.terrain.rivers.network.plan.node(n).at);
+    EXPECT_FALSE(t.terrain.rivers.network.planform.outlets().empty());
+    for (NodeId const n : t.terrain.rivers.network.planform.outlets()) {
+        Cell const c = t.terrain.grid.cell_of(t.terrain.rivers.network.planform.node(n).at);
         EXPECT_TRUE(is_land(c));
         EXPECT_FALSE(is_land({c.col - 1, c.row}) && is_land({c.col + 1, c.row}) && is_land({c.col, c.row - 1}) &&
                      is_land({c.col, c.row + 1}));
@@ -101,7 +101,7 @@ TEST(PlanForest, TheWholeGridDrainsOverItsBorder) {
     expect_lawful(t);
     EXPECT_TRUE(t.terrain.land.values().empty());
     EXPECT_TRUE(t.planform.statistics.full);
-    EXPECT_GT(t.terrain.rivers.network.plan.outlets().size(), 5U);
+    EXPECT_GT(t.terrain.rivers.network.planform.outlets().size(), 5U);
 }
 
 TEST(PlanForest, AnIslandIsDiffusedAndTriangulatedToo) {
@@ -154,7 +154,7 @@ TEST(PlanForest, PointsMoveToTheCoast) {
     expect_lawful(t);
     EXPECT_EQ(count(repairs_of(t), "moved_outlet"), 1);
     EXPECT_EQ(count(repairs_of(t), "added_outlet"), 1); // the islet's
-    EXPECT_EQ(t.terrain.rivers.network.plan.outlets().size(), 3U);
+    EXPECT_EQ(t.terrain.rivers.network.planform.outlets().size(), 3U);
 }
 
 TEST(PlanForest, LinesAndPolygonsMarkTheCoastWithOutlets) {
@@ -163,8 +163,8 @@ TEST(PlanForest, LinesAndPolygonsMarkTheCoastWithOutlets) {
     Made const west = made(region + "outlets = \"west.geojson\"\n" + dilated, files.folder());
     expect_lawful(west);
     std::int64_t on_line = 0;
-    for (NodeId const n : west.terrain.rivers.network.plan.outlets()) {
-        on_line += west.terrain.rivers.network.plan.node(n).at.x < 500400 ? 1 : 0;
+    for (NodeId const n : west.terrain.rivers.network.planform.outlets()) {
+        on_line += west.terrain.rivers.network.planform.node(n).at.x < 500400 ? 1 : 0;
     }
     EXPECT_EQ(on_line, 4);
     Made const lake = made(region + "outlets = \"lake.geojson\"\n" + dilated, files.folder());
@@ -175,8 +175,8 @@ TEST(PlanForest, LinesAndPolygonsMarkTheCoastWithOutlets) {
 TEST(PlanForest, OutletsThatArePrunedAwayAreReported) {
     Made const all = made(small_grid + forest + "prune = 0\n" + dilated);
     Made const some = made(small_grid + forest + "prune = 40\n" + dilated);
-    std::size_t const before = all.terrain.rivers.network.plan.outlets().size();
-    std::size_t const after = some.terrain.rivers.network.plan.outlets().size();
+    std::size_t const before = all.terrain.rivers.network.planform.outlets().size();
+    std::size_t const after = some.terrain.rivers.network.planform.outlets().size();
     EXPECT_LT(after, before);
     EXPECT_EQ(count(repairs_of(some), "pruned_outlet"), static_cast<std::int64_t>(before - after));
 }

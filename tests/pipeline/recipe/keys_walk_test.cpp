@@ -276,8 +276,8 @@ std::string digest(Made const& t) {
         hash.add(x);
     }
     add_text(hash, t.terrain.grid.crs);
-    for (std::size_t a = 0; a < t.terrain.rivers.network.plan.arc_count(); ++a) {
-        Arc const& arc = t.terrain.rivers.network.plan.arc(a);
+    for (std::size_t a = 0; a < t.terrain.rivers.network.planform.arc_count(); ++a) {
+        Arc const& arc = t.terrain.rivers.network.planform.arc(a);
         for (Vec2 const p : arc.line) {
             hash.add(p.x);
             hash.add(p.y);

@@ -164,25 +164,25 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     json const& arcs = data["rivers"]["arcs"];
     auto const lines = page_decoder::lines(unpacked(page_decoder::part(html, "@@LINES@@")),
                                            arcs["n"].get<std::vector<std::int64_t>>());
-    ASSERT_EQ(lines.size(), rivers.plan.arc_count());
+    ASSERT_EQ(lines.size(), rivers.planform.arc_count());
     double const step_m = data["rivers"]["step"].get<double>() * grid.cell_m;
     auto const expect_at = [&](Vec2 steps, NodeId node) {
-        EXPECT_NEAR(grid.west + steps.x * step_m, rivers.plan.node(node).at.x, step_m / 2.0);
-        EXPECT_NEAR(grid.north - steps.y * step_m, rivers.plan.node(node).at.y, step_m / 2.0);
+        EXPECT_NEAR(grid.west + steps.x * step_m, rivers.planform.node(node).at.x, step_m / 2.0);
+        EXPECT_NEAR(grid.north - steps.y * step_m, rivers.planform.node(node).at.y, step_m / 2.0);
     };
     for (auto const& [name, column] : arcs.items()) {
         EXPECT_EQ(column.size(), lines.size()) << name;
     }
     for (std::size_t a = 0; a < lines.size(); ++a) {
-        expect_at(lines[a].front(), rivers.plan.from(a));
-        expect_at(lines[a].back(), rivers.plan.to(a));
+        expect_at(lines[a].front(), rivers.planform.from(a));
+        expect_at(lines[a].back(), rivers.planform.to(a));
         EXPECT_EQ(arcs["id"][a], a + 1);
         auto const ds = arcs["ds"][a].get<std::size_t>();
         EXPECT_TRUE(ds == 0 || lines[a].back() == lines[ds - 1].front()) << "rivers are not torn apart";
-        EXPECT_NEAR(arcs["length"][a].get<double>(), rivers.plan.length_m(a), 0.001);
+        EXPECT_NEAR(arcs["length"][a].get<double>(), rivers.planform.length_m(a), 0.001);
         EXPECT_NEAR(arcs["z_up"][a].get<double>(), rivers.arc_z[a].front(), 0.001);
         EXPECT_EQ(arcs["ds_area"][a], made.terrain.areas.ds_area_m2[a]);
-        EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(rivers.plan.arc(a).persistence));
+        EXPECT_EQ(arcs["survives"][a].is_null(), std::isinf(rivers.planform.arc(a).persistence));
     }
 }
 
@@ -261,7 +261,7 @@ TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
         reaches.push_back({nodes.size() - 2, nodes.size() - 1});
     }
     two.terrain.rivers.network = test::elevated(test::network_of(nodes, reaches), z);
-    two.terrain.rivers.orders = network::order(two.terrain.rivers.network.plan);
+    two.terrain.rivers.orders = network::order(two.terrain.rivers.network.planform);
     two.terrain.areas.us_area_m2 = two.terrain.areas.ds_area_m2 = {1.0, 2.0, 2.0};
     two.terrain.areas.node_m2 = {0.0, 1.0, 0.0, 2.0, 0.0, 2.0};
     EXPECT_EQ(data_of(page(two))["profile"], json::parse("[[50.0, 50.0], [0.0, 1.0]]"));

@@ -155,7 +155,7 @@ namespace {
 class Arcs {
 public:
     Arcs(NetworkTables const& tables, SchemaTable const& schema)
-        : tables_(tables), plan_(tables.network.plan), schema_(schema),
+        : tables_(tables), plan_(tables.network.planform), schema_(schema),
           z_unit_m_(schema.schema == Schema::native ? metres_in(tables.unit) : 1.0), key_(plan_.arc_count()),
           mouth_(plan_.arc_count()), outlet_(plan_.arc_count()), length_up_m_(plan_.arc_count()),
           longest_up_m_(plan_.arc_count()) {
@@ -345,7 +345,7 @@ void add_unit(Table& table, HeightUnit unit) {
 
 Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool short_names) {
     auto const arcs = std::make_shared<Arcs const>(tables, schema);
-    Table table{std::string(schema.layer), Table::Shape::line, tables.network.plan.arc_count(), {}, {}};
+    Table table{std::string(schema.layer), Table::Shape::line, tables.network.planform.arc_count(), {}, {}};
     table.shape_at = [arcs](std::size_t row) { return arcs->line(row); };
     for (SchemaField const& field : schema.fields) {
         if (field.written) {
@@ -367,7 +367,7 @@ Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool sh
 
 /// Throws BadInput when the tables are not those of the network: else another arc's numbers would be written.
 void require_whole(NetworkTables const& tables, std::string const& what) {
-    StreamNetwork const& plan = tables.network.plan;
+    StreamNetwork const& plan = tables.network.planform;
     auto const& node_z = tables.network.node_z;
     auto const& arc_z = tables.network.arc_z;
     NetworkOrders const& orders = tables.orders;
@@ -405,7 +405,7 @@ void require_whole(NetworkTables const& tables, std::string const& what) {
 std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
                                   std::string const& what) {
     require_whole(tables, what);
-    StreamNetwork const& plan = tables.network.plan;
+    StreamNetwork const& plan = tables.network.planform;
     SchemaTable const& words = table_of(schema);
     auto const most = static_cast<std::size_t>(words.most_upstream);
     for (NodeId n = 0; n < plan.node_count(); ++n) {
@@ -424,7 +424,7 @@ std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bo
 // The other tables of the native schema.
 
 Table nodes_table(NetworkTables const& tables) {
-    auto const& plan = tables.network.plan;
+    auto const& plan = tables.network.planform;
     NetworkOrders const& orders = tables.orders;
     auto const z = [&z_m = tables.network.node_z, unit_m = metres_in(tables.unit)](NodeId n) {
         return z_m[n] / unit_m;

@@ -110,7 +110,7 @@ std::string graphml_key(std::string const& id, char const* of, std::string const
 // exists. Source: GraphML 1.0.
 void write_graphml(NetworkTables const& tables, Table const& arcs, std::string const& path, Run const& run) {
     std::string const what = "io.write_graphml: " + path;
-    StreamNetwork const& plan = tables.network.plan;
+    StreamNetwork const& plan = tables.network.planform;
     Table const nodes = nodes_table(tables);
     NewFile graph(path, what);
     graph.append("<?xml version=\"1.0\" encoding=\"UTF-8\"?>\n"
@@ -156,7 +156,7 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
 // create_using=networkx.DiGraph) reads it. Like write_graphml for the rest.
 void write_edges(NetworkTables const& tables, Table arcs, std::string const& path, bool is_csv, Run const& run) {
     std::string const what = fmt::format("io.{}: {}", is_csv ? "write_edge_table" : "write_edge_list", path);
-    StreamNetwork const& plan = tables.network.plan;
+    StreamNetwork const& plan = tables.network.planform;
     NewFile graph(path, what);
     std::erase_if(arcs.columns, [](Column const& c) { return c.name == "from_node" || c.name == "to_node"; });
     if (is_csv) {
@@ -276,7 +276,7 @@ void write_network(NetworkTables const& tables, std::string const& path, WriteNe
     case NetworkFormat::graphml: write_graphml(tables, layers.front(), path, run); break;
     case NetworkFormat::csv: write_edges(tables, layers.front(), path, true, run); break;
     case NetworkFormat::edges: write_edges(tables, layers.front(), path, false, run); break;
-    case NetworkFormat::mask: write_mask(mask_of(tables.network.plan, params.grid), path, run); break;
+    case NetworkFormat::mask: write_mask(mask_of(tables.network.planform, params.grid), path, run); break;
     default:
         for (Table const& layer : layers) { // both enumerations of formats begin alike
             write_file({&layer, 1}, tables.crs, layers.size() > 1 ? file_of(path, layer.name) : path,

@@ -243,7 +243,7 @@ std::optional<PowerLaw> hack(StreamNetwork const& network, std::vector<double> c
 
 std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::ContributingAreas const& areas,
                                   PowerLawParams const& params) {
-    std::size_t const arcs = network.plan.arc_count();
+    std::size_t const arcs = network.planform.arc_count();
     refuse_if<BadInput>(areas.us_area_m2.size() != arcs || areas.ds_area_m2.size() != arcs ||
                             network.arc_z.size() != arcs,
                         "measure.concavity: {} and {} areas and heights of {} for {} arcs; measure the network again",
@@ -252,7 +252,7 @@ std::optional<PowerLaw> concavity(ElevatedNetwork const& network, flow::Contribu
     slopes.reserve(arcs);
     for (std::size_t a = 0; a < arcs; ++a) {
         double const drop = network.arc_z[a].front() - network.arc_z[a].back();
-        slopes.push_back({0.5 * (areas.us_area_m2[a] + areas.ds_area_m2[a]), drop / network.plan.length_m(a)});
+        slopes.push_back({0.5 * (areas.us_area_m2[a] + areas.ds_area_m2[a]), drop / network.planform.length_m(a)});
     }
     return fit_power_law(slopes, params);
 }
@@ -264,17 +264,17 @@ NetworkLaws network_laws(ElevatedNetwork const& network, NetworkOrders const& or
             fmt::format("measure.network_laws: the land has {} m2; it must have some", double{params.land_m2}));
     }
     NetworkLaws laws;
-    laws.horton = horton(network.plan, orders, areas.ds_area_m2);
+    laws.horton = horton(network.planform, orders, areas.ds_area_m2);
     laws.tokunaga = tokunaga(params.side_branches);
-    laws.hack = hack(network.plan, areas.ds_area_m2, params.head_m);
+    laws.hack = hack(network.planform, areas.ds_area_m2, params.head_m);
     laws.concavity = concavity(network, areas);
     CompensatedSum length;
-    for (double const l : network.plan.length_m()) {
+    for (double const l : network.planform.length_m()) {
         length.add(l);
     }
     laws.drainage_density_m = length.value() / params.land_m2;
-    laws.links = link_lengths(network.plan);
-    laws.junctions = junction_angles(network.plan, params.junction_reach_m);
+    laws.links = link_lengths(network.planform);
+    laws.junctions = junction_angles(network.planform, params.junction_reach_m);
     return laws;
 }
 

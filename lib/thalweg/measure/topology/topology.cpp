@@ -48,7 +48,7 @@ std::size_t place_of(std::string_view kind) {
     return static_cast<std::size_t>(std::find(kinds.begin(), kinds.end(), kind) - kinds.begin());
 }
 
-double diagonal_of(Plans const& plans) {
+double diagonal_of(Outlines const& plans) {
     bool any = false;
     Vec2 low;
     Vec2 high;
@@ -77,7 +77,7 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
         findings.push_back({"empty", 0, {}, 0.0, "the file holds no arcs"});
     }
     auto const ambiguous = check_ids(file, findings);
-    Plans plans = check_shapes(file, findings);
+    Outlines plans = check_shapes(file, findings);
     auto left_out = check_copies(file, plans, findings);
     for (std::size_t a = 0; a < plans.size(); ++a) {
         if (left_out[a] != 0) {
@@ -111,27 +111,27 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
 }
 
 NetworkFile as_file(ElevatedNetwork const& network, NetworkOrders const& orders) {
-    std::size_t const nodes = network.plan.node_count();
-    std::size_t const arcs = network.plan.arc_count();
+    std::size_t const nodes = network.planform.node_count();
+    std::size_t const arcs = network.planform.arc_count();
     refuse_if<BadInput>(
         network.node_z.size() != nodes || network.arc_z.size() != arcs || orders.strahler.size() != arcs ||
             orders.shreve.size() != arcs || orders.arc_basin.size() != arcs,
         "measure.as_file: heights or orders are not those of this network of {} arcs and {} nodes", arcs, nodes);
     NetworkFile file;
     for (NodeId n = 0; n < nodes; ++n) {
-        Vec2 const at = network.plan.node(n).at;
+        Vec2 const at = network.planform.node(n).at;
         file.nodes.push_back({static_cast<std::int64_t>(n) + 1, {at.x, at.y, network.node_z[n]}});
     }
     for (std::size_t a = 0; a < arcs; ++a) {
-        auto const& line = network.plan.arc(a).line;
+        auto const& line = network.planform.arc(a).line;
         auto const& z = network.arc_z[a];
         refuse_if<BadInput>(z.size() != line.size(), "measure.as_file: arc {} has {} vertices but {} heights", a + 1,
                             line.size(), z.size());
         NetworkFile::FileArc arc;
         arc.id = static_cast<std::int64_t>(a) + 1;
-        arc.from_node = static_cast<std::int64_t>(network.plan.from(a)) + 1;
-        arc.to_node = static_cast<std::int64_t>(network.plan.to(a)) + 1;
-        arc.ds_arc = static_cast<std::int64_t>(network.plan.out(network.plan.to(a)) + 1); // 0: none
+        arc.from_node = static_cast<std::int64_t>(network.planform.from(a)) + 1;
+        arc.to_node = static_cast<std::int64_t>(network.planform.to(a)) + 1;
+        arc.ds_arc = static_cast<std::int64_t>(network.planform.out(network.planform.to(a)) + 1); // 0: none
         arc.strahler = orders.strahler[a];
         arc.shreve = orders.shreve[a];
         arc.basin = orders.arc_basin[a];

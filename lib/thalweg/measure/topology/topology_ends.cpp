@@ -201,7 +201,7 @@ std::size_t Junctions::of(std::int64_t id) const {
     return static_cast<std::size_t>(std::lower_bound(ids.begin(), ids.end(), id) - ids.begin());
 }
 
-Joints check_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out,
+Joints check_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
                   std::vector<char> const& ambiguous, Findings& findings) {
     std::size_t const arcs = file.arcs.size();
     Joints joints{junctions_of(file), {}, {}, std::vector<std::array<char, 2>>(arcs, {0, 0}), std::vector<char>(arcs)};
@@ -236,8 +236,8 @@ Joints check_ends(NetworkFile const& file, Plans const& plans, std::vector<char>
     return joints;
 }
 
-void check_heights(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out, Joints const& joints,
-                   Findings& findings) {
+void check_heights(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
+                   Joints const& joints, Findings& findings) {
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
         if (!file.says.heights || left_out[a] != 0 || plans[a].empty()) {
             continue;
@@ -273,7 +273,7 @@ struct LooseEnd {
 };
 
 /// Sources and outlets whose arcs' ends have no reported fault.
-std::vector<LooseEnd> loose_ends(Joints const& joints, Plans const& plans, Graph const& graph) {
+std::vector<LooseEnd> loose_ends(Joints const& joints, Outlines const& plans, Graph const& graph) {
     std::vector<LooseEnd> loose;
     for (std::size_t j = 0; j < joints.junctions.ids.size(); ++j) {
         auto const in = graph.in.at(j);
@@ -300,7 +300,7 @@ struct Near {
 };
 
 Near nearest(LooseEnd const& end, std::vector<geometry::NearSegment> const& segments, Joints const& joints,
-             Plans const& plans, double near_m) {
+             Outlines const& plans, double near_m) {
     Vec2 const p = joints.place(end.arc, end.end, plans);
     std::size_t const far_end = joints.meant[end.arc][1 - end.end];
     Near near;
@@ -337,7 +337,7 @@ Near nearest(LooseEnd const& end, std::vector<geometry::NearSegment> const& segm
 
 } // namespace
 
-void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out, double near_m,
+void check_near_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out, double near_m,
                      Joints& joints, Findings& findings, Run const& run) {
     std::size_t const junctions = joints.junctions.ids.size();
     auto const loose = loose_ends(joints, plans, Graph(joints.meant, left_out, junctions));

@@ -122,11 +122,11 @@ std::vector<char> check_ids(NetworkFile const& file, Findings& findings) {
     return ambiguous;
 }
 
-Plans check_shapes(NetworkFile const& file, Findings& findings) {
+Outlines check_shapes(NetworkFile const& file, Findings& findings) {
     auto const is_place = [&](Vec3 p) {
         return is_number(p.x) && is_number(p.y) && (!file.says.heights || is_number(p.z));
     };
-    Plans plans(file.arcs.size());
+    Outlines plans(file.arcs.size());
     for (std::size_t a = 0; a < file.arcs.size(); ++a) {
         FileArc const& arc = file.arcs[a];
         if (arc.line.size() < 2) {
@@ -172,7 +172,7 @@ Plans check_shapes(NetworkFile const& file, Findings& findings) {
     return plans;
 }
 
-std::vector<char> check_copies(NetworkFile const& file, Plans const& plans, Findings& findings) {
+std::vector<char> check_copies(NetworkFile const& file, Outlines const& plans, Findings& findings) {
     std::vector<Undirected> lines;
     for (std::size_t a = 0; a < plans.size(); ++a) {
         if (!plans[a].empty()) {
@@ -223,7 +223,7 @@ bool turns_back(std::vector<Vec2> const& line, std::size_t i, double near_m, boo
 
 class MeetingCheck {
 public:
-    MeetingCheck(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m)
+    MeetingCheck(NetworkFile const& file, Outlines const& plans, Joints const& joints, double near_m)
         : file_(file), plans_(plans), joints_(joints), near_m_(near_m) {}
 
     /// meetings: all of arc a with itself.
@@ -365,7 +365,7 @@ private:
     }
 
     NetworkFile const& file_;
-    Plans const& plans_;
+    Outlines const& plans_;
     Joints const& joints_;
     double near_m_;
     Findings found_ = {};
@@ -374,7 +374,7 @@ private:
 
 } // namespace
 
-void check_meetings(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m,
+void check_meetings(NetworkFile const& file, Outlines const& plans, Joints const& joints, double near_m,
                     Findings& findings, Run const& run) {
     std::vector<geometry::EndNodes> nodes = joints.meant;
     for (std::size_t a = 0; a < nodes.size(); ++a) {

@@ -207,12 +207,12 @@ public:
     ElevatedNetwork join(std::vector<Grown> const& grown) {
         out_ = {};
         plan_ = {};
-        for (NodeId n = 0; n < given_.plan.node_count(); ++n) {
-            add_node(given_.plan.node(n).at, given_.node_z[n]);
+        for (NodeId n = 0; n < given_.planform.node_count(); ++n) {
+            add_node(given_.planform.node(n).at, given_.node_z[n]);
         }
         cut_given(grown);
         add_grown(grown);
-        out_.plan = std::move(plan_);
+        out_.planform = std::move(plan_);
         return std::move(out_);
     }
 
@@ -232,13 +232,13 @@ private:
         std::sort(places.begin(), places.end());
         nodes_.clear();
         auto place = places.begin();
-        for (std::size_t a = 0; a < given_.plan.arc_count(); ++a) {
-            Arc const& arc = given_.plan.arc(a);
+        for (std::size_t a = 0; a < given_.planform.arc_count(); ++a) {
+            Arc const& arc = given_.planform.arc(a);
             std::vector<double> const& z = given_.arc_z[a];
             Arc piece = arc;
             piece.line = {arc.line.front()};
             std::vector<double> heights{z.front()};
-            NodeId from = given_.plan.from(a);
+            NodeId from = given_.planform.from(a);
             auto const end_at = [&](NodeId node, double height) {
                 plan_.add_arc(from, node, piece);
                 out_.arc_z.push_back(heights);
@@ -262,9 +262,9 @@ private:
                 heights.push_back(z[k + 1]);
             }
             for (; place != places.end() && place->arc == a; ++place) { // at its last vertex
-                nodes_[key_of(*place)] = given_.plan.to(a);
+                nodes_[key_of(*place)] = given_.planform.to(a);
             }
-            plan_.add_arc(from, given_.plan.to(a), std::move(piece));
+            plan_.add_arc(from, given_.planform.to(a), std::move(piece));
             out_.arc_z.push_back(std::move(heights));
         }
     }
@@ -275,7 +275,7 @@ private:
     /// The node at which a valley joins an arc; reuses `from`, the last one on it, at the same position.
     NodeId node_at(PlaceOnArc const& place, std::size_t a, NodeId from, std::vector<double> const& z) {
         bool const at_source = place.segment == 0 && place.along == 0.0;
-        auto const [entry, is_new] = nodes_.try_emplace(key_of(place), given_.plan.from(a));
+        auto const [entry, is_new] = nodes_.try_emplace(key_of(place), given_.planform.from(a));
         if (at_source || !is_new) {
             return at_source ? from : entry->second;
         }
@@ -400,7 +400,7 @@ SideValleys side_valleys(ElevatedNetwork const& given, Channels const& channels,
     DemFlow const water{dem, flow};
     require_in("network.side_valleys", "the support", params.support_cells, Range::at_least(1), "cells");
     require_one_grid(channels, water);
-    DrawnLines const lines(given.plan, water.dem.grid());
+    DrawnLines const lines(given.planform, water.dem.grid());
     Valleys valleys(channels, water, lines, params.support_cells, run);
     Grafting grafting(given, water);
     SideValleys made;
@@ -409,7 +409,7 @@ SideValleys side_valleys(ElevatedNetwork const& given, Channels const& channels,
         std::vector<Grown> const grown = valleys.trace(lines);
         made.network = grafting.join(grown);
         made.grown = static_cast<std::int64_t>(grown.size());
-        std::vector<std::size_t> const out = with_upstream(grown, offenders(made.network.plan, grown.size(), run));
+        std::vector<std::size_t> const out = with_upstream(grown, offenders(made.network.planform, grown.size(), run));
         if (out.empty()) {
             return made;
         }

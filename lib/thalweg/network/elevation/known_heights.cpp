@@ -295,8 +295,8 @@ private:
 
 ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known) {
     std::map<std::pair<double, double>, double> height;
-    for (std::size_t a = 0; a < known.plan.arc_count(); ++a) {
-        auto const& line = known.plan.arc(a).line;
+    for (std::size_t a = 0; a < known.planform.arc_count(); ++a) {
+        auto const& line = known.planform.arc(a).line;
         for (std::size_t i = 0; i < line.size(); ++i) {
             height[{line[i].x, line[i].y}] = known.arc_z[a][i];
         }
@@ -308,7 +308,7 @@ ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const
     };
 
     ElevatedNetwork out;
-    out.plan = network;
+    out.planform = network;
     out.arc_z.resize(network.arc_count());
     for (NodeId n = 0; n < network.node_count(); ++n) {
         out.node_z.push_back(height_at(network.node(n).at));

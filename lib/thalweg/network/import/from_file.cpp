@@ -206,8 +206,8 @@ FileNetwork from_file(NetworkFile const& file) {
     for (std::size_t const i : order) {
         add_arc(file.arcs[i], file, nodes, drawing, made);
     }
-    made.network.plan = std::move(drawing);
-    StreamNetwork const& plan = made.network.plan;
+    made.network.planform = std::move(drawing);
+    StreamNetwork const& plan = made.network.planform;
     made.stretches = stretches_of(file, order, plan);
     require_arcs_at_nodes(file, nodes, plan);
     try {

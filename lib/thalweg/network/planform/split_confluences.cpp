@@ -199,20 +199,20 @@ double median_segment(StreamNetwork const& network) {
 class Loose {
 public:
     explicit Loose(ElevatedNetwork const& network) {
-        for (NodeId n = 0; n < network.plan.node_count(); ++n) {
-            in_.emplace_back(network.plan.in(n).begin(), network.plan.in(n).end());
-            out_.push_back(network.plan.out(n));
-            Vec2 const at = network.plan.node(n).at;
+        for (NodeId n = 0; n < network.planform.node_count(); ++n) {
+            in_.emplace_back(network.planform.in(n).begin(), network.planform.in(n).end());
+            out_.push_back(network.planform.out(n));
+            Vec2 const at = network.planform.node(n).at;
             nodes_.push_back({at.x, at.y, network.node_z[n]});
         }
-        for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
+        for (std::size_t a = 0; a < network.planform.arc_count(); ++a) {
             Line line;
-            for (std::size_t i = 0; Vec2 const p : network.plan.arc(a).line) {
+            for (std::size_t i = 0; Vec2 const p : network.planform.arc(a).line) {
                 line.push_back({p.x, p.y, network.arc_z[a][i++]});
             }
             lines_.push_back(std::move(line));
-            from_.push_back(network.plan.from(a));
-            to_.push_back(network.plan.to(a));
+            from_.push_back(network.planform.from(a));
+            to_.push_back(network.planform.to(a));
             cut_off_.emplace_back();
         }
     }
@@ -312,7 +312,7 @@ public:
             drawn.add_arc(from_[a], to_[a], std::move(arc));
             made.arc_z.push_back(std::move(z));
         }
-        made.plan = std::move(drawn);
+        made.planform = std::move(drawn);
         return made;
     }
 
@@ -423,10 +423,11 @@ void require(SplitParams const& params, ElevatedNetwork const& network) {
                             "network.split_confluences: max_upstream is {}; a confluence joins at least 2",
                             params.max_upstream);
     require_in("network.split_confluences", "distance", params.distance_m, Range::at_least(0.0), "m");
-    require_trees(network.plan, "network.split_confluences");
-    bool whole = network.node_z.size() == network.plan.node_count() && network.arc_z.size() == network.plan.arc_count();
-    for (std::size_t a = 0; whole && a < network.plan.arc_count(); ++a) {
-        auto const& line = network.plan.arc(a).line;
+    require_trees(network.planform, "network.split_confluences");
+    bool whole =
+        network.node_z.size() == network.planform.node_count() && network.arc_z.size() == network.planform.arc_count();
+    for (std::size_t a = 0; whole && a < network.planform.arc_count(); ++a) {
+        auto const& line = network.planform.arc(a).line;
         whole = network.arc_z[a].size() == line.size();
         if (auto const twice = std::ranges::adjacent_find(line); twice != line.end()) {
             throw BadInput(fmt::format("network.split_confluences: arc {} has the vertex ({}, {}) twice in a row; "
@@ -445,20 +446,20 @@ Split split_confluences(ElevatedNetwork const& network, SplitParams const& param
     std::vector<NodeId> crowded;
     std::vector<Vec2> places;
     std::size_t highest = most;
-    for (NodeId n = 0; n < network.plan.node_count(); ++n) {
-        if (network.plan.in(n).size() > most) {
+    for (NodeId n = 0; n < network.planform.node_count(); ++n) {
+        if (network.planform.in(n).size() > most) {
             crowded.push_back(n);
-            places.push_back(network.plan.node(n).at);
-            highest = std::max(highest, network.plan.in(n).size());
+            places.push_back(network.planform.node(n).at);
+            highest = std::max(highest, network.planform.in(n).size());
         }
     }
     if (crowded.empty()) {
         return {network, {}};
     }
-    double const distance_m = params.distance_m > 0.0 ? params.distance_m : median_segment(network.plan);
+    double const distance_m = params.distance_m > 0.0 ? params.distance_m : median_segment(network.planform);
     std::vector<std::vector<Vec2>> lines;
-    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
-        lines.push_back(network.plan.arc(arc).line);
+    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
+        lines.push_back(network.planform.arc(arc).line);
     }
     // New lines lie within one reach of their node; those of another node's splitting within two.
     double const reach_m = distance_m * static_cast<double>(highest - most);
@@ -482,7 +483,7 @@ Split split_confluences(ElevatedNetwork const& network, SplitParams const& param
             }
         }
     }
-    return {net.raised(network.plan), net.pieces()};
+    return {net.raised(network.planform), net.pieces()};
 }
 
 } // namespace thalweg::network

@@ -57,15 +57,16 @@ void lower_downstream(std::vector<Step> steps, Rasterised& out) {
 } // namespace
 
 Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
-    refuse_if<BadInput>(network.arc_z.size() != network.plan.arc_count(),
+    refuse_if<BadInput>(network.arc_z.size() != network.planform.arc_count(),
                         "network.rasterise: {} arcs with heights for {}; set the heights again",
-                        network.plan.arc_count(), network.arc_z.size());
+                        network.planform.arc_count(), network.arc_z.size());
     Rasterised out;
     out.valley.z = Raster<float>(grid, std::numeric_limits<float>::quiet_NaN());
     Raster<float>& z = out.valley.z;
     std::vector<Step> steps;
-    for (std::size_t a = 0; a < network.plan.arc_count(); ++a) {
-        std::vector<Cell> const at = cells_of_vertices(network.plan.arc(a).line, grid, fmt::format("arc {}", a + 1));
+    for (std::size_t a = 0; a < network.planform.arc_count(); ++a) {
+        std::vector<Cell> const at =
+            cells_of_vertices(network.planform.arc(a).line, grid, fmt::format("arc {}", a + 1));
         std::vector<double> const& height = network.arc_z[a];
         refuse_if<BadInput>(height.size() != at.size(),
                             "network.rasterise: arc {} has {} vertices and {} heights; set the heights again", a + 1,
@@ -75,7 +76,7 @@ Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
             double const from = height[i - 1];
             double const to = height[i];
             if (!std::isfinite(from) || !std::isfinite(to)) {
-                Vec2 const p = network.plan.arc(a).line[std::isfinite(from) ? i : i - 1];
+                Vec2 const p = network.planform.arc(a).line[std::isfinite(from) ? i : i - 1];
                 throw BadInput(fmt::format("network.rasterise: the height of arc {} at ({:.3f}, {:.3f}) is not a "
                                            "number; set it in the file or let it be computed",
                                            a + 1, p.x, p.y));

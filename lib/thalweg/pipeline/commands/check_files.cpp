@@ -203,7 +203,7 @@ void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOut
                                    &mended.user,
                                    HeightUnit::metre,
                                    true,
-                                   sinks_in(mended.network.plan, file)};
+                                   sinks_in(mended.network.planform, file)};
     if (output.is_shapefile()) {
         for (io::ShortenedName const& one : io::shortened_names(tables)) {
             checked.notes.push_back({"shortened_field",

@@ -60,7 +60,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
     if (!file.says.heights) {
         converted.heights = dem != nullptr ? "dem" : "none";
         if (dem != nullptr) {
-            source.network = network::drape(source.network.plan, *dem);
+            source.network = network::drape(source.network.planform, *dem);
         } else {
             std::ranges::fill(source.network.node_z, 0.0);
             for (auto& z : source.network.arc_z) {
@@ -69,10 +69,10 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
         }
     }
     if (is_known(source.us_area_m2) && is_known(source.ds_area_m2)) {
-        ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
+        ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
     } else if (dem != nullptr) {
         converted.areas = "d8";
-        flow::ContributingAreas areas = flow::areas_d8(source.network.plan, flow::route(*dem, run), run);
+        flow::ContributingAreas areas = flow::areas_d8(source.network.planform, flow::route(*dem, run), run);
         source.us_area_m2 = std::move(areas.us_area_m2);
         source.ds_area_m2 = std::move(areas.ds_area_m2);
         ready.node_area_m2 = std::move(areas.node_m2);
@@ -80,7 +80,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
         converted.areas = "none";
         std::ranges::fill(source.us_area_m2, -1.0);
         std::ranges::fill(source.ds_area_m2, -1.0);
-        ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
+        ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
     }
 }
 
@@ -94,9 +94,9 @@ void split(Ready& ready, ConvertParams const& params, Converted& converted, Run 
         source.braided.push_back(source.braided[piece.of]);
         source.records.push_back(source.records[piece.of]);
     }
-    source.stretches = LineSources(source.network.plan, source.stretches).redrawn(made.network.plan);
+    source.stretches = LineSources(source.network.planform, source.stretches).redrawn(made.network.planform);
     source.network = std::move(made.network);
-    ready.node_area_m2 = node_areas(source.network.plan, source.us_area_m2, source.ds_area_m2);
+    ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
 }
 
 /// The grid of a mask: the DEM's, or one around the network.
@@ -250,7 +250,7 @@ Converted convert(ConvertParams const& params, std::string const& output, io::Ex
     if (params.max_upstream != 0) {
         split(ready, params, converted, run);
     }
-    StreamNetwork const& plan = ready.source.network.plan;
+    StreamNetwork const& plan = ready.source.network.planform;
     ready.orders = network::order(plan);
     converted.arcs = static_cast<std::int64_t>(plan.arc_count());
     converted.nodes = static_cast<std::int64_t>(plan.node_count());

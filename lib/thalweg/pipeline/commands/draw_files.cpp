@@ -69,7 +69,7 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
         plan.add_arc(from->second, to->second, std::move(drawn));
         out.arc_z.push_back(std::move(z));
     }
-    out.plan = std::move(plan);
+    out.planform = std::move(plan);
     return out;
 }
 
@@ -110,11 +110,11 @@ double lowest_of(Raster<float> const& dem) {
 ElevatedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
     ElevatedNetwork out{std::move(plan), {}, {}};
     double const lowest = lowest_of(dem);
-    out.node_z.assign(out.plan.node_count(), lowest);
-    for (ArcId arc = 0; arc < out.plan.arc_count(); ++arc) {
-        out.arc_z.push_back(draped(out.plan.arc(arc).line, dem, lowest));
-        out.node_z[out.plan.from(arc)] = out.arc_z.back().front();
-        out.node_z[out.plan.to(arc)] = out.arc_z.back().back();
+    out.node_z.assign(out.planform.node_count(), lowest);
+    for (ArcId arc = 0; arc < out.planform.arc_count(); ++arc) {
+        out.arc_z.push_back(draped(out.planform.arc(arc).line, dem, lowest));
+        out.node_z[out.planform.from(arc)] = out.arc_z.back().front();
+        out.node_z[out.planform.to(arc)] = out.arc_z.back().back();
     }
     return out;
 }
@@ -232,7 +232,7 @@ SceneRead read_scene(SceneSource const& from, std::string const& network = {}, R
         out.scene.network = rivers_on(*out.scene.dem, network, out.notes, run);
     }
     if (out.scene.network) {
-        out.scene.orders = network::order(out.scene.network->plan);
+        out.scene.orders = network::order(out.scene.network->planform);
     }
     return out;
 }

@@ -299,7 +299,7 @@ private:
 
 /// An arc has the file's area at an end that did not move; otherwise the sum of its inflows, a lower bound.
 void take_areas(Known const& known, double near_m, RepairedNetwork& mended) {
-    StreamNetwork const& plan = mended.network.plan;
+    StreamNetwork const& plan = mended.network.planform;
     mended.us_area_m2.assign(plan.arc_count(), 0.0);
     mended.ds_area_m2.assign(plan.arc_count(), 0.0);
     mended.node_area_m2.assign(plan.node_count(), 0.0);
@@ -335,7 +335,7 @@ std::vector<Stretch> stretches_of(NetworkFile::FileArc const& given, double give
 
 /// Copies the file's attributes of arcs, other than their lines.
 void take_words(Known const& known, RepairedNetwork& mended) {
-    NetworkDraft named = mended.network.plan.draft();
+    NetworkDraft named = mended.network.planform.draft();
     for (ArcId a = 0; a < named.arcs.size(); ++a) {
         Arc& of = named.arcs[a].arc;
         auto const& given = known.arc(of.feature);
@@ -345,12 +345,12 @@ void take_words(Known const& known, RepairedNetwork& mended) {
         }
         mended.braided.push_back(given.braided ? 1 : 0);
         mended.user.record.push_back(given.record);
-        mended.user.sources.push_back(stretches_of(given, length_of(line), mended.network.plan.length_m(a)));
+        mended.user.sources.push_back(stretches_of(given, length_of(line), mended.network.planform.length_m(a)));
         of.persistence = given.persistence;
         of.is_input = given.is_input;
         of.feature = given.feature;
     }
-    mended.network.plan = std::move(named);
+    mended.network.planform = std::move(named);
 }
 
 /// Names secondary lines by the features of the file.
@@ -381,8 +381,8 @@ void report_repairs(measure::TopologyReport const& found, std::vector<Finding>& 
 
 void report_lowering(network::Lowered const& lowered, std::int64_t id_shift, std::vector<Finding>& mended) {
     std::size_t a = 0;
-    for (ArcId arc = 0; arc < lowered.network.plan.arc_count(); ++arc) {
-        Arc const& of = lowered.network.plan.arc(arc);
+    for (ArcId arc = 0; arc < lowered.network.planform.arc_count(); ++arc) {
+        Arc const& of = lowered.network.planform.arc(arc);
         if (double const by = lowered.by_m[a++]; by > 0.0) {
             mended.push_back({"lowered", of.feature - id_shift, of.line.front(), by,
                               fmt::format("arc {}: is lowered by up to {} m so that it does not run uphill",
@@ -444,7 +444,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
             {"level", 0, {}, static_cast<double>(file.arcs.size()), "the file has no heights: all are 0"});
     }
     mended.network = std::move(lowered.network);
-    mended.orders = network::order(mended.network.plan);
+    mended.orders = network::order(mended.network.planform);
     Known const known(file, lines);
     take_areas(known, near_m, mended);
     take_words(known, mended);

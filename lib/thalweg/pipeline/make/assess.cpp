@@ -84,7 +84,7 @@ void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief con
 SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& stage_log, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
     Raster<float> const& dem = terrain.surface->dem;
-    StreamNetwork const& network = terrain.rivers.network.plan;
+    StreamNetwork const& network = terrain.rivers.network.planform;
     SurfaceMeasures found;
     found.statistics = stage_log.stage("measure", [&] { return measure::statistics(dem, run); });
     found.hypsometry = measure::hypsometry(dem, run);

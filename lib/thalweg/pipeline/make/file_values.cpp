@@ -68,7 +68,7 @@ std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan) 
 }
 
 std::vector<io::ShortenedName> shortened_names(Made const& t) {
-    auto const user = user_data(t, t.terrain.rivers.network.plan);
+    auto const user = user_data(t, t.terrain.rivers.network.planform);
     if (!user) {
         return {};
     }

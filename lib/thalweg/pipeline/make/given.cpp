@@ -125,7 +125,7 @@ std::optional<GivenLength> given_length(Plan const& plan, Planform const& planfo
     GivenLength given;
     given.secondary = file.secondary;
     append(given.secondary,
-           file.sources.missing(file.imported, terrain.rivers.network.plan, LeftOut::head, "cut at its head"));
+           file.sources.missing(file.imported, terrain.rivers.network.planform, LeftOut::head, "cut at its head"));
     double of_imported_m = 0.0; // left out of the adopted network, and of the lines before it
     double of_file_m = 0.0;
     double of_import_m = 0.0;
@@ -175,8 +175,8 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
     given.tolerance_m = plan.recipe.network->heights_tolerance_m;
     double sum_m = 0.0;
     ElevatedNetwork const asked = network::keep_heights(planform.network, *planform.file_heights);
-    for (ArcId a = 0; a < asked.plan.arc_count(); ++a) {
-        std::vector<Vec2> const& line = asked.plan.arc(a).line;
+    for (ArcId a = 0; a < asked.planform.arc_count(); ++a) {
+        std::vector<Vec2> const& line = asked.planform.arc(a).line;
         std::vector<double> const& z = asked.arc_z[a];
         auto const fall_in_cell = [&](std::size_t i) { // between vertices i and i + 1
             double const way_m = distance(line[i], line[i + 1]);
@@ -214,7 +214,7 @@ std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform
     if (area_of.empty()) {
         return std::nullopt;
     }
-    StreamNetwork const& network = terrain.rivers.network.plan;
+    StreamNetwork const& network = terrain.rivers.network.planform;
     std::vector<std::vector<Stretch>> const stretches = planform.file.sources.of(network);
     std::vector<double> ratios;
     for (ArcId a = 0; a < network.arc_count(); ++a) {

@@ -21,10 +21,10 @@ measure::NetworkLaws laws_of(ElevatedNetwork const& network, NetworkOrders const
                              Raster<float> const* flow_length) {
     measure::NetworkLawsParams params{.land_m2 = static_cast<double>(land_cells) * grid.cell_m * grid.cell_m,
                                       .junction_reach_m = cells_of_junction * grid.cell_m};
-    params.side_branches = network::count_streams(network.plan).side;
+    params.side_branches = network::count_streams(network.planform).side;
     if (flow_length != nullptr) {
-        for (NodeId n = 0; n < network.plan.node_count(); ++n) {
-            Cell const cell = grid.cell_of(network.plan.node(n).at);
+        for (NodeId n = 0; n < network.planform.node_count(); ++n) {
+            Cell const cell = grid.cell_of(network.planform.node(n).at);
             params.head_m.push_back(grid.contains(cell) ? static_cast<double>((*flow_length)[cell]) : 0.0);
         }
     }
@@ -48,7 +48,7 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
     flow::ExtractedStreams const streams =
         flow::extract_streams(drainage, dem, {.support_cells = found.support_cells}, run);
     found.laws =
-        laws_of(streams.network, network::order(streams.network.plan), streams.areas, grid, land, &flow_length);
+        laws_of(streams.network, network::order(streams.network.planform), streams.areas, grid, land, &flow_length);
     return found;
 }
 
@@ -69,7 +69,7 @@ RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run c
     }
     Grid const& grid = terrain.grid;
     DemLawsParams params;
-    if (terrain.rivers.network.plan.arc_count() > 0) {
+    if (terrain.rivers.network.planform.arc_count() > 0) {
         found.network = laws_of(terrain.rivers.network, terrain.rivers.orders, terrain.areas, grid, land_cells,
                                 flow_length ? &*flow_length : nullptr);
         params.network_m =

@@ -41,8 +41,8 @@ Elevated elevated(Plan const& plan, Planform const& planform, Run const& run) {
 } // namespace
 
 Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types) {
-    NetworkOrders orders = network::order(network.plan);
-    network::StreamCounts streams = network::count_streams(network.plan);
+    NetworkOrders orders = network::order(network.planform);
+    network::StreamCounts streams = network::count_streams(network.planform);
     return {std::move(network), std::move(types), std::move(orders), std::move(streams)};
 }
 

@@ -49,7 +49,7 @@ RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& gr
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
     RidgeLines ridges = stage_log.stage("ridge", [&] {
-        return skeleton::ridges(rivers.network, network::streams(rivers.network.plan, rivers.orders), grid, params,
+        return skeleton::ridges(rivers.network, network::streams(rivers.network.planform, rivers.orders), grid, params,
                                 run);
     });
     stage_log.say(fmt::format("{} ridges", ridges.lines.size()));
@@ -80,8 +80,8 @@ std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network
         return std::nullopt;
     }
     std::vector<std::vector<Vec3>> breaklines;
-    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
-        breaklines.push_back(in_space(network.plan.arc(a).line, network.arc_z[a]));
+    for (ArcId a = 0; a < network.planform.arc_count(); ++a) {
+        breaklines.push_back(in_space(network.planform.arc(a).line, network.arc_z[a]));
     }
     for (RidgeLine const& ridge : ridges.lines) {
         breaklines.push_back(ridge.line);
@@ -434,15 +434,15 @@ Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run)
     UndrainedTerrain drawn =
         has_rivers ? draw_around_rivers(plan, planform, stage_log, run) : draw_alone(plan, stage_log, run);
     Patched patched = with_patches(plan, std::move(drawn.surface.dem), std::move(drawn.valley),
-                                   drawn.rivers.network.plan, stage_log, run);
+                                   drawn.rivers.network.planform, stage_log, run);
     Conditioned drained = conditioned(plan, std::move(patched.dem), patched.valley, stage_log, run);
-    flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.plan, stage_log, run);
+    flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.planform, stage_log, run);
     WithSideValleys made = with_side_valleys(plan, std::move(drawn.rivers), std::move(patched.valley), drawn.channels,
                                              drained.dem, drainage, stage_log, run);
     surface::Dilated surface = std::move(drawn.surface);
     surface.dem = std::move(drained.dem); // with which it was made
     flow::ContributingAreas areas =
-        has_rivers ? flow::areas_d8(made.rivers.network.plan, drainage, run) : flow::ContributingAreas{};
+        has_rivers ? flow::areas_d8(made.rivers.network.planform, drainage, run) : flow::ContributingAreas{};
     return {.grid = has_rivers ? planform.grid : *plan.grid,
             .land = planform.land,
             .rivers = std::move(made.rivers),

@@ -397,17 +397,17 @@ WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley
         return network::side_valleys(rivers.network, channels, dem, drainage, {support_cells}, run);
     });
     stage_log.say(fmt::format("{} arcs that drain {} cells or more, besides {} of the input", made.grown, support_cells,
-                              static_cast<std::int64_t>(made.network.plan.arc_count()) - made.grown));
+                              static_cast<std::int64_t>(made.network.planform.arc_count()) - made.grown));
     Grid const& grid = dem.grid();
     // Lengths at which each is kept.
     Typed typed =
-        type_rivers(network::prune(made.network.plan, {0.0, grid.cell_m}, run).network, *plan.recipe.network, run);
+        type_rivers(network::prune(made.network.planform, {0.0, grid.cell_m}, run).network, *plan.recipe.network, run);
     ElevatedNetwork network = std::move(made.network);
-    network.plan = std::move(typed.network);
+    network.planform = std::move(typed.network);
     Valley cells = std::move(valley);
-    for (ArcId a = 0; a < network.plan.arc_count(); ++a) {
-        Arc const& of = network.plan.arc(a);
-        bool const leaves = network.plan.out(network.plan.to(a)) == no_arc;
+    for (ArcId a = 0; a < network.planform.arc_count(); ++a) {
+        Arc const& of = network.planform.arc(a);
+        bool const leaves = network.planform.out(network.planform.to(a)) == no_arc;
         for (std::size_t v = 0; !of.is_input && v + (leaves ? 0 : 1) < of.line.size();
              ++v) { // the last may join a line
             std::int64_t const cell = grid.index(grid.cell_of(of.line[v]));

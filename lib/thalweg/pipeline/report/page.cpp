@@ -329,7 +329,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights =
         made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
     run.check();
-    PageLines const lines = lines_of(made.terrain.rivers.network.plan, made.terrain.ridges, made.terrain.grid);
+    PageLines const lines = lines_of(made.terrain.rivers.network.planform, made.terrain.ridges, made.terrain.grid);
     PageParts parts;
     parts.title = html_text(as_utf8(title_of(made.recipe)));
     parts.data = page_data(made, params, heights, lines);
@@ -342,8 +342,8 @@ namespace {
 
 /// Whether every vertex of the network lies on the DEM's grid, as required for areas.
 bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
-    for (ArcId arc = 0; arc < network.plan.arc_count(); ++arc) {
-        auto const& line = network.plan.arc(arc).line;
+    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
+        auto const& line = network.planform.arc(arc).line;
         if (!std::all_of(line.begin(), line.end(), [&](Vec2 p) { return grid.contains(grid.cell_of(p)); })) {
             return false;
         }
@@ -359,7 +359,7 @@ Terrain terrain_of(Scene const& scene, Run const& run) {
     terrain.surface->dem = *scene.dem;
     terrain.drainage = flow::route(*scene.dem, run);
     if (scene.network) {
-        StreamNetwork const& network = scene.network->plan;
+        StreamNetwork const& network = scene.network->planform;
         terrain.rivers.network = *scene.network;
         terrain.rivers.orders = scene.orders;
         if (lies_on(*scene.network, terrain.grid)) {

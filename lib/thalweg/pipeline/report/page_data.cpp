@@ -184,18 +184,18 @@ ordered_json arcs_object(Made const& t, PageLines const& lines) {
     ordered_json length = ordered_json::array();
     ordered_json z_up = ordered_json::array();
     ordered_json z_down = ordered_json::array();
-    for (std::size_t a = 0; a < t.terrain.rivers.network.plan.arc_count(); ++a) {
+    for (std::size_t a = 0; a < t.terrain.rivers.network.planform.arc_count(); ++a) {
         id.push_back(a + 1);
-        downstream.push_back(t.terrain.rivers.network.plan.out(t.terrain.rivers.network.plan.to(a)) + 1);
-        double const until = t.terrain.rivers.network.plan.arc(a).persistence;
+        downstream.push_back(t.terrain.rivers.network.planform.out(t.terrain.rivers.network.planform.to(a)) + 1);
+        double const until = t.terrain.rivers.network.planform.arc(a).persistence;
         persistence.push_back(std::isfinite(until) ? ordered_json(to_millimetres(until)) : ordered_json(nullptr));
-        length.push_back(to_millimetres(t.terrain.rivers.network.plan.length_m(a)));
+        length.push_back(to_millimetres(t.terrain.rivers.network.planform.length_m(a)));
         z_up.push_back(to_millimetres(t.terrain.rivers.network.arc_z[a].front()));
         z_down.push_back(to_millimetres(t.terrain.rivers.network.arc_z[a].back()));
     }
     std::vector<std::int64_t> const n(lines.vertices.begin(),
                                       lines.vertices.begin() +
-                                          static_cast<std::ptrdiff_t>(t.terrain.rivers.network.plan.arc_count()));
+                                          static_cast<std::ptrdiff_t>(t.terrain.rivers.network.planform.arc_count()));
     return {{"id", id},
             {"ds", downstream},
             {"basin", t.terrain.rivers.orders.arc_basin},
@@ -215,7 +215,8 @@ ordered_json ridges_object(Made const& t, PageLines const& lines) {
     if (t.terrain.ridges.lines.empty()) {
         return nullptr;
     }
-    auto const first = lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.terrain.rivers.network.plan.arc_count());
+    auto const first =
+        lines.vertices.begin() + static_cast<std::ptrdiff_t>(t.terrain.rivers.network.planform.arc_count());
     return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
 }
 
@@ -228,7 +229,7 @@ struct ProfilePoint {
 /// The main stem from its source down.
 std::vector<ProfilePoint> main_stem(Rivers const& rivers) {
     std::vector<ProfilePoint> upstream;
-    StreamNetwork const& network = rivers.network.plan;
+    StreamNetwork const& network = rivers.network.planform;
     for (auto arc = rivers.orders.main_stem.rbegin(); arc != rivers.orders.main_stem.rend(); ++arc) {
         std::vector<Vec2> const& line = network.arc(*arc).line;
         double to_outlet = rivers.orders.node_dist_out_m[network.to(*arc)];
@@ -329,8 +330,8 @@ void add_land(Made const& t, Figures& figures) {
 
 void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& figures) {
     std::optional<NetworkRecipe> const& wanted = t.recipe.network;
-    double const length = std::accumulate(t.terrain.rivers.network.plan.length_m().begin(),
-                                          t.terrain.rivers.network.plan.length_m().end(), 0.0);
+    double const length = std::accumulate(t.terrain.rivers.network.planform.length_m().begin(),
+                                          t.terrain.rivers.network.planform.length_m().end(), 0.0);
     auto const land =
         static_cast<double>(t.assessment.statistics ? t.assessment.statistics->cells : t.terrain.grid.cells());
     if (wanted && wanted->source == Source::dla) {
@@ -340,8 +341,8 @@ void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& f
     if (wanted && wanted->source == Source::forest) {
         figures.add("particles of the forest", t.planform.statistics.particles, "");
     }
-    figures.add("arcs", t.terrain.rivers.network.plan.arc_count(), "");
-    figures.add("outlets", t.terrain.rivers.network.plan.outlets().size(), "");
+    figures.add("arcs", t.terrain.rivers.network.planform.arc_count(), "");
+    figures.add("outlets", t.terrain.rivers.network.planform.outlets().size(), "");
     figures.add("highest Strahler order",
                 t.assessment.laws.network ? t.assessment.laws.network->horton.orders.size() : 0, "");
     figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
@@ -412,7 +413,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
     if (t.assessment.statistics) {
         add_land(t, figures);
     }
-    if (t.recipe.network || !t.terrain.rivers.network.plan.arcs().empty()) {
+    if (t.recipe.network || !t.terrain.rivers.network.planform.arcs().empty()) {
         add_rivers(t, stem, figures);
     }
     ordered_json const data{{"version", version()},

@@ -158,7 +158,7 @@ ordered_json dem_laws_object(DemLaws const& found) {
 }
 
 ordered_json network_object(Made const& t) {
-    StreamNetwork const& plan = t.terrain.rivers.network.plan;
+    StreamNetwork const& plan = t.terrain.rivers.network.planform;
     double length = 0.0;
     for (double const l : plan.length_m()) {
         length += l;

@@ -112,9 +112,9 @@ void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run)
     std::vector<double> us_area_m2 = t.terrain.areas.us_area_m2;
     std::vector<double> ds_area_m2 = t.terrain.areas.ds_area_m2;
     add_pieces(split.pieces, us_area_m2, ds_area_m2);
-    NetworkOrders const orders = network::order(split.network.plan);
-    std::vector<double> const node_area_m2 = node_areas(split.network.plan, us_area_m2, ds_area_m2);
-    auto const user = user_data(t, split.network.plan);
+    NetworkOrders const orders = network::order(split.network.planform);
+    std::vector<double> const node_area_m2 = node_areas(split.network.planform, us_area_m2, ds_area_m2);
+    auto const user = user_data(t, split.network.planform);
     io::NetworkTables tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.terrain.grid.crs, {}};
     tables.user = user ? &*user : nullptr;
     io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
@@ -125,7 +125,7 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
                                                       {"seed", fmt::format("{}", t.recipe.seed)},
                                                       {"area_from", t.terrain.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
-    auto const user = user_data(t, t.terrain.rivers.network.plan);
+    auto const user = user_data(t, t.terrain.rivers.network.planform);
     io::NetworkTables const tables{t.terrain.rivers.network,
                                    t.terrain.rivers.orders,
                                    t.terrain.areas.us_area_m2,
@@ -153,7 +153,7 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
 
 void write_water(Made const& t, io::OutputFolder const& out, Run const& run) {
     if (t.assessment.catchments) {
-        auto const rows = catchment_rows(flow::reaches_of(t.terrain.rivers.network.plan),
+        auto const rows = catchment_rows(flow::reaches_of(t.terrain.rivers.network.planform),
                                          t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
         io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
     }

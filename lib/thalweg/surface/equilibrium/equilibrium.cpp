@@ -165,28 +165,28 @@ constexpr float of_perched = 3.0F;
 constexpr int floors_after = 2; // rounds: areas have settled by then
 
 /// The content of a level's frame before it is solved.
-struct Plan {
+struct LevelInput {
     LevelExtent extent;
     RiverCells rivers;
     Mask land;
 };
 
-Plan coarser(Plan const& fine) {
+LevelInput coarser(LevelInput const& fine) {
     LevelExtent const extent{(fine.extent.width + 1) / 2, (fine.extent.height + 1) / 2, fine.extent.corner};
     return {extent, coarsened(fine.rivers, fine.extent.width + 2, extent.width + 2, extent.height + 2),
             fine.land.cells() == 0 ? Mask{} : coarsened(fine.land)};
 }
 
 /// Makes the levels from the finest to one of about forty cells a side, the coarse ones of the region.
-std::vector<Plan> plans(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
+std::vector<LevelInput> level_inputs(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
     constexpr std::int64_t short_side = 8;
     constexpr std::int64_t long_side = 40;
-    std::vector<Plan> levels;
+    std::vector<LevelInput> levels;
     levels.push_back({{land.grid.width, land.grid.height, {-land.margin, -land.margin}},
                       std::move(land.rivers),
                       std::move(land.land)});
     for (;;) {
-        Plan coarse = coarser(levels.back());
+        LevelInput coarse = coarser(levels.back());
         if (region.level > 0 && levels.size() == region.level) {
             LevelExtent const wide = extent_of(region, grid);
             coarse.rivers = rivers_of_region(coarse.rivers, coarse.extent, wide, std::int64_t{1} << region.level, seed);
@@ -201,16 +201,16 @@ std::vector<Plan> plans(PaddedTerrain& land, Region const& region, Grid const& g
 }
 
 /// Prepares a level for its rounds.
-TerrainLevel prepared(Plan&& plan, std::size_t number, TerrainLevel const& coarser, TerrainLevel const& region,
+TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const& coarser, TerrainLevel const& region,
                       ErodibilityFields const& fields, ErodibilityParams const& rock, EquilibriumParams const& params,
                       Run const& run) {
     TerrainLevel level;
-    level.width = plan.extent.width + 2;
-    level.height = plan.extent.height + 2;
-    level.corner = plan.extent.corner;
+    level.width = input.extent.width + 2;
+    level.height = input.extent.height + 2;
+    level.corner = input.extent.corner;
     level.side = static_cast<float>(std::int64_t{1} << number);
-    level.rivers = std::move(plan.rivers);
-    set_cell_types(level, plan.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
+    level.rivers = std::move(input.rivers);
+    set_cell_types(level, input.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
     set_erodibility(level, fields, rock, run);
     copy_firmness(level, coarser);
     jitter(level, params.seed, run);
@@ -386,7 +386,7 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
               Run const& run) {
     PaddedTerrain land = padded(rivers, fields, params);
     Region const region = region_around(rivers, fields, params);
-    std::vector<Plan> levels = plans(land, region, rivers.grid, params.seed);
+    std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
     Solver solver(params, rivers, window, run);
     ErodibilityParams const rock = erodibility_of(params, window);

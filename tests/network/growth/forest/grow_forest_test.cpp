@@ -305,7 +305,8 @@ TEST(PlantForest, networks_pass_every_check) {
         PlantedForest const f = plant_forest(land, spread_outlets(land, coast_cells(land), {}), growth(5, seed));
         EXPECT_GT(f.outlets, 10);
         ElevatedNetwork const raised = set_heights(f.network).network;
-        measure::TopologyReport const report = measure::check_topology(measure::as_file(raised, order(raised.plan)));
+        measure::TopologyReport const report =
+            measure::check_topology(measure::as_file(raised, order(raised.planform)));
         for (Check const& check : report.checks) {
             EXPECT_TRUE(check.ok) << check.name << " " << check.value;
         }

@@ -45,14 +45,14 @@ Vec2 start_of(FileArc const& arc);
 std::vector<char> check_ids(NetworkFile const& file, Findings& findings);
 
 /// Lines in plan by arc, without repeated vertices; empty: the line cannot be checked.
-using Plans = std::vector<std::vector<Vec2>>;
+using Outlines = std::vector<std::vector<Vec2>>;
 
 /// Finds lines with fewer than two vertices, with vertices that are not numbers, or of length 0, and repeated vertices.
-Plans check_shapes(NetworkFile const& file, Findings& findings);
+Outlines check_shapes(NetworkFile const& file, Findings& findings);
 
 /// Finds arcs with the vertices of an earlier one, in either direction.
 /// \return by arc: whether it is such a copy
-std::vector<char> check_copies(NetworkFile const& file, Plans const& plans, Findings& findings);
+std::vector<char> check_copies(NetworkFile const& file, Outlines const& plans, Findings& findings);
 
 /// Junctions: one for every node_id that a node, an arc or both use.
 struct Junctions {
@@ -73,7 +73,7 @@ struct Joints {
     std::vector<std::array<char, 2>> faulty; ///< for from_node, to_node: a fault of this end has been reported
     std::vector<char> against;               ///< the line is drawn from meant[1] to meant[0]
 
-    Vec2 place(std::size_t arc, std::size_t end, Plans const& plans) const {
+    Vec2 place(std::size_t arc, std::size_t end, Outlines const& plans) const {
         auto const& line = plans[arc];
         return (end == 0) == (against[arc] == 0) ? line.front() : line.back();
     }
@@ -81,14 +81,14 @@ struct Joints {
 
 /// Finds ends without a node or off their node, arcs in the wrong direction, and dangling ends.
 /// \param left_out by arc: whether its ends are not checked
-Joints check_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out,
+Joints check_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
                   std::vector<char> const& ambiguous, Findings& findings);
-void check_near_ends(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out, double near_m,
+void check_near_ends(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out, double near_m,
                      Joints& joints, Findings& findings, Run const& run);
 
 /// Finds arcs that rise in the direction of flow.
-void check_heights(NetworkFile const& file, Plans const& plans, std::vector<char> const& left_out, Joints const& joints,
-                   Findings& findings);
+void check_heights(NetworkFile const& file, Outlines const& plans, std::vector<char> const& left_out,
+                   Joints const& joints, Findings& findings);
 
 /// The arcs at each junction, ascending.
 class Incidence {
@@ -126,7 +126,7 @@ void check_numbers(NetworkFile const& file, Joints const& joints, Graph const& m
 void check_columns(NetworkFile const& file, Joints const& joints, Graph const& meant, Findings& findings);
 
 /// Finds spikes, arcs that touch themselves, and arcs that meet others away from common nodes.
-void check_meetings(NetworkFile const& file, Plans const& plans, Joints const& joints, double near_m,
+void check_meetings(NetworkFile const& file, Outlines const& plans, Joints const& joints, double near_m,
                     Findings& findings, Run const& run);
 
 } // namespace thalweg::measure::topology_steps
