@@ -73,8 +73,9 @@ std::set<std::string> misleading_names(AttributeTable const& attributes, std::se
     return result;
 }
 
-} // namespace
-
+/// The names that columns get beside others that are taken, in a layer of a schema: u_NAME where the name is taken, or
+/// is that of a feature's id or geometry, or the layer would be recognised as another schema's by it; else as they are;
+/// with a number where two are equal in any case of letters.
 std::vector<std::string> user_names(AttributeTable const& attributes, std::vector<std::string> const& taken,
                                     Schema schema) {
     std::set<std::string> used = in_lower_case(taken);
@@ -93,6 +94,7 @@ std::vector<std::string> user_names(AttributeTable const& attributes, std::vecto
     return names;
 }
 
+/// The same in a shapefile: of at most 10 bytes, cut before a letter and made unique by a number at their end.
 std::vector<std::string> short_user_names(std::vector<std::string> const& names,
                                           std::vector<std::string> const& taken) {
     std::set<std::string> used = in_lower_case(taken);
@@ -112,6 +114,8 @@ std::vector<std::string> short_user_names(std::vector<std::string> const& names,
     }
     return result;
 }
+
+} // namespace
 
 void add_user_columns(Table& table, AttributeTable const& attributes,
                       std::function<std::int64_t(std::size_t row)> const& record, bool short_names, Schema schema) {

@@ -60,6 +60,10 @@ void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std:
     }
 }
 
+namespace {
+
+/// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there. Its basins do not count
+/// then.
 void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
     auto const ids = by_id(file);
     for (FileArc& arc : file.arcs) {
@@ -75,6 +79,7 @@ void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes) {
     }
 }
 
+/// Reverses all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
 void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& what, Notes& notes) {
     auto const ids = by_id(file);
     std::size_t down = 0;
@@ -101,6 +106,8 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
     }
 }
 
+/// Makes a node for each place in plan where an arc begins or ends, from 1 in the order of the arcs, and sets from_node
+/// and to_node; arcs without vertices have none (0).
 void name_ends(NetworkFile& file) {
     std::map<std::array<std::uint64_t, 2>, std::int64_t> nodes; // by place
     auto const node_at = [&](Vec3 const& p) {
@@ -113,6 +120,7 @@ void name_ends(NetworkFile& file) {
     }
 }
 
+/// Makes a node for each id in from_node and to_node but 0, where most ends of that id are.
 void place_nodes(NetworkFile& file) {
     struct Claim {
         std::size_t ends = 0;
@@ -146,6 +154,7 @@ void place_nodes(NetworkFile& file) {
     }
 }
 
+/// Sets ds_arc to the first arc that begins at the arc's end.
 void link_by_nodes(NetworkFile& file) {
     auto const beginning = by_number(file.arcs.size(), [&](std::size_t i) { return file.arcs[i].from_node; });
     for (FileArc& arc : file.arcs) {
@@ -153,8 +162,6 @@ void link_by_nodes(NetworkFile& file) {
         arc.ds_arc = below == nullptr ? 0 : below->id;
     }
 }
-
-namespace {
 
 // Leaves out arcs whose vertices all lie at one place: arcs that flow into one flow into what is downstream of it.
 // Their Strahler numbers are then those of two streams after another, not of all that meet.

@@ -296,21 +296,4 @@ void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_i
 /// in ds_arc as the negative of itself, for drop_links_out.
 void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys);
 
-/// Makes an outlet of each arc whose ds_arc the file does not hold: an extract ends there. Its basins do not count
-/// then.
-void drop_links_out(NetworkFile& file, std::string const& what, Notes& notes);
-
-/// Reverses all lines when more linked arcs are drawn up than down; with as many of both, when drawn_upstream.
-void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& what, Notes& notes);
-
-/// Makes a node for each place in plan where an arc begins or ends, from 1 in the order of the arcs, and sets from_node
-/// and to_node; arcs without vertices have none (0).
-void name_ends(NetworkFile& file);
-
-/// Makes a node for each id in from_node and to_node but 0, where most ends of that id are.
-void place_nodes(NetworkFile& file);
-
-/// Sets ds_arc to the first arc that begins at the arc's end.
-void link_by_nodes(NetworkFile& file);
-
 } // namespace thalweg::io
