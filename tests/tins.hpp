@@ -58,7 +58,7 @@ inline bool is_lawful(Tin const& tin) {
     for (auto const& t : tin.triangles) {
         used.insert(t.begin(), t.end());
         auto const plan = [&](std::size_t k) { return Vec2{tin.vertices[t[k]].x, tin.vertices[t[k]].y}; };
-        if (geometry::side_of_line(plan(0), plan(1), plan(2)) <= 0) {
+        if (geometry::side_of_line(in_plan(0), in_plan(1), in_plan(2)) <= 0) {
             return false;
         }
     }

@@ -73,7 +73,7 @@ double sloping(Vec2 p) {
 double area(Tin const& tin) {
     double sum = 0.0;
     for (auto const& t : tin.triangles) {
-        sum += 0.5 * cross(plan(tin.vertices[t[0]]), plan(tin.vertices[t[1]]), plan(tin.vertices[t[2]]));
+        sum += 0.5 * cross(in_plan(tin.vertices[t[0]]), in_plan(tin.vertices[t[1]]), in_plan(tin.vertices[t[2]]));
     }
     return sum;
 }
@@ -103,7 +103,7 @@ std::string fault_of(Tin const& tin, double wanted_area) {
                 return "two triangles on one side of an edge";
             }
         }
-        if (!(cross(plan(tin.vertices[t[0]]), plan(tin.vertices[t[1]]), plan(tin.vertices[t[2]])) > 0.0)) {
+        if (!(cross(in_plan(tin.vertices[t[0]]), in_plan(tin.vertices[t[1]]), in_plan(tin.vertices[t[2]])) > 0.0)) {
             return "a triangle without area or facing down";
         }
     }
@@ -129,7 +129,7 @@ double length_of_rim(Tin const& tin) {
     }
     double length = 0.0;
     for (auto const& [a, b] : edges) {
-        length += edges.count({b, a}) == 0 ? distance(plan(tin.vertices[a]), plan(tin.vertices[b])) : 0.0;
+        length += edges.count({b, a}) == 0 ? distance(in_plan(tin.vertices[a]), in_plan(tin.vertices[b])) : 0.0;
     }
     return length;
 }
@@ -140,9 +140,9 @@ double height_at(Tin const& tin, Vec2 p) {
         Vec3 const& a = tin.vertices[t[0]];
         Vec3 const& b = tin.vertices[t[1]];
         Vec3 const& c = tin.vertices[t[2]];
-        double const all = cross(plan(a), plan(b), plan(c));
-        double const in_a = cross(plan(b), plan(c), p) / all;
-        double const in_b = cross(plan(c), plan(a), p) / all;
+        double const all = cross(in_plan(a), in_plan(b), in_plan(c));
+        double const in_a = cross(in_plan(b), in_plan(c), p) / all;
+        double const in_b = cross(in_plan(c), in_plan(a), p) / all;
         double const in_c = 1.0 - in_a - in_b;
         if (in_a > -1e-9 && in_b > -1e-9 && in_c > -1e-9) {
             return in_a * a.z + in_b * b.z + in_c * c.z;
@@ -318,7 +318,7 @@ TEST(FuseTin, AHillOnFlatLandIsTheHill) {
     EXPECT_EQ(fused.lift_max_m, 0.0);
     std::size_t high = 0;
     for (Vec3 const& v : fused.tin.vertices) {
-        EXPECT_NEAR(v.z, hill(plan(v)), 1e-9) << v.x << ", " << v.y;
+        EXPECT_NEAR(v.z, hill(in_plan(v)), 1e-9) << v.x << ", " << v.y;
         high += v.z > 1.0 ? 1U : 0U;
     }
     EXPECT_GT(high, 200U);
@@ -332,7 +332,7 @@ TEST(FuseTin, AHillOnFlatLandIsTheHill) {
     FusedTin const lowered = fuse_tin(target, patch);
     EXPECT_NEAR(lowered.lift_max_m, 500.0, 1e-9);
     for (Vec3 const& v : lowered.tin.vertices) {
-        EXPECT_NEAR(v.z, hill(plan(v)), 1e-9);
+        EXPECT_NEAR(v.z, hill(in_plan(v)), 1e-9);
     }
 }
 
@@ -360,7 +360,7 @@ TEST(FuseTin, AnywhereItIsWholeAndFollowsTheTargetOnItsOutline) {
         patch = placed(patch, on_lattice ? 0.0 : by_chance(6.0, 4), {0, 0}, by);
         if (planes) {
             for (Vec3& v : patch.vertices) {
-                v.z = sloping(plan(v)) + 17.0;
+                v.z = sloping(in_plan(v)) + 17.0;
             }
         }
         bool const within = std::all_of(patch.vertices.begin(), patch.vertices.end(), [](Vec3 const& v) {
@@ -375,15 +375,15 @@ TEST(FuseTin, AnywhereItIsWholeAndFollowsTheTargetOnItsOutline) {
         RC_ASSERT(std::fabs(length_of_rim(fused.tin) - 260.0) < 1e-9);
         Tin const region = facing_up(patch, "the patch");
         for (Vec3 const& v : fused.tin.vertices) {
-            bool const inside = !std::isnan(height_at(region, plan(v)));
+            bool const inside = !std::isnan(height_at(region, in_plan(v)));
             if (planes) {
-                RC_ASSERT(std::fabs(v.z - sloping(plan(v))) < 1e-9);
+                RC_ASSERT(std::fabs(v.z - sloping(in_plan(v))) < 1e-9);
             } else if (!inside) {
-                RC_ASSERT(v.z == rough(plan(v))); // the target's own vertices alone
+                RC_ASSERT(v.z == rough(in_plan(v))); // the target's own vertices alone
             }
         }
         for (std::uint32_t const v : outline_of(region, "the patch")) {
-            Vec2 const p = plan(region.vertices[v]);
+            Vec2 const p = in_plan(region.vertices[v]);
             RC_ASSERT(std::fabs(height_at(fused.tin, p) - height_at(target, p)) < 1e-6);
         }
         // Beyond the outline the surface is the target's, triangles cut or not.
@@ -414,7 +414,7 @@ TEST(FuseTin, InsideGradientsDifferFromThePatchsByAHarmonicPart) {
     std::size_t met = 0;
     for (Vec3 const& v : fused.tin.vertices) {
         if (auto const at = own.find({v.x, v.y}); at != own.end()) {
-            EXPECT_NEAR(v.z, at->second + sloping(plan(v)), 1e-9);
+            EXPECT_NEAR(v.z, at->second + sloping(in_plan(v)), 1e-9);
             ++met;
         }
     }

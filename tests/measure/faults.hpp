@@ -106,7 +106,7 @@ using Features = std::vector<std::int64_t>;
 inline double length_of_plan(FileArc const& arc) {
     double sum = 0.0;
     for (std::size_t i = 1; i < arc.line.size(); ++i) {
-        sum += thalweg::distance(plan(arc.line[i - 1]), plan(arc.line[i]));
+        sum += thalweg::distance(in_plan(arc.line[i - 1]), in_plan(arc.line[i]));
     }
     return sum;
 }

@@ -64,7 +64,7 @@ std::map<std::uint32_t, std::uint32_t> boundary(Tin const& mesh, std::string con
 void require_simple(Tin const& mesh, std::vector<std::uint32_t> const& ring, std::string const& name, Run const& run) {
     std::vector<std::vector<Vec2>> line(1);
     for (std::uint32_t const v : ring) {
-        line[0].push_back(plan(mesh.vertices[v]));
+        line[0].push_back(in_plan(mesh.vertices[v]));
     }
     line[0].push_back(line[0].front());
     for (geometry::Crossing const& c : geometry::crossings(line, run)) {
@@ -89,8 +89,8 @@ Tin facing_up(Tin mesh, std::string const& name) {
             Vec3 const& p = mesh.vertices[v];
             refuse_if<BadInput>(!is_finite(p), "blend.facing_up: {}: vertex {} is not finite", name, v + 1);
         }
-        int const side =
-            geometry::side_of_line(plan(mesh.vertices[t[0]]), plan(mesh.vertices[t[1]]), plan(mesh.vertices[t[2]]));
+        int const side = geometry::side_of_line(in_plan(mesh.vertices[t[0]]), in_plan(mesh.vertices[t[1]]),
+                                                in_plan(mesh.vertices[t[2]]));
         if (side == 0) {
             throw BadInput(fmt::format("blend.facing_up: {}: triangle {} at {} has no area in plan; only meshes with "
                                        "one height at each place can be blended",
@@ -176,7 +176,7 @@ Parted part(Tin const& target, std::vector<Vec2> const& outline) {
     for (Triangle const& t : target.triangles) {
         PlanBox box;
         for (std::uint32_t const v : t) {
-            box.add(plan(target.vertices[v]));
+            box.add(in_plan(target.vertices[v]));
         }
         (box.meets(region) ? parted.near : parted.far).push_back(t);
     }
@@ -200,8 +200,9 @@ std::vector<double> heights_on(Tin const& target, std::vector<Triangle> const& n
                                    [&](std::size_t i, double x) { return outline[i].x < x; });
         for (; at != by_x.end() && outline[*at].x <= most; ++at) {
             Vec2 const p = outline[*at];
-            if (!found[*at] && geometry::side_of_line(plan(a), plan(b), p) >= 0 &&
-                geometry::side_of_line(plan(b), plan(c), p) >= 0 && geometry::side_of_line(plan(c), plan(a), p) >= 0) {
+            if (!found[*at] && geometry::side_of_line(in_plan(a), in_plan(b), p) >= 0 &&
+                geometry::side_of_line(in_plan(b), in_plan(c), p) >= 0 &&
+                geometry::side_of_line(in_plan(c), in_plan(a), p) >= 0) {
                 found[*at] = geometry::height_on_plane(a, b, c, p);
             }
         }
@@ -370,7 +371,7 @@ private:
 };
 
 double area(Tin const& tin, Triangle const& t) {
-    return 0.5 * cross(plan(tin.vertices[t[0]]), plan(tin.vertices[t[1]]), plan(tin.vertices[t[2]]));
+    return 0.5 * cross(in_plan(tin.vertices[t[0]]), in_plan(tin.vertices[t[1]]), in_plan(tin.vertices[t[2]]));
 }
 
 void require_whole(Tin const& target, std::vector<Triangle> const& near, Overlay const& overlay,
@@ -460,8 +461,8 @@ struct Region {
 };
 
 double height_between(Vec3 const& a, Vec3 const& b, Vec2 p) {
-    double const length = distance(plan(a), plan(b));
-    double const along = length > 0.0 ? distance(plan(a), p) / length : 0.0;
+    double const length = distance(in_plan(a), in_plan(b));
+    double const along = length > 0.0 ? distance(in_plan(a), p) / length : 0.0;
     return a.z + along * (b.z - a.z);
 }
 
@@ -509,7 +510,8 @@ Region region_of(Tin const& patch, std::vector<std::uint32_t> const& outline, Cu
         auto const& side = cut.sides[i];
         Inserted& inserted = region.inserted[{from, to}];
         for (std::size_t k = 1; k + 1 < side.size(); ++k) {
-            double const z = height_between(patch.vertices[from], patch.vertices[to], plan(cut.tin.vertices[side[k]]));
+            double const z =
+                height_between(patch.vertices[from], patch.vertices[to], in_plan(cut.tin.vertices[side[k]]));
             inserted.push_back(add(on_target(side[k], z), side[k]));
         }
     }
@@ -538,10 +540,11 @@ Region region_of(Tin const& patch, std::vector<std::uint32_t> const& outline, Cu
 void require_area(Tin const& tin) {
     for (Triangle const& t : tin.triangles) {
         Vec3 const& a = tin.vertices[t[0]];
-        refuse_if<BadInput>(geometry::side_of_line(plan(a), plan(tin.vertices[t[1]]), plan(tin.vertices[t[2]])) <= 0,
-                            "blend.fuse_tin: near ({}, {}) vertices of the target and of the patch's outline lie too "
-                            "close to be told apart; move the patch a little",
-                            a.x, a.y);
+        refuse_if<BadInput>(
+            geometry::side_of_line(in_plan(a), in_plan(tin.vertices[t[1]]), in_plan(tin.vertices[t[2]])) <= 0,
+            "blend.fuse_tin: near ({}, {}) vertices of the target and of the patch's outline lie too "
+            "close to be told apart; move the patch a little",
+            a.x, a.y);
     }
 }
 
@@ -553,7 +556,7 @@ FusedTin fuse_tin(Tin const& target, Tin const& patch, Run const& run) {
     std::vector<std::uint32_t> const outline = outline_of(above, "the patch", run);
     std::vector<Vec2> ring;
     for (std::uint32_t const v : outline) {
-        ring.push_back(plan(above.vertices[v]));
+        ring.push_back(in_plan(above.vertices[v]));
     }
     CutTin cut = cut_tin(below, ring, run);
     Region const region = region_of(above, outline, cut);

@@ -73,8 +73,15 @@ inline bool is_finite(Vec3 const& a) {
 /// Drops the height.
 /// \param p [m]
 /// \return position in plan [m]
-constexpr Vec2 plan(Vec3 const& p) {
+constexpr Vec2 in_plan(Vec3 const& p) {
     return {p.x, p.y};
+}
+inline std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
+    std::vector<Vec2> places;
+    for (Vec3 const& p : line) {
+        places.push_back(in_plan(p));
+    }
+    return places;
 }
 
 /// Rounds to 1e-6 m, the precision of files.
@@ -114,7 +121,7 @@ inline double distance(Vec2 a, Vec2 b) {
 inline double length_in_plan(std::vector<Vec3> const& line) {
     double sum = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance(plan(line[i - 1]), plan(line[i]));
+        sum += distance(in_plan(line[i - 1]), in_plan(line[i]));
     }
     return sum;
 }

@@ -320,12 +320,6 @@ LineStyle ridge_style(double unit) {
     return {std::max(0.8, 1.1 * unit), {0.37, 0.20, 0.08, 0.85}};
 }
 
-std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
-    std::vector<Vec2> plan(line.size());
-    std::transform(line.begin(), line.end(), plan.begin(), [](Vec3 const& p) { return Vec2{p.x, p.y}; });
-    return plan;
-}
-
 namespace {
 
 RiverScale river_scale(MapSheet const& sheet) {

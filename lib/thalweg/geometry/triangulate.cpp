@@ -85,7 +85,7 @@ std::vector<std::vector<Vec2>> plans(Places const& places) {
     for (auto const& line : places.lines) {
         auto& drawn = lines.emplace_back();
         for (std::uint32_t const p : line) {
-            drawn.push_back(plan(places.at[p]));
+            drawn.push_back(in_plan(places.at[p]));
         }
     }
     return lines;
@@ -106,7 +106,7 @@ bool cut(Places& places, double& greatest_dz_m, Run const& run) {
             lines[l].push_back(line[i]);
             for (; next != found.end() && next->line == l && next->segment == i; ++next) {
                 Vec2 const at = next->at;
-                if (at == drawn[l][i] || at == drawn[l][i + 1] || at == plan(places.at[lines[l].back()])) {
+                if (at == drawn[l][i] || at == drawn[l][i + 1] || at == in_plan(places.at[lines[l].back()])) {
                     continue;
                 }
                 Vec3 const a = places.at[line[i]];

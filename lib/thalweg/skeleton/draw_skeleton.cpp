@@ -95,11 +95,7 @@ void require_height(Vec3 const& p, std::string const& what) {
 }
 
 std::vector<Cell> cells_of(std::vector<Vec3> const& line, Grid const& grid, std::string const& what) {
-    std::vector<Vec2> plan;
-    for (Vec3 const& p : line) {
-        plan.push_back({p.x, p.y});
-    }
-    std::vector<Cell> cells = cells_of_vertices(plan, grid, what);
+    std::vector<Cell> cells = cells_of_vertices(in_plan(line), grid, what);
     for (Vec3 const& p : line) {
         require_height(p, what);
     }

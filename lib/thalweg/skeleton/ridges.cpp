@@ -311,10 +311,7 @@ std::vector<RidgePiece> without_meetings(std::vector<RidgePiece> pieces, Labelle
     }
     std::size_t const first = drawn.size();
     for (auto const& piece : pieces) {
-        auto& line = drawn.emplace_back();
-        for (Vec3 const& p : piece.ridge.line) {
-            line.push_back({p.x, p.y});
-        }
+        drawn.push_back(in_plan(piece.ridge.line));
     }
     auto const found = geometry::crossings(drawn, run);
     std::set<std::pair<double, double>> on_rivers;

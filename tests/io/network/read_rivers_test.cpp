@@ -53,7 +53,7 @@ private:
     ScratchFolder folder_;
 };
 
-std::vector<Vec2> plan(RiverLine const& line) {
+std::vector<Vec2> in_plan(RiverLine const& line) {
     std::vector<Vec2> result;
     for (auto const& v : line.vertices) {
         result.push_back({v.x, v.y});
@@ -300,7 +300,7 @@ TEST_F(ReadRivers, ACrsThatIsMissingCanBeNamed) {
     auto const bare = write("a.shp", {layer});
     auto const read = io::read_rivers({.path = bare, .source_crs = "EPSG:32633"});
     EXPECT_EQ(read.crs, "EPSG:32633");
-    EXPECT_EQ(plan(read.lines[0]), (std::vector<Vec2>{{500000, 5000000}, {500100, 5000000.5}}));
+    EXPECT_EQ(in_plan(read.lines[0]), (std::vector<Vec2>{{500000, 5000000}, {500100, 5000000.5}}));
     auto const moved = io::read_rivers({.path = bare, .crs = "EPSG:32632", .source_crs = "EPSG:32633"});
     EXPECT_EQ(moved.crs, "EPSG:32632");
     EXPECT_GT(moved.lines[0].vertices[0].x, 900000.0);
@@ -372,7 +372,7 @@ TEST_F(ReadRivers, OwnProjectionIsKept) {
     ASSERT_EQ(rivers.lines.size(), 2U);
     EXPECT_EQ(rivers.lines[0].feature, 1);
     EXPECT_EQ(rivers.lines[1].feature, 2);
-    EXPECT_EQ(plan(rivers.lines[0]), (std::vector<Vec2>{{500000, 5000000}, {500100, 5000000.5}}));
+    EXPECT_EQ(in_plan(rivers.lines[0]), (std::vector<Vec2>{{500000, 5000000}, {500100, 5000000.5}}));
     EXPECT_TRUE(std::isnan(rivers.lines[0].vertices[0].z));
 }
 
@@ -381,7 +381,7 @@ TEST_F(ReadRivers, EveryFormatGivesTheSame) {
         auto const rivers = io::read_rivers({.path = write(name, {two_rivers})});
         EXPECT_EQ(rivers.crs, "EPSG:32633") << name;
         ASSERT_EQ(rivers.lines.size(), 2U) << name;
-        auto plans = std::vector{plan(rivers.lines[0]), plan(rivers.lines[1])};
+        auto plans = std::vector{in_plan(rivers.lines[0]), in_plan(rivers.lines[1])};
         std::ranges::sort(plans, {}, [](auto const& p) { return p.front().x; }); // FlatGeobuf orders by place
         EXPECT_EQ(plans[0], (std::vector<Vec2>{{500000, 5000000}, {500100, 5000000.5}})) << name;
         EXPECT_EQ(plans[1], (std::vector<Vec2>{{500100, 5000000.5}, {500200, 5000100}})) << name;
@@ -410,11 +410,11 @@ TEST_F(ReadRivers, CoordinatesGoToMetresOnTheGround) {
         auto const rivers = io::read_rivers({.path = write("a.gpkg", wkt, epsg)});
         EXPECT_TRUE(has(rivers.crs, crs)) << wkt;
         EXPECT_EQ(io::projected_crs(rivers.crs), rivers.crs);
-        auto const line = plan(rivers.lines[0]);
+        auto const line = in_plan(rivers.lines[0]);
         EXPECT_TRUE(length_m == 0.0 || std::fabs(distance(line[0], line[1]) / length_m - 1.0) < 0.004) << wkt;
     }
     auto const wide = write("a.gpkg", "LINESTRING(-10 48,40 48)", 4326);
-    auto const line = plan(io::read_rivers({.path = wide}).lines[0]);
+    auto const line = in_plan(io::read_rivers({.path = wide}).lines[0]);
     EXPECT_NEAR(line.front().x, -line.back().x, 1e-5); // the middle is the origin
     EXPECT_EQ(io::read_rivers({.path = wide, .crs = "EPSG:3035"}).crs, "EPSG:3035");
     // On the central meridian of zone 33 x is 500 km; y of 45 degrees north times the scale 0.9996.
@@ -427,12 +427,12 @@ TEST_F(ReadRivers, CoordinatesGoToMetresOnTheGround) {
     EXPECT_EQ(kept.lines[0].vertices[1].y, 5949180.027);
     auto const etrs = io::read_rivers({.path = write("d.gpkg", {two_rivers}), .crs = "EPSG:25833"});
     EXPECT_EQ(etrs.crs, "EPSG:25833");
-    EXPECT_NEAR(distance(plan(etrs.lines[0])[0], {500000.0, 5000000.0}), 0.0, 1e-3);
+    EXPECT_NEAR(distance(in_plan(etrs.lines[0])[0], {500000.0, 5000000.0}), 0.0, 1e-3);
 }
 
 TEST_F(ReadRivers, CoordinatesAreRounded) {
     auto const file = write("a.gpkg", {{.rows = {{"LINESTRING(0.12345678 -0.0000004,1.0000005 1)"}}}});
-    EXPECT_EQ(plan(io::read_rivers({.path = file}).lines[0]), (std::vector<Vec2>{{0.123457, 0.0}, {1.000001, 1.0}}));
+    EXPECT_EQ(in_plan(io::read_rivers({.path = file}).lines[0]), (std::vector<Vec2>{{0.123457, 0.0}, {1.000001, 1.0}}));
 }
 
 TEST_F(ReadRivers, PartsAndCurves) {
@@ -446,10 +446,10 @@ TEST_F(ReadRivers, PartsAndCurves) {
         "b.gpkg", {{.type = wkbCompoundCurve, .rows = {{"COMPOUNDCURVE(CIRCULARSTRING(0 0,1 1,2 0),(2 0,3 0))"}}}});
     auto const bent = io::read_rivers({.path = curve}).lines.at(0);
     EXPECT_GT(bent.vertices.size(), 10U);
-    for (auto const p : plan(bent)) {
+    for (auto const p : in_plan(bent)) {
         EXPECT_TRUE(p.x > 2.0 || std::fabs(distance(p, {1, 0}) - 1.0) < 1e-6);
     }
-    EXPECT_EQ(plan(bent).back(), (Vec2{3, 0}));
+    EXPECT_EQ(in_plan(bent).back(), (Vec2{3, 0}));
     auto const bends =
         write("c.gpkg", {{.type = wkbMultiCurve, .rows = {{"MULTICURVE((0 0,1 1),CIRCULARSTRING(5 0,6 1,7 0))"}}}});
     EXPECT_EQ(io::read_rivers({.path = bends}).lines.size(), 2U);

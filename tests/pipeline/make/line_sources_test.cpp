@@ -124,7 +124,7 @@ TEST(LineSources, StretchesThatAreGoneAreFound) {
             EXPECT_EQ(line.cause, LeftOut::head);
             EXPECT_EQ(line.reason, "cut");
             for (Vec3 const v : line.vertices) {
-                result[line.feature].push_back(plan(v));
+                result[line.feature].push_back(in_plan(v));
             }
         }
         return result;

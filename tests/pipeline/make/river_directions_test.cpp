@@ -126,7 +126,7 @@ Wrong wrong_of(KnownRivers const& known, network::Imported const& imported) {
     std::set<test::Step> downstream;
     for (RiverLine const& line : known.lines.lines) {
         for (std::size_t i = 1; i < line.vertices.size(); ++i) {
-            downstream.insert(step(plan(line.vertices[i - 1]), plan(line.vertices[i])));
+            downstream.insert(step(in_plan(line.vertices[i - 1]), in_plan(line.vertices[i])));
         }
     }
     Wrong wrong;
@@ -199,7 +199,8 @@ TEST(RiverDirections, AColumnThatIsRightIsNotDoubted) {
     for (KnownRivers const& known : networks()) {
         RiverLines lines = redrawn(known.lines, Drawn::random_1);
         for (std::size_t l = 0; l < lines.lines.size(); ++l) {
-            lines.lines[l].runs = plan(lines.lines[l].vertices[0]) == plan(known.lines.lines[l].vertices[0]) ? 1 : -1;
+            lines.lines[l].runs =
+                in_plan(lines.lines[l].vertices[0]) == in_plan(known.lines.lines[l].vertices[0]) ? 1 : -1;
         }
         network::Imported const imported = network::import_lines(lines);
         EXPECT_EQ(wrong_of(known, imported).wrong_m, 0.0) << known.name;

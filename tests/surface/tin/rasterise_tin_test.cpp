@@ -43,7 +43,7 @@ double height_in(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) 
 
 bool holds(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) {
     for (std::size_t k = 0; k < 3; ++k) {
-        if (geometry::side_of_line(plan(tin.vertices[t[k]]), plan(tin.vertices[t[(k + 1) % 3]]), p) < 0) {
+        if (geometry::side_of_line(in_plan(tin.vertices[t[k]]), in_plan(tin.vertices[t[(k + 1) % 3]]), p) < 0) {
             return false;
         }
     }
@@ -54,7 +54,7 @@ bool holds(Tin const& tin, std::array<std::uint32_t, 3> const& t, Vec2 p) {
 double fatness(Tin const& tin, std::array<std::uint32_t, 3> const& t) {
     double longest = 0.0;
     for (std::size_t k = 0; k < 3; ++k) {
-        longest = std::max(longest, distance(plan(tin.vertices[t[k]]), plan(tin.vertices[t[(k + 1) % 3]])));
+        longest = std::max(longest, distance(in_plan(tin.vertices[t[k]]), in_plan(tin.vertices[t[(k + 1) % 3]])));
     }
     return test::area2(tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]) / (longest * longest);
 }
@@ -163,7 +163,7 @@ TEST(RasteriseTin, OutsideTakesTheNearestHeight) {
                 if (count == 1) {
                     Vec3 const a = tin.vertices[side.first];
                     Vec3 const b = tin.vertices[side.second];
-                    auto const foot = geometry::foot_on(plan(a), plan(b), p);
+                    auto const foot = geometry::foot_on(in_plan(a), in_plan(b), p);
                     if (distance(foot.at, p) < least) {
                         least = distance(foot.at, p);
                         z = a.z + foot.along * (b.z - a.z);

@@ -44,9 +44,6 @@ LineStyle style_of_order(int order, RiverScale const& scale, double unit);
 
 LineStyle ridge_style(double unit);
 
-/// A line without its heights.
-std::vector<Vec2> in_plan(std::vector<Vec3> const& line);
-
 // The legend below a map.
 
 struct LegendFacts {

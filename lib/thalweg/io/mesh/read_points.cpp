@@ -378,8 +378,8 @@ std::vector<SamePlace> places_of_two_heights(std::vector<Vec3> const& points) {
     });
     std::vector<SamePlace> places;
     for (auto first = order.begin(); first != order.end();) {
-        auto const last =
-            std::find_if(first, order.end(), [&](std::size_t i) { return plan(points[i]) != plan(points[*first]); });
+        auto const last = std::find_if(first, order.end(),
+                                       [&](std::size_t i) { return in_plan(points[i]) != in_plan(points[*first]); });
         if (std::any_of(first, last, [&](std::size_t i) { return points[i].z != points[*first].z; })) {
             places.emplace_back(first, last);
         }

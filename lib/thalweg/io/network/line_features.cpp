@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <array>
-#include <cctype>
 #include <charconv>
 #include <cmath>
 #include <memory>
@@ -479,7 +478,7 @@ void join(Parts& parts) {
     std::map<Place, std::size_t> begins;
     std::map<Place, std::size_t> ends;
     for (std::size_t i = 0; i < parts.size(); ++i) {
-        bool const placed = is_finite(plan(parts[i].front())) && is_finite(plan(parts[i].back()));
+        bool const placed = is_finite(in_plan(parts[i].front())) && is_finite(in_plan(parts[i].back()));
         if (!placed || !begins.emplace(begin_of(parts[i]), i).second || !ends.emplace(end_of(parts[i]), i).second) {
             return;
         }

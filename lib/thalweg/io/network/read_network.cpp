@@ -87,8 +87,8 @@ void turn_downstream(NetworkFile& file, bool drawn_upstream, std::string const& 
     for (FileArc const& arc : file.arcs) {
         FileArc const* const below = find(file, ids, arc.ds_arc);
         if (below != nullptr && !arc.line.empty() && !below->line.empty()) {
-            down += plan(arc.line.back()) == plan(below->line.front()) ? 1U : 0U;
-            up += plan(arc.line.front()) == plan(below->line.back()) ? 1U : 0U;
+            down += in_plan(arc.line.back()) == in_plan(below->line.front()) ? 1U : 0U;
+            up += in_plan(arc.line.front()) == in_plan(below->line.back()) ? 1U : 0U;
         }
     }
     bool const upstream = up == down ? drawn_upstream : up > down;
@@ -169,7 +169,7 @@ void bridge_points(NetworkFile& file, std::string const& what, Notes& notes) {
     std::map<std::int64_t, std::int64_t> below; // of an arc without length the arc downstream
     for (FileArc const& arc : file.arcs) {
         bool const is_point = !arc.line.empty() && std::ranges::all_of(arc.line, [&](Vec3 const& p) {
-            return plan(p) == plan(arc.line.front());
+            return in_plan(p) == in_plan(arc.line.front());
         });
         if (is_point && arc.ds_arc != arc.id) {
             below.emplace(arc.id, arc.ds_arc);
@@ -205,7 +205,7 @@ void place_findings(NetworkFile& file) {
     for (Finding& finding : file.findings) {
         FileArc const* const arc = find(file, ids, finding.feature + file.id_shift);
         if (finding.feature != 0 && arc != nullptr && !arc->line.empty()) {
-            finding.where = plan(arc->line.front());
+            finding.where = in_plan(arc->line.front());
         }
     }
 }
@@ -267,7 +267,7 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
     FilePlaces places;
     for (FileArc const& arc : file.arcs) {
         for (Vec3 const& p : arc.line) {
-            if (is_finite(plan(p))) {
+            if (is_finite(in_plan(p))) {
                 places.add(p.x, p.y);
             }
         }

@@ -128,12 +128,12 @@ private:
         for (std::vector<Vec3>& part : parts_of(shape, number_, shapes_)) {
             for (std::size_t i = 0; i < part.size(); ++i) {
                 Vec3 const& v = part[i];
-                refuse_if<BadInput>(!is_finite(plan(v)) || std::isinf(v.z),
+                refuse_if<BadInput>(!is_finite(in_plan(v)) || std::isinf(v.z),
                                     "io.read_rivers: vertex {} of feature {} of {} is not finite: ({}, {}, {}); "
                                     "correct the file",
                                     i + 1, number_, name_, v.x, v.y, v.z);
             }
-            if (std::ranges::any_of(part, [&](Vec3 const& v) { return plan(v) != plan(part.front()); })) {
+            if (std::ranges::any_of(part, [&](Vec3 const& v) { return in_plan(v) != in_plan(part.front()); })) {
                 found.push_back(feature);
                 found.back().vertices = std::move(part);
             }
@@ -201,7 +201,7 @@ struct Bring {
     void operator()(Finding& finding) const {
         Vec3 at{finding.where.x, finding.where.y, 0.0};
         bool const has_place = finding.where != Vec2{};
-        finding.where = has_place && metres.apply({&at, 1}).front() != 0 ? plan(at) : Vec2{};
+        finding.where = has_place && metres.apply({&at, 1}).front() != 0 ? in_plan(at) : Vec2{};
     }
 };
 

@@ -152,7 +152,7 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
     }
     std::vector<Vec3> const positions = table.shape_at(row);
     for (Vec3 const& p : positions) {
-        refuse_if<BadInput>(table.shape == Shape::plan_line ? !is_finite(plan(p)) : !is_finite(p),
+        refuse_if<BadInput>(table.shape == Shape::plan_line ? !is_finite(in_plan(p)) : !is_finite(p),
                             "{}: {} {} has a vertex ({}, {}, {})", what, table.name, row + 1, p.x, p.y, p.z);
     }
     if (table.shape == Shape::point) {

@@ -517,11 +517,7 @@ namespace {
 std::vector<std::int64_t> cells_under(RidgeLines const& ridges, Raster<float> const& dem) {
     std::vector<std::int64_t> cells;
     for (RidgeLine const& ridge : ridges.lines) {
-        std::vector<Vec2> plan;
-        for (Vec3 const& p : ridge.line) {
-            plan.push_back({p.x, p.y});
-        }
-        for (Cell const c : cells_along(plan, dem.grid(), "a ridge")) {
+        for (Cell const c : cells_along(in_plan(ridge.line), dem.grid(), "a ridge")) {
             if (!std::isnan(dem[c])) {
                 cells.push_back(dem.grid().index(c));
             }

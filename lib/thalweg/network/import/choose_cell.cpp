@@ -150,14 +150,9 @@ double crowded_share(RiverLines const& rivers, std::vector<Vec2> const& joints, 
     }
     Raster<std::int32_t> owner(grid, nobody);
     std::vector<Cell> used;
-    std::vector<Vec2> plan;
     for (std::size_t i = 0; i < rivers.lines.size(); ++i) {
         run.check();
-        plan.clear();
-        for (Vec3 const& p : rivers.lines[i].vertices) {
-            plan.push_back({p.x, p.y});
-        }
-        for (Cell const c : cells_along(plan, grid)) {
+        for (Cell const c : cells_along(in_plan(rivers.lines[i].vertices), grid)) {
             std::int32_t& own = owner[c];
             if (own == nobody) {
                 own = static_cast<std::int32_t>(i);

@@ -20,7 +20,7 @@ namespace {
 double greatest_distance(std::vector<Vec3> const& a, std::vector<Vec3> const& b, bool turned) {
     double most = 0.0;
     for (std::size_t i = 0; i < a.size(); ++i) {
-        most = std::max(most, distance(plan(a[i]), plan(b[turned ? b.size() - 1 - i : i])));
+        most = std::max(most, distance(in_plan(a[i]), in_plan(b[turned ? b.size() - 1 - i : i])));
     }
     return most;
 }
@@ -55,7 +55,7 @@ std::optional<Goal> nearest_vertex(Ends const& ends, std::size_t own, Vec2 p, do
             if (s.line == own || !ends.fixed(s.line, v)) {
                 continue;
             }
-            Vec2 const q = plan(ends.lines[s.line].vertices[v]);
+            Vec2 const q = in_plan(ends.lines[s.line].vertices[v]);
             double const d = distance(p, q);
             if (d <= snap_m && (!best || d < best->moved_m)) {
                 best = Goal{q, d, ends.lines[s.line].number(), std::nullopt};
@@ -74,12 +74,12 @@ std::optional<Goal> nearest_foot(Ends const& ends, std::size_t own, Vec2 p, doub
         }
         auto const& vertices = ends.lines[s.line].vertices;
         auto const awaits = [&](std::size_t v) {
-            return !ends.fixed(s.line, v) && distance(plan(vertices[v]), p) <= snap_m;
+            return !ends.fixed(s.line, v) && distance(in_plan(vertices[v]), p) <= snap_m;
         };
         if (awaits(s.segment) || awaits(s.segment + 1)) {
             continue;
         }
-        auto const foot = geometry::foot_on(plan(vertices[s.segment]), plan(vertices[s.segment + 1]), p);
+        auto const foot = geometry::foot_on(in_plan(vertices[s.segment]), in_plan(vertices[s.segment + 1]), p);
         double const d = distance(p, foot.at);
         if (foot.along <= 0.0 || foot.along >= 1.0 || d > snap_m || (best && d >= best->moved_m)) {
             continue;
@@ -98,7 +98,7 @@ std::vector<std::size_t> lines_at(std::vector<RiverLine> const& lines, std::size
     for (auto const& s : near) {
         auto const& v = lines[s.line].vertices;
         if (s.line != own &&
-            distance(p, geometry::foot_on(plan(v[s.segment]), plan(v[s.segment + 1]), p).at) <= same_point_m) {
+            distance(p, geometry::foot_on(in_plan(v[s.segment]), in_plan(v[s.segment + 1]), p).at) <= same_point_m) {
             found.push_back(s.line);
         }
     }
@@ -109,7 +109,7 @@ std::vector<std::size_t> lines_at(std::vector<RiverLine> const& lines, std::size
 std::vector<geometry::NearSegment> goals_of_open(std::vector<RiverLine> const& lines, std::size_t e,
                                                  std::vector<std::vector<geometry::NearSegment>> const& near) {
     auto const& own = lines[e / 2].vertices;
-    auto const others = lines_at(lines, e / 2, plan(e % 2 == 0 ? own.back() : own.front()), near[e ^ 1U]);
+    auto const others = lines_at(lines, e / 2, in_plan(e % 2 == 0 ? own.back() : own.front()), near[e ^ 1U]);
     std::vector<geometry::NearSegment> goals = near[e];
     std::erase_if(goals,
                   [&](geometry::NearSegment const& s) { return std::ranges::find(others, s.line) != others.end(); });
@@ -133,7 +133,7 @@ double diagonal_of(std::vector<RiverLine> const& lines) {
 std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines) {
     std::vector<std::vector<Vec2>> plans(lines.size());
     for (std::size_t l = 0; l < lines.size(); ++l) {
-        std::ranges::transform(lines[l].vertices, std::back_inserter(plans[l]), plan);
+        plans[l] = in_plan(lines[l].vertices);
     }
     return plans;
 }
@@ -166,9 +166,9 @@ std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines) {
     std::vector<std::int64_t> dropped;
     for (auto& line : lines) {
         auto const before = line.vertices.size();
-        line.vertices.erase(
-            std::unique(line.vertices.begin(), line.vertices.end(), [](Vec3 a, Vec3 b) { return plan(a) == plan(b); }),
-            line.vertices.end());
+        line.vertices.erase(std::unique(line.vertices.begin(), line.vertices.end(),
+                                        [](Vec3 a, Vec3 b) { return in_plan(a) == in_plan(b); }),
+                            line.vertices.end());
         dropped.push_back(static_cast<std::int64_t>(before - line.vertices.size()));
     }
     return dropped;
@@ -177,7 +177,7 @@ std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines) {
 void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run) {
     std::vector<Vec2> starts;
     for (auto const& line : lines) {
-        starts.push_back(plan(line.vertices.front()));
+        starts.push_back(in_plan(line.vertices.front()));
     }
     auto const near = geometry::segments_near(starts, plan_of(lines), snap_m, run);
     std::vector<char> dropped(lines.size(), 0);
@@ -218,8 +218,8 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
     std::vector<Vec2> drawn;
     std::vector<std::vector<Vec3>> as_drawn;
     for (auto const& line : lines) {
-        drawn.push_back(plan(line.vertices.front()));
-        drawn.push_back(plan(line.vertices.back()));
+        drawn.push_back(in_plan(line.vertices.front()));
+        drawn.push_back(in_plan(line.vertices.back()));
         as_drawn.push_back(line.vertices);
     }
     // Twice the distance: the target may itself have moved.
@@ -271,7 +271,7 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
             continue;
         }
         left.secondary.push_back({line.feature, std::move(as_drawn[l]), "too short", line.feature, LeftOut::too_short});
-        left.repairs.push_back({"removed", line.number(), plan(line.vertices.front()), 1.0,
+        left.repairs.push_back({"removed", line.number(), in_plan(line.vertices.front()), 1.0,
                                 fmt::format("river {} is shorter than the snapping distance {:.3g} m; it is left out",
                                             line.number(), snap_m)});
     }

@@ -150,7 +150,7 @@ private:
             auto const& piece = p_.pieces[k];
             auto const& v = lines_[piece.line].vertices;
             for (std::size_t i = 1; i <= piece.last - piece.first; ++i) {
-                reach.line.push_back(plan(v[runs > 0 ? piece.first + i : piece.last - i]));
+                reach.line.push_back(in_plan(v[runs > 0 ? piece.first + i : piece.last - i]));
             }
         }
         for (std::size_t i = 1; i < reach.line.size(); ++i) {

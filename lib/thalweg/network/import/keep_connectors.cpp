@@ -38,8 +38,8 @@ private:
 std::vector<Vec2> ends_of(std::vector<RiverLine> const& lines) {
     std::vector<Vec2> ends;
     for (RiverLine const& line : lines) {
-        ends.push_back(plan(line.vertices.front()));
-        ends.push_back(plan(line.vertices.back()));
+        ends.push_back(in_plan(line.vertices.front()));
+        ends.push_back(in_plan(line.vertices.back()));
     }
     return ends;
 }
@@ -80,7 +80,7 @@ Rivers rivers_in(std::vector<RiverLine> const& lines, double snap_m, Run const& 
                 rivers.groups.join(e / 2, s.line);
                 auto const& v = lines[s.line].vertices;
                 bool const at_end =
-                    distance(plan(v.front()), ends[e]) <= snap_m || distance(plan(v.back()), ends[e]) <= snap_m;
+                    distance(in_plan(v.front()), ends[e]) <= snap_m || distance(in_plan(v.back()), ends[e]) <= snap_m;
                 meets[e] = meets[e] != 0 || !at_end ? 1 : 0;
             }
         }
@@ -143,7 +143,7 @@ public:
                 std::size_t const at = add(v[i]);
                 if (i > 0) {
                     std::size_t const before = places_.find(v[i - 1]);
-                    double const length_m = distance(plan(v[i - 1]), plan(v[i]));
+                    double const length_m = distance(in_plan(v[i - 1]), in_plan(v[i]));
                     edges_[before].push_back({at, l, i - 1, length_m});
                     edges_[at].push_back({before, l, i - 1, against_drawn * length_m});
                 }
@@ -245,7 +245,7 @@ private:
     std::size_t add(Vec3 const& v) {
         std::size_t const at = places_.add(v);
         if (at == at_.size()) {
-            at_.push_back(plan(v));
+            at_.push_back(in_plan(v));
             edges_.emplace_back();
             rivers_at_.emplace_back();
         }
@@ -261,7 +261,7 @@ private:
         for (geometry::NearSegment const& s : near) {
             for (std::size_t const v : {s.segment, s.segment + 1}) {
                 Vec3 const& vertex = lines_[s.line].vertices[v];
-                double const m = distance(plan(vertex), plan(of));
+                double const m = distance(in_plan(vertex), in_plan(of));
                 if (m < best_m || (best == nowhere && m <= best_m)) {
                     best = places_.find(vertex);
                     best_m = m;
@@ -319,7 +319,7 @@ RiverLines keep_connectors(RiverLines rivers, double snap_m, Run const& run) {
             if (is_needed(first)) {
                 double const length_m = length_in_plan(part);
                 rivers.findings.push_back(
-                    {"connector", channel.number(), plan(part.front()), length_m,
+                    {"connector", channel.number(), in_plan(part.front()), length_m,
                      fmt::format("line {} ({}) is kept for {:.6g} m: river {} continues through it", channel.number(),
                                  channel.artificial, length_m, needed_by[l][first])});
                 RiverLine& kept = rivers.lines.emplace_back(channel);

@@ -25,7 +25,7 @@ std::vector<Vec2> plan_of(RiverLine const& line) {
     std::vector<Vec2> out;
     out.reserve(line.vertices.size());
     for (Vec3 const& v : line.vertices) {
-        out.push_back(plan(v));
+        out.push_back(in_plan(v));
     }
     return out;
 }
@@ -36,7 +36,7 @@ public:
     CoastSides(RiverLines const& coastlines, Grid const& grid) : side_(grid) {
         for (RiverLine const& line : coastlines.lines) {
             for (std::size_t i = 1; i < line.vertices.size(); ++i) {
-                add({plan(line.vertices[i - 1]), plan(line.vertices[i])});
+                add({in_plan(line.vertices[i - 1]), in_plan(line.vertices[i])});
             }
         }
     }

@@ -115,7 +115,7 @@ namespace {
 std::vector<Vec2> plan_of(std::vector<Vec3> const& line) {
     std::vector<Vec2> result;
     for (Vec3 const p : line) {
-        result.push_back(plan(p));
+        result.push_back(in_plan(p));
     }
     return result;
 }
@@ -125,10 +125,10 @@ std::vector<Vec3> without_spikes(std::vector<Vec3> const& line, double near_m) {
     std::vector<Vec3> result;
     for (Vec3 const p : line) {
         while (result.size() > 1 &&
-               geometry::is_spike(plan(result[result.size() - 2]), plan(result.back()), plan(p), near_m)) {
+               geometry::is_spike(in_plan(result[result.size() - 2]), in_plan(result.back()), in_plan(p), near_m)) {
             result.pop_back();
         }
-        if (result.empty() || plan(result.back()) != plan(p)) {
+        if (result.empty() || in_plan(result.back()) != in_plan(p)) {
             result.push_back(p);
         }
     }
@@ -144,7 +144,7 @@ std::vector<Vec3> with_crossings(std::vector<Vec3> const& line) {
         result.push_back(line[i]);
         for (; next != found.end() && next->segment == i; ++next) {
             double const z = line[i].z + next->along * (line[i + 1].z - line[i].z);
-            if (plan(result.back()) != next->at && plan(line[i + 1]) != next->at) {
+            if (in_plan(result.back()) != next->at && in_plan(line[i + 1]) != next->at) {
                 result.push_back({next->at.x, next->at.y, z});
             }
         }
@@ -268,7 +268,7 @@ private:
     void fill_beside_nearest(std::size_t i) {
         auto& v = lines_[i].vertices;
         double const rise = slope_ * length_in_plan(v);
-        Vec2 const mouth = plan(drawn_downstream_ ? v.back() : v.front());
+        Vec2 const mouth = in_plan(drawn_downstream_ ? v.back() : v.front());
         double nearest = std::numeric_limits<double>::infinity();
         double low = 0.0;
         for (auto const& [place, z] : known_) {
@@ -286,7 +286,7 @@ private:
         double const length = length_in_plan(line);
         double along = 0.0;
         for (std::size_t i = 0; i < line.size(); ++i) {
-            along += i == 0 ? 0.0 : distance(plan(line[i - 1]), plan(line[i]));
+            along += i == 0 ? 0.0 : distance(in_plan(line[i - 1]), in_plan(line[i]));
             double const share = length > 0.0 ? along / length : 0.0;
             line[i].z = i + 1 == line.size() ? last : first + (last - first) * share;
         }

@@ -52,7 +52,7 @@ std::optional<PlaceOnLine> place_at(Line const& line, double distance_m) {
     constexpr double as_good = 1e-6;
     double along = 0.0;
     for (std::size_t i = 1; i < line.size(); ++i) {
-        double const step = distance(plan(line[i - 1]), plan(line[i]));
+        double const step = distance(in_plan(line[i - 1]), in_plan(line[i]));
         if (i + 1 < line.size() && std::fabs(along + step - distance_m) <= as_good * distance_m) {
             return PlaceOnLine{i - 1, line[i], i + 1};
         }
@@ -71,7 +71,7 @@ std::optional<PlaceOnLine> place_at(Line const& line, double distance_m) {
 }
 
 Vec2 direction(Vec3 from, Vec3 to) {
-    double const length = distance(plan(from), plan(to));
+    double const length = distance(in_plan(from), in_plan(to));
     return {(to.x - from.x) / length, (to.y - from.y) / length};
 }
 
@@ -107,7 +107,7 @@ void add_segments(Line const& line, Box const& box, std::vector<std::vector<Vec2
         bool const apart = std::max(a.x, b.x) < box.low.x || std::min(a.x, b.x) > box.high.x ||
                            std::max(a.y, b.y) < box.low.y || std::min(a.y, b.y) > box.high.y;
         if (!apart) {
-            lines.push_back({plan(a), plan(b)});
+            lines.push_back({in_plan(a), in_plan(b)});
         }
     }
 }
@@ -161,10 +161,10 @@ bool shift_tributary(TrunkAndTributary const& at, double distance_m, bool round_
 
     std::array<std::vector<Vec2>, 3> drawn;
     for (std::size_t i = way; i-- > 0;) {
-        drawn[0].push_back(plan(shifted.tributary[i]));
+        drawn[0].push_back(in_plan(shifted.tributary[i]));
     }
-    drawn[1] = {plan(at.trunk[node->before]), plan(node->at)};
-    drawn[2] = {plan(node->at), plan(at.trunk[node->after])};
+    drawn[1] = {in_plan(at.trunk[node->before]), in_plan(node->at)};
+    drawn[2] = {in_plan(node->at), in_plan(at.trunk[node->after])};
     for (auto const& line : drawn) {
         for (std::size_t i = 1; i < line.size(); ++i) {
             if (!(distance(line[i - 1], line[i]) > 0.0)) { // also if squares underflow
@@ -239,9 +239,9 @@ public:
         if (out_[n] != no_arc) {
             arcs.push_back(out_[n]);
         }
-        Vec2 const centre = plan(nodes_[n]);
+        Vec2 const centre = in_plan(nodes_[n]);
         auto const next = [&](std::size_t a) {
-            return plan(leaves(a, n) ? lines_[a][1] : lines_[a][lines_[a].size() - 2]);
+            return in_plan(leaves(a, n) ? lines_[a][1] : lines_[a][lines_[a].size() - 2]);
         };
         Vec2 const first = next(arcs.front());
         auto const half = [&](std::size_t a) { // half of the turn that begins at the first
@@ -294,7 +294,7 @@ public:
         ElevatedNetwork made;
         NetworkDraft drawn;
         for (Vec3 const at : nodes_) {
-            drawn.add_node(plan(at));
+            drawn.add_node(in_plan(at));
             made.node_z.push_back(at.z);
         }
         for (std::size_t a = 0; a < lines_.size(); ++a) {
@@ -306,7 +306,7 @@ public:
             Arc arc{{}, source.persistence, source.feature, source.type, source.is_input};
             std::vector<double> z;
             for (Vec3 const p : lines_[a]) {
-                arc.line.push_back(plan(p));
+                arc.line.push_back(in_plan(p));
                 z.push_back(p.z);
             }
             drawn.add_arc(from_[a], to_[a], std::move(arc));

@@ -114,13 +114,13 @@ public:
             std::swap(from, to);
         }
         if (length_in_plan(line) <= 0.0) {
-            if (from == nullptr || to == nullptr || plan(*from) == plan(*to)) {
-                say("left_out", number, line.empty() ? Vec2{} : plan(line.front()), 0.0,
+            if (from == nullptr || to == nullptr || in_plan(*from) == in_plan(*to)) {
+                say("left_out", number, line.empty() ? Vec2{} : in_plan(line.front()), 0.0,
                     fmt::format("arc {}: has no length and joins no two nodes; it is left out", number));
                 return;
             }
             line = {*from, *to};
-            say("drawn", number, plan(*from), length_in_plan(line),
+            say("drawn", number, in_plan(*from), length_in_plan(line),
                 fmt::format("arc {}: has no line; it is drawn straight from node {} to node {}", number, arc.from_node,
                             arc.to_node));
         } else {
@@ -143,7 +143,7 @@ public:
         if (found_.upstream[a] != 0) {
             std::reverse(line.begin(), line.end());
             runs = -runs;
-            say("turned", number, plan(line.front()), length_in_plan(line),
+            say("turned", number, in_plan(line.front()), length_in_plan(line),
                 fmt::format("arc {}: is reversed to run downstream", number));
         }
         if (looped_.contains(number)) {
@@ -153,7 +153,7 @@ public:
                 return;
             }
             line = std::move(cut.line);
-            say("cut", number, plan(line.front()), cut.cut_m,
+            say("cut", number, in_plan(line.front()), cut.cut_m,
                 fmt::format("arc {}: loops and spikes of {} m are cut off", number, cut.cut_m));
         }
         std::int64_t const ds_arc = file_.says.downstream ? arc.ds_arc : 0; // otherwise derived from positions alone
@@ -197,7 +197,7 @@ private:
 
     void put_aside(std::int64_t id, std::vector<Vec3> line, std::string const& reason) {
         std::int64_t const number = id - file_.id_shift;
-        say("secondary", number, plan(line.front()), length_in_plan(line),
+        say("secondary", number, in_plan(line.front()), length_in_plan(line),
             fmt::format("arc {}: is not a river: {}", number, reason));
         result_.secondary.push_back({id, std::move(line), reason});
     }
@@ -213,11 +213,11 @@ private:
         }
         std::size_t const lost = arc.line.size() - line.size();
         if (lost > 0) {
-            say("left_out", number_of(arc), line.empty() ? Vec2{} : plan(line.front()), static_cast<double>(lost),
+            say("left_out", number_of(arc), line.empty() ? Vec2{} : in_plan(line.front()), static_cast<double>(lost),
                 fmt::format("arc {}: {} vertices without finite coordinates are left out", number_of(arc), lost));
         }
         if (without_height > 0 && file_.says.heights) {
-            say("level", number_of(arc), plan(line.front()), static_cast<double>(without_height),
+            say("level", number_of(arc), in_plan(line.front()), static_cast<double>(without_height),
                 fmt::format("arc {}: {} vertices without a height are interpolated between their neighbours",
                             number_of(arc), without_height));
         }
@@ -226,16 +226,16 @@ private:
 
     /// The line runs from to_node to from_node: `upstream` decides which of the two is wrong.
     static bool is_named_back(std::vector<Vec3> const& line, Vec3 const* from, Vec3 const* to) {
-        return from != nullptr && to != nullptr && !line.empty() && plan(*from) != plan(*to) &&
-               plan(line.front()) == plan(*to) && plan(line.back()) == plan(*from);
+        return from != nullptr && to != nullptr && !line.empty() && in_plan(*from) != in_plan(*to) &&
+               in_plan(line.front()) == in_plan(*to) && in_plan(line.back()) == in_plan(*from);
     }
 
     /// Moves an end without a node at its position onto its own node.
     void put_onto(Vec3 const* node, Vec3& end, std::int64_t id) {
-        if (node == nullptr || plan(*node) == plan(end) || nodes_.lies_at(end)) {
+        if (node == nullptr || in_plan(*node) == in_plan(end) || nodes_.lies_at(end)) {
             return;
         }
-        say("moved", id, plan(*node), distance(plan(*node), plan(end)),
+        say("moved", id, in_plan(*node), distance(in_plan(*node), in_plan(end)),
             fmt::format("arc {}: its end at ({}, {}) is put onto its node at ({}, {})", id, end.x, end.y, node->x,
                         node->y));
         end = {node->x, node->y, is_number(node->z) ? node->z : end.z};
@@ -339,10 +339,7 @@ void take_words(Known const& known, RepairedNetwork& mended) {
     for (ArcId a = 0; a < named.arcs.size(); ++a) {
         Arc& of = named.arcs[a].arc;
         auto const& given = known.arc(of.feature);
-        std::vector<Vec2> line;
-        for (Vec3 const v : known.line(of.feature).vertices) {
-            line.push_back({v.x, v.y});
-        }
+        std::vector<Vec2> const line = in_plan(known.line(of.feature).vertices);
         mended.braided.push_back(given.braided ? 1 : 0);
         mended.user.record.push_back(given.record);
         mended.user.sources.push_back(stretches_of(given, length_of(line), mended.network.planform.length_m(a)));

@@ -4,7 +4,7 @@
 #include <thalweg/pipeline/make/internal/planform.hpp>
 
 #include <algorithm>
-#include <cmath>
+#include <numeric>
 
 #include <fmt/format.h>
 
@@ -76,10 +76,7 @@ void warn_of_long_extensions(std::vector<Finding> const& notes, StreamNetwork co
             ++outlets;
         }
     }
-    double length_m = 0.0;
-    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
-        length_m += plan.length_m(arc);
-    }
+    double const length_m = std::accumulate(plan.length_m().begin(), plan.length_m().end(), 0.0);
     if (outlets >= many && carried_m > much * length_m) {
         run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
                             "shortest ways. If they end at the sea: --set network.inland=coast.",

@@ -245,11 +245,7 @@ std::vector<Finding> left_out(RiverLines const& lines) {
         if (one.cause == LeftOut::grid) {
             continue;
         }
-        std::vector<Vec2> plan;
-        for (Vec3 const v : one.vertices) {
-            plan.push_back({v.x, v.y});
-        }
-        findings.push_back({"secondary", one.feature, plan.front(), length_of(plan),
+        findings.push_back({"secondary", one.feature, in_plan(one.vertices.front()), length_in_plan(one.vertices),
                             fmt::format("line {} is not a river: {}", one.feature, one.reason)});
     }
     return findings;

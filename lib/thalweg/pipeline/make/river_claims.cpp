@@ -38,7 +38,7 @@ Mask still_cells(NetworkFile const& network, Grid const& grid) {
                 continue;
             }
             still = still.cells() == 0 ? Mask(grid) : std::move(still);
-            for (Cell const cell : cells_along({plan(a), plan(b)}, grid)) {
+            for (Cell const cell : cells_along({in_plan(a), in_plan(b)}, grid)) {
                 still[cell] = 1;
             }
         }
@@ -73,7 +73,7 @@ std::vector<std::int64_t> sinks_of(NetworkFile const& network, Raster<float> con
     std::vector<std::int64_t> sinks;
     for (NetworkFile::FileNode const& node : network.nodes) {
         if (node.columns.kind == name_of(NodeKind::sink) && lies_on(grid, node.at)) {
-            std::int64_t const cell = grid.index(cells_of_vertices({plan(node.at)}, grid).front());
+            std::int64_t const cell = grid.index(cells_of_vertices({in_plan(node.at)}, grid).front());
             if (!std::isnan(dem[cell])) {
                 sinks.push_back(cell);
             }
@@ -168,17 +168,8 @@ bool inside(std::vector<Vec3> const& line, Grid const& grid) {
     });
 }
 
-std::vector<Vec2> in_plan(std::vector<Vec3> const& line) {
-    std::vector<Vec2> plan;
-    plan.reserve(line.size());
-    for (Vec3 const& v : line) {
-        plan.push_back({v.x, v.y});
-    }
-    return plan;
-}
-
 bool is_somewhere(std::vector<Vec3> const& line) {
-    return std::all_of(line.begin(), line.end(), [](Vec3 const& v) { return is_finite(plan(v)); });
+    return std::all_of(line.begin(), line.end(), [](Vec3 const& v) { return is_finite(in_plan(v)); });
 }
 
 std::vector<std::vector<Vec2>> parts_in(std::vector<Vec3> const& line, Grid const& grid) {

@@ -51,11 +51,7 @@ Mask read_part(io::Source const& source, Grid const& grid, Run const& run) {
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what) {
     Mask under(grid);
     for (RiverLine const& line : lines.lines) {
-        std::vector<Vec2> plan;
-        for (Vec3 const& v : line.vertices) {
-            plan.push_back({v.x, v.y});
-        }
-        for (Cell const c : cells_along(plan, grid, what)) {
+        for (Cell const c : cells_along(in_plan(line.vertices), grid, what)) {
             under[c] = 1;
         }
     }

@@ -310,10 +310,7 @@ std::string html_text(std::string const& text) {
 PageLines lines_of(StreamNetwork const& plan, RidgeLines const& ridges, Grid const& grid) {
     std::vector<std::vector<Vec2>> ridges_in_plan;
     for (RidgeLine const& ridge : ridges.lines) {
-        auto& line = ridges_in_plan.emplace_back();
-        for (Vec3 const& p : ridge.line) {
-            line.push_back({p.x, p.y});
-        }
+        ridges_in_plan.push_back(in_plan(ridge.line));
     }
     std::vector<std::span<Vec2 const>> lines;
     for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <numeric>
 #include <sstream>
 #include <utility>
 
@@ -159,10 +160,7 @@ ordered_json dem_laws_object(DemLaws const& found) {
 
 ordered_json network_object(Made const& t) {
     StreamNetwork const& plan = t.terrain.rivers.network.planform;
-    double length = 0.0;
-    for (double const l : plan.length_m()) {
-        length += l;
-    }
+    double const length = std::accumulate(plan.length_m().begin(), plan.length_m().end(), 0.0);
     int strahler = 0;
     for (int const s : t.terrain.rivers.orders.strahler) {
         strahler = std::max(strahler, s);

@@ -320,7 +320,7 @@ public:
         double const area = forward - back;
         // With so much cancellation in the products, rounding matters.
         bool const is_sliver = !(area > 1e-9 * (std::fabs(forward) + std::fabs(back)));
-        refuse_if<BadInput>(is_sliver && geometry::side_of_line(plan(a), plan(b), plan(c)) <= 0,
+        refuse_if<BadInput>(is_sliver && geometry::side_of_line(in_plan(a), in_plan(b), in_plan(c)) <= 0,
                             "surface.rasterise_tin: triangle {} at ({}, {}) does not run counterclockwise",
                             triangle + 1, a.x, a.y);
         sliver_ = is_sliver ? &t : nullptr;
@@ -372,7 +372,7 @@ public:
 
 private:
     Side side(Vec3 const& low, Vec3 const& high) const {
-        return {plan(low), plan(high), (low.x - centres_.grid.west) * per_m_ - 0.5,
+        return {in_plan(low), in_plan(high), (low.x - centres_.grid.west) * per_m_ - 0.5,
                 (high.x - low.x) / (high.y - low.y) * per_m_};
     }
 
