@@ -57,8 +57,8 @@ inline bool is_lawful(Tin const& tin) {
     std::set<std::uint32_t> used;
     for (auto const& t : tin.triangles) {
         used.insert(t.begin(), t.end());
-        auto const plan = [&](std::size_t k) { return Vec2{tin.vertices[t[k]].x, tin.vertices[t[k]].y}; };
-        if (geometry::side_of_line(in_plan(0), in_plan(1), in_plan(2)) <= 0) {
+        auto const corner = [&](std::size_t k) { return Vec2{tin.vertices[t[k]].x, tin.vertices[t[k]].y}; };
+        if (geometry::side_of_line(corner(0), corner(1), corner(2)) <= 0) {
             return false;
         }
     }
