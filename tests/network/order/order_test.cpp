@@ -163,6 +163,14 @@ TEST(Order, EqualsTheDefinitions) {
             RC_ASSERT((net.out(n) == no_arc || o.node_strahler[n] == o.strahler[net.out(n)]));
         }
         RC_ASSERT(streams(net, o) == walked(net, o));
+        // The main stem: from the source farthest from its outlet, arc by arc.
+        auto const farthest = std::ranges::max_element(o.node_dist_out_m);
+        ArcId arc = net.arc_count() == 0 ? no_arc : net.out(static_cast<NodeId>(farthest - o.node_dist_out_m.begin()));
+        for (ArcId const a : o.main_stem) {
+            RC_ASSERT(o.node_dist_out_m[net.from(a)] == (arc == no_arc ? -1.0 : o.node_dist_out_m[net.from(arc)]));
+            arc = net.out(net.to(a));
+        }
+        RC_ASSERT(arc == no_arc);
     }));
 }
 

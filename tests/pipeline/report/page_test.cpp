@@ -237,7 +237,7 @@ TEST(Page, MetricsStandBesideTheirTargets) {
     EXPECT_TRUE(row(data_of(page(papers)), "greatest rise above the valley")["asked"].is_null());
 }
 
-TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
+TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
     Made terrain = small_terrain(Land::with);
     json const profile = data_of(page(terrain))["profile"];
     ASSERT_GE(profile.size(), 2U);
@@ -249,22 +249,22 @@ TEST(Page, TheProfileRunsFromTheSourceOfTheLargestBasinToItsOutlet) {
     auto const& far = terrain.terrain.rivers.orders.node_dist_out_m;
     EXPECT_NEAR(profile.front()[0].get<double>(), *std::max_element(far.begin(), far.end()), 0.001);
 
-    // Of straight rivers the one that drains more, though shorter; of equals the first.
+    // Of straight rivers the longest, as in the sections, though others drain more; of equals the first.
     Made two = terrain;
     std::vector<Vec2> nodes;
     std::vector<test::Reach> reaches;
     std::vector<double> z;
-    for (double const length : {100.0, 50.0, 70.0}) {
+    for (double const length : {50.0, 100.0, 100.0}) {
         nodes.push_back({two.terrain.grid.west + length, two.terrain.grid.north});
         nodes.push_back({two.terrain.grid.west, two.terrain.grid.north});
-        z.insert(z.end(), {length, 1.0});
+        z.insert(z.end(), {length + static_cast<double>(nodes.size()), 1.0});
         reaches.push_back({nodes.size() - 2, nodes.size() - 1});
     }
     two.terrain.rivers.network = test::elevated(test::network_of(nodes, reaches), z);
     two.terrain.rivers.orders = network::order(two.terrain.rivers.network.planform);
-    two.terrain.areas.us_area_m2 = two.terrain.areas.ds_area_m2 = {1.0, 2.0, 2.0};
-    two.terrain.areas.node_m2 = {0.0, 1.0, 0.0, 2.0, 0.0, 2.0};
-    EXPECT_EQ(data_of(page(two))["profile"], json::parse("[[50.0, 50.0], [0.0, 1.0]]"));
+    two.terrain.areas.us_area_m2 = two.terrain.areas.ds_area_m2 = {2.0, 1.0, 1.0};
+    two.terrain.areas.node_m2 = {0.0, 2.0, 0.0, 1.0, 0.0, 1.0};
+    EXPECT_EQ(data_of(page(two))["profile"], json::parse("[[100.0, 104.0], [0.0, 1.0]]"));
 }
 
 TEST(Page, LongListsAreCut) {
