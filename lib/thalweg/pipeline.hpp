@@ -18,8 +18,8 @@
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
