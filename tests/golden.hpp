@@ -11,7 +11,7 @@
 
 #include <gtest/gtest.h>
 
-/// Compares text with tests/data/NAME; with THALWEG_RENEW=1 in the environment, writes the file anew instead.
+/// Compares text with tests/data/NAME; with THALWEG_RENEW=1 in the environment, writes the file again instead.
 inline void expect_golden(std::string const& name, std::string const& text) {
     std::filesystem::path const path = std::filesystem::path(THALWEG_SOURCE_DIR) / "tests/data" / name;
     char const* const renew = std::getenv("THALWEG_RENEW");
@@ -25,5 +25,5 @@ inline void expect_golden(std::string const& name, std::string const& text) {
     std::ifstream file(path, std::ios::binary);
     ASSERT_TRUE(file) << "cannot read " << path << "; THALWEG_RENEW=1 writes it";
     std::string const golden{std::istreambuf_iterator<char>(file), {}};
-    EXPECT_EQ(golden, text) << "differs from " << path << "; THALWEG_RENEW=1 writes it anew";
+    EXPECT_EQ(golden, text) << "differs from " << path << "; THALWEG_RENEW=1 writes it again";
 }

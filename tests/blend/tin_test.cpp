@@ -337,7 +337,7 @@ TEST(FuseTin, AHillOnFlatLandIsTheHill) {
 }
 
 TEST(FuseTin, AnywhereItIsWholeAndFollowsTheTargetOnItsOutline) {
-    ASSERT_TRUE(rc::check("placed by chance", [] {
+    ASSERT_TRUE(rc::check("placed at random", [] {
         auto const seed = *rc::gen::arbitrary<std::uint64_t>().as("seed");
         auto const by_chance = [&](double most, std::uint64_t place) {
             return most * unit(random_word(seed, 7, place));

@@ -39,7 +39,7 @@ class Thalweg:
 
 
 def arcs_of(path):
-    """The arcs of a native file by their lines: what is left to compare when ids have been given anew."""
+    """The arcs of a native file by their lines: what is left to compare when ids have changed."""
     dataset = ogr.Open(str(path))
     rows = {feature["arc_id"]: feature for feature in dataset.GetLayerByName("arcs")}
     line = {i: tuple(row.GetGeometryRef().GetPoints()) for i, row in rows.items()}

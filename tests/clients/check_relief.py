@@ -3,7 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """check_relief.py FOLDER [--bars theta=0.45 slope=25 forms=0.08]: is the relief that `thalweg make` reports that of dem.tif, and like land?
 
-Measured anew, without thalweg: geomorphons by GRASS (r.geomorphon search=15 skip=0 flat=1, 15 cells of border left out) of
+Measured again without thalweg: geomorphons by GRASS (r.geomorphon search=15 skip=0 flat=1, 15 cells of border left out) of
 dem.tif and of the two real DEMs in samples/; slopes and aspects by gdaldem; slope against area along the D8 directions of
 GRASS (r.watershed -s), and how straight they run; pits, peaks and perched river cells (of network.tif), the correlation and the
 anisotropy of gradients by numpy. Each is held against report.json. --bars

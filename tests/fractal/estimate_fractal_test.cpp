@@ -42,7 +42,7 @@ TEST(EstimateFractal, OneLagGivesSigmaOnly) {
     EXPECT_NEAR(fractal.sigma, 3.0, 1e-12);
 }
 
-// S(k) of a line of slope 1: k^2, so H would be 1; it is clamped and sigma is fitted anew.
+// S(k) of a line of slope 1: k^2, so H would be 1; it is clamped and sigma is fitted again.
 TEST(EstimateFractal, SlopesAreClamped) {
     Fractal const line = estimate_fractal(plane(40, 1, 1, 0));
     EXPECT_EQ(line.hurst, greatest_hurst);

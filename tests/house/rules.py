@@ -258,7 +258,7 @@ def check_shown(root):
         function = function_of((root / name).read_text("utf-8"), shown.split("\n", 1)[0])
         if function != shown:
             line = text[:found.start()].count("\n") + 1
-            yield f"docs/pipeline.md:{line}: not as in {name}; tests/house/rules.py --show writes it anew"
+            yield f"docs/pipeline.md:{line}: not as in {name}; tests/house/rules.py --show writes it again"
 
 
 def show(root):

@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds a fingerprint to tests/data/fingerprint.txt; THALWEG_RENEW=1 writes that file anew.
+"""Holds a fingerprint to tests/data/fingerprint.txt; THALWEG_RENEW=1 writes that file again.
 Usage: same_bytes_test.py plain FINGERPRINT
        same_bytes_test.py threads FINGERPRINT
        same_bytes_test.py masked FINGERPRINT LIBM_PROBE     with AVX2 and FMA hidden from the C library

@@ -233,7 +233,7 @@ TEST(Certify, WhatIsNotHonouredIsNotAsked) {
     Certificate const c = certify(land.dem, route(land.dem), land.reaches, {.honoured = honoured});
     EXPECT_TRUE(passes(c));
     EXPECT_EQ(c.waived_cells, 5);
-    EXPECT_EQ(c.sources, 2) << "the side river begins anew at column 8";
+    EXPECT_EQ(c.sources, 2) << "the side river begins again at column 8";
     honoured[{8, 12}] = honoured[{9, 12}] = 0;
     Certificate const none = certify(land.dem, route(land.dem), land.reaches, {.honoured = honoured});
     EXPECT_EQ(none.sources, 1);

@@ -106,7 +106,7 @@ std::string graphml_key(std::string const& id, char const* of, std::string const
 
 // Writes a new GraphML file: a directed graph with attribute crs; nodes with their columns and x, y; edges with theirs
 // and their line, geometry, as well-known text. networkx.read_graphml(PATH, node_type=int) reads it. Numbers read back
-// bit for bit. Throws: BadInput naming table, row and column when a number is not finite; IoError, also when the file
+// bit for bit. It throws BadInput naming table, row and column when a number is not finite; IoError, also when the file
 // exists. Source: GraphML 1.0.
 void write_graphml(NetworkTables const& tables, Table const& arcs, std::string const& path, Run const& run) {
     std::string const what = "io.write_graphml: " + path;

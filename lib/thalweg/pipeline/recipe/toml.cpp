@@ -192,7 +192,7 @@ std::string cut(std::string_view s) {
     return s.size() <= 80 ? std::string(s) : std::string(s.substr(0, 77)) + "...";
 }
 
-// Throws: BadParameter when the text is no TOML, or larger or deeper than a recipe may be.
+// Throws BadParameter when the text is not TOML, or is larger or deeper than a recipe may be.
 toml::table parse_modest(std::string const& toml, std::string const& name) {
     require_modest(toml, name);
     try {
@@ -204,7 +204,7 @@ toml::table parse_modest(std::string const& toml, std::string const& name) {
     }
 }
 
-// What a text means as a value of TOML; the text itself where it is none. Throws: BadParameter when it is an integer
+// What a text means as a value of TOML; the text itself where it is none. Throws BadParameter for an integer
 // that TOML does not have.
 Value value_in_toml(std::string const& text) {
     try {

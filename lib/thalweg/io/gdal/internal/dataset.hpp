@@ -27,10 +27,12 @@ inline constexpr float nodata_height = -9999.0F;
 
 /// Opens a file or a database, one of the given kinds (GDAL_OF_RASTER, ...), read-only, so that neither a file nor its
 /// folder is changed (see UnchangedFile); null when no driver reads it, with the reason in GDAL's errors. What may be
-/// opened: see Access. Throws: BadInput when it may not be opened; IoError like UnchangedFile.
+/// opened: see Access.
+/// \throws BadInput when it may not be opened; IoError like UnchangedFile
 Dataset open_unchanged(Source const& source, unsigned kinds);
 
-/// Opens an existing file likewise. Throws: BadInput when there is none or no driver reads it.
+/// Opens an existing file likewise.
+/// \throws BadInput when there is none or no driver reads it
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
 
 /// A file that GDAL writes in memory: on a full disk GDAL may report no error (3.10). Needs a Driver that outlives it.

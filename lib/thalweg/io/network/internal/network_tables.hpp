@@ -22,25 +22,26 @@ namespace thalweg::io {
 
 // The columns of a user beside those of a schema.
 
-/// Adds the columns to a table. Takes: by row of the table the record of its values, 0 for none, where all are NULL.
-/// The attributes must outlive the table.
+/// Adds the columns to a table. The attributes must outlive the table.
+/// \param record by row of the table: the record of its values; 0: none, all are NULL
 void add_user_columns(Table& table, AttributeTable const& attributes,
                       std::function<std::int64_t(std::size_t row)> const& record, bool short_names,
                       Schema schema = Schema::native);
 
 // The tables of a network, which must outlive them.
 
-/// The layers of a network in a schema: arcs and nodes in the native one, else arcs alone. what: "io.write_geopackage:
-/// PATH", begins messages. Takes: short_names: at most ten characters. Throws: BadInput when the tables do not belong
-/// to the network, or more arcs meet than the schema can name.
+/// The layers of a network in a schema: arcs and nodes in the native one, else arcs alone.
+/// \param short_names of at most ten characters
+/// \param what begins messages: "io.write_geopackage: PATH"
+/// \throws BadInput when the tables do not belong to the network, or more arcs meet than the schema can name
 std::vector<Table> network_layers(NetworkTables const& tables, Schema schema, bool short_names,
                                   std::string const& what);
 
 /// The layer nodes of the native schema.
 Table nodes_table(NetworkTables const& tables);
 
-/// All tables of the native schema's GeoPackage. Throws: BadInput like network_layers, or when a ridge has fewer than
-/// two vertices.
+/// All tables of the native schema's GeoPackage.
+/// \throws BadInput like network_layers, or when a ridge has fewer than two vertices
 std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string const& what);
 
 // How a table becomes a layer of what GDAL has opened.
@@ -59,13 +60,15 @@ struct LayerTarget {
     void require(bool done) const;
 };
 
-/// Writes a table as a new layer. Throws: BadInput naming table, row and column when a number is not finite or does not
-/// fit its column; IoError; Cancelled.
+/// Writes a table as a new layer.
+/// \throws BadInput naming table, row and column when a number is not finite or does not fit its column; IoError;
+/// Cancelled
 void write_layer(LayerTarget const& target, Table const& table, Run const& run);
 
 /// Writes tables with shapes as the layers of a new file: see write_tables. A shapefile's path ends in .shp, and it is
 /// UTF-8. GeoJSON is in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946 would round them to
-/// degrees. Throws: BadInput also when GeoJSON has a CRS without EPSG code.
+/// degrees.
+/// \throws BadInput also when GeoJSON has a CRS without EPSG code
 void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
                 Run const& run);
 

@@ -68,7 +68,7 @@ public:
     std::string text(OGRFeature const& feature) const;
     /// The name as the file has it.
     std::string const& name() const { return name_; }
-    /// Throws: BadInput when it cannot hold numbers; a note when it holds them as text.
+    /// \throws BadInput when it cannot hold numbers; a note when it holds them as text
     void require_numbers(std::string const& what, Notes& notes) const;
 
 private:
@@ -208,18 +208,21 @@ struct Layer {
     OGRLayer* layer = nullptr;
     std::string what = {};
 
-    /// Calls body for each feature. Throws: IoError when there are fewer than the file announces.
+    /// Calls body for each feature.
+    /// \throws IoError when there are fewer than the file announces
     void each(Driver const& driver, Run const& run, std::function<void(OGRFeature const&)> const& body) const;
 };
 
-/// Throws: BadInput that lists the layers when none has lines; IoError when features cannot be read.
+/// \throws BadInput that lists the layers when none has lines; IoError when features cannot be read
 void require_lines(GDALDataset& data, std::string const& name, std::string const& who);
 
 /// The layer of a source that holds its rivers.
-/// Takes: a layer's name, or "" for the only layer with lines that is not empty; where there are several, the one whose
-/// name says that it holds rivers (arcs, NHDFlowline, waterways, rivers, ...), if only one does. name: of the source,
-/// for messages; who: begins them. Throws: BadInput that lists the layers: no such layer, none with lines, several of
-/// which none is clearly meant; IoError when features cannot be read.
+/// \param wanted a layer's name, or "" for the only layer with lines that is not empty; of several the one whose name
+/// says that it holds rivers (arcs, NHDFlowline, waterways, rivers, ...), if only one does
+/// \param name of the source, for messages
+/// \param who begins messages
+/// \throws BadInput that lists the layers: no such layer, none with lines, several of which none is clearly meant;
+/// IoError when features cannot be read
 OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string const& name, std::string const& who);
 
 /// The files of a network: a GeoPackage is both; nodes is "" where there is no file for them.
@@ -228,10 +231,12 @@ struct NetworkPlace {
     std::string nodes;
 };
 
-/// Takes: see read_network. whole: a shapefile must be NAME_arcs.shp or NAME_nodes.shp. Throws: BadInput, IoError.
+/// \param path as read_network
+/// \param whole a shapefile must be NAME_arcs.shp or NAME_nodes.shp
+/// \throws BadInput, IoError as read_network
 NetworkPlace find_network(std::string const& path, bool whole);
 
-/// Throws: BadInput, IoError like read_network.
+/// \throws BadInput, IoError like read_network
 NetworkSource open_network(std::string const& path, Driver const& driver);
 
 /// What a user asks for, understood.
@@ -246,15 +251,17 @@ inline bool takes_any_lines(Wish const& wish) {
     return wish.any_lines && wish.columns.empty();
 }
 
-/// Throws: BadInput like read_network.
+/// \throws BadInput like read_network
 Layer choose_arcs(NetworkSource const& source, Wish const& wish);
 
-/// The layer of nodes that belongs to the arcs, if there is one. Takes: the source of nodes, which may be that of the
-/// arcs, or null. Throws: BadInput when a layer is named that is not there.
+/// The layer of nodes that belongs to the arcs, if there is one.
+/// \param source of nodes, which may be that of the arcs, or null
+/// \throws BadInput when a layer is named that is not there
 std::optional<Layer> choose_nodes(NetworkSource const* source, NetworkSource const& arcs_source, Layer const& arcs,
                                   std::optional<Schema> schema, Wish const& wish);
 
-/// Nothing when the fields that the user names are enough, or any lines are taken. Throws: BadInput like read_network.
+/// Nothing when the fields that the user names are enough, or any lines are taken.
+/// \throws BadInput like read_network
 std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish);
 
 // The features of a network's layers.
@@ -279,21 +286,25 @@ private:
     std::map<std::string, std::size_t> count_;
 };
 
-/// Reads the arcs as they are drawn and linked in the file, and what the file says. Throws: like read_network.
+/// Reads the arcs as they are drawn and linked in the file, and what the file says.
+/// \throws Error as read_network
 void read_arcs(NetworkFile& file, Layer const& arcs, std::optional<Schema> schema, Wish const& wish,
                Driver const& driver, Notes& notes, Run const& run);
 
 /// Reads which features arcs were made of. A table without the columns for it is skipped.
 void read_sources(NetworkFile& file, Layer const& sources, Driver const& driver, Run const& run);
 
-/// Reads the nodes. Takes: the field of their ids. Throws: like read_network.
+/// Reads the nodes.
+/// \param node_id field of their ids
+/// \throws Error as read_network
 void read_nodes(NetworkFile& file, Layer const& nodes, std::string const& node_id, Driver const& driver, Notes& notes,
                 Run const& run);
 
 // How the arcs of a network file are linked.
 
-/// Sets ds_arc by keys. Takes: by arc its key and that of the arc downstream, 0 for none. A key that no arc has stands
-/// in ds_arc as the negative of itself, for drop_links_out.
+/// Sets ds_arc by keys. A key that no arc has stands in ds_arc as the negative of itself, for drop_links_out.
+/// \param keys by arc
+/// \param ds_keys by arc: key of the arc downstream; 0: none
 void link_by_keys(NetworkFile& file, std::vector<std::int64_t> const& keys, std::vector<std::int64_t> const& ds_keys);
 
 } // namespace thalweg::io

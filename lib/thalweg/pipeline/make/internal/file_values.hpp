@@ -22,7 +22,7 @@ namespace thalweg::pipeline {
 // Heights as files have them.
 
 /// A DEM in metres in another unit.
-/// Gives: the nearest float of each height, or, where two heights that differ would become one, the next float above
+/// \return the nearest float of each height, or, where two heights that differ would become one, the next float above
 /// the lower: heights that differ do so afterwards, in the same order, so that water runs where it ran.
 Raster<float> in_unit(Raster<float> const& dem, HeightUnit unit);
 
@@ -36,9 +36,10 @@ std::optional<io::UserData> user_data(Made const& t, StreamNetwork const& plan);
 /// The columns that have other names in the shapefiles.
 std::vector<io::ShortenedName> shortened_names(Made const& t);
 
-/// Contributing areas of the arcs that splitting confluences added. Takes: those of the arcs that were there, -1 where
-/// they are not known. Gives: a piece that lies upstream of where a tributary was moved to has lost the tributary's
-/// area, one downstream has gained it: what flows into a node is what leaves it, as before.
+/// Appends the contributing areas of the arcs that splitting confluences added: a piece upstream of where a tributary
+/// was moved to has lost the tributary's area, one downstream has gained it, so that what flows into a node still
+/// equals what leaves it.
+/// \param us_area_m2,ds_area_m2 of the other arcs; -1: unknown
 void add_pieces(std::vector<network::SplitPiece> const& pieces, std::vector<double>& us_area_m2,
                 std::vector<double>& ds_area_m2);
 

@@ -15,7 +15,7 @@ namespace thalweg::pipeline {
 std::string turned_in_words(network::Directions const& directions);
 
 /// A sentence for each kind of doubt, with numbers and what decides.
-/// Takes: what decides by a DEM and by a rule: "--set network.lines.dem=FILE", "--dem FILE"; "" for no such option.
+/// \param by_dem,by_rule options that decide: "--set network.lines.dem=FILE", "--dem FILE"; "" for none
 std::vector<std::string> direction_doubts(network::Directions const& directions, std::string const& by_dem,
                                           std::string const& by_rule);
 

@@ -53,7 +53,7 @@ struct FileReaches {
 
 /// The reaches of anyone's network. It need not be a set of trees: only ids and arcs downstream are asked for. One
 /// downstream that the file does not hold makes an outlet; arcs of one id with the same one are parts of one reach.
-/// Throws: BadInput: arcs of one id with several downstream, rivers that run in a circle, no arc in the grid.
+/// \throws BadInput: arcs of one id with several downstream, rivers that run in a circle, no arc in the grid
 FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid);
 
 } // namespace thalweg::pipeline

@@ -16,24 +16,24 @@ namespace thalweg::pipeline {
 // Values of files by cell of a grid.
 
 /// Cells of a raster on the grid that are neither 0 nor no-data, or whose centres lie in polygons; empty for "".
-/// Throws: as io::read_mask, io::read_polygons and blend::mask_polygons.
+/// \throws Error as io::read_mask, io::read_polygons and blend::mask_polygons
 Mask read_part(io::Source const& source, Grid const& grid, Run const& run);
 
 /// The cells of a grid under lines. what: the lines' name, for messages. Throws as cells_along, for lines that leave
 /// the grid.
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
 
-/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "". Throws: as
-/// io::read_dem; BadInput when it has not as many cells as the grid.
+/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "".
+/// \throws Error as io::read_dem; BadInput when it has not as many cells as the grid
 Mask read_mask_of_land(io::Source const& source, Grid const& grid);
 
 /// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
 /// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
-/// Throws: as the doors; BadInput naming the cell where a raster has no value or one that is not above 0.
+/// \throws Error as these readers; BadInput naming the cell where a raster has no value or one that is not above 0
 Raster<float> read_field(io::Source const& source, Grid const& grid, std::string const& what, Run const& run);
 
 /// [m] A DEM in a CRS, on cells as large as its own; without cells for "". what: the key or option, for messages.
-/// Throws: as io::read_dem and io::warp_to_grid.
+/// \throws Error as io::read_dem and io::warp_to_grid
 Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
                           std::optional<double> nodata, Run const& run);
 

@@ -42,7 +42,7 @@ struct UnusedKey {
 std::vector<UnusedKey> unused_keys(Recipe const& recipe);
 
 /// The same of keys that a file or --set has set, once the recipe has every default resolved.
-/// Throws: BadParameter that names them.
+/// \throws BadParameter that names them
 void refuse_unused_keys(Recipe const& resolved);
 
 } // namespace thalweg::pipeline

@@ -37,7 +37,7 @@ bool is_address(std::string const& name);
 Recipe with_absolute_files(Recipe recipe);
 
 /// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.
-/// Gives: a note for each: "converted", "stretched".
+/// \return a note for each: "converted", "stretched".
 std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run);
 
 } // namespace thalweg::pipeline

@@ -162,7 +162,7 @@ struct Key {
     std::string folder;         ///< of a file: where below inputs/ a copy of it lies, "mask/"
 
     /// Makes the section, or the item after the last, where it is not there.
-    /// Throws: BadParameter with the reason alone; the recipe is unchanged then.
+    /// \throws BadParameter with the reason alone; the recipe is unchanged then
     void put(Recipe& recipe, Value const& value, std::optional<Item> item = {}) const;
     /// Nothing where the section or the value is left out.
     std::optional<Value> take(Recipe const& recipe, std::optional<Item> item = {}) const;
