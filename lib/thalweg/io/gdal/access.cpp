@@ -44,7 +44,7 @@ bool names_connection(std::string const& path) {
     for (std::string_view const system : local) {
         if (name.starts_with(system)) { // others may be nested: /vsizip//vsicurl/..., /vsizip/{/vsicurl/...}
             std::size_t const inner = name.find_first_not_of("/{", system.size());
-            return inner != name.npos && names_connection("/" + std::string(name.substr(inner)));
+            return inner != std::string_view::npos && names_connection("/" + std::string(name.substr(inner)));
         }
     }
     std::error_code ignored;

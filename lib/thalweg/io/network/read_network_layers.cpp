@@ -29,7 +29,7 @@ bool names_database(std::string const& path) {
 
 std::vector<OGRLayer*> layers_of(GDALDataset& data) {
     auto const layers = data.GetLayers();
-    return std::vector<OGRLayer*>(layers.begin(), layers.end());
+    return {layers.begin(), layers.end()};
 }
 
 std::vector<std::string> layer_names(std::vector<OGRLayer*> const& layers) {
