@@ -3,12 +3,12 @@
 #pragma once
 
 /// All public headers of the module.
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/height_unit.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sums.hpp>

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::blend {
@@ -68,7 +68,7 @@ public:
 
 private:
     Grid const& grid_;
-    Indexed<RowIndex, std::vector<double>> columns_;
+    std::vector<std::vector<double>> columns_;
 };
 
 [[noreturn]] void refuse_empty(Polygons const& polygons, Grid const& grid) {

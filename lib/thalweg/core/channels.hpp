@@ -3,8 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 
 namespace thalweg {
@@ -15,10 +15,10 @@ using ChannelId = std::int64_t; ///< number of a channel cell: 0, 1, ... from do
 /// receiver[i] < i, so a list runs upstream; a cell and its receiver are D8 neighbours. The vectors are parallel.
 struct Channels {
     Grid grid;
-    Indexed<ChannelId, CellIndex> cell;     ///< index in the grid
-    Indexed<ChannelId, ChannelId> receiver; ///< position in these vectors; -1: an outlet or sink
-    Indexed<ChannelId, float> z;            ///< [m] prescribed heights, NaN: free; empty: all free
-    Indexed<ChannelId, std::uint8_t> level; ///< 1: lake, as high as its receiver; empty: no lakes
+    std::vector<CellIndex> cell;     ///< index in the grid
+    std::vector<ChannelId> receiver; ///< position in these vectors; -1: an outlet or sink
+    std::vector<float> z;            ///< [m] prescribed heights, NaN: free; empty: all free
+    std::vector<std::uint8_t> level; ///< 1: lake, as high as its receiver; empty: no lakes
 };
 
 } // namespace thalweg

@@ -15,6 +15,8 @@
 
 namespace thalweg {
 
+using CellIndex = std::int64_t; ///< place of a cell in a grid, row by row from the north-west; -1 for none
+
 /// A cell by its column (to the east) and row (to the south), both from 0.
 struct Cell {
     std::int64_t col = 0;
@@ -66,8 +68,8 @@ public:
     std::int64_t height() const { return grid_.height; }
     std::int64_t cells() const { return grid_.cells(); }
 
-    T& operator[](std::int64_t i) { return values_[static_cast<std::size_t>(i)]; }
-    T const& operator[](std::int64_t i) const { return values_[static_cast<std::size_t>(i)]; }
+    T& operator[](std::int64_t i) { return values_[i]; }
+    T const& operator[](std::int64_t i) const { return values_[i]; }
     T& operator[](Cell c) { return (*this)[grid_.index(c)]; }
     T const& operator[](Cell c) const { return (*this)[grid_.index(c)]; }
 

@@ -329,8 +329,8 @@ private:
     std::vector<Stitch> const& stitches_;
     double tolerance_;
     Horizon horizon_;
-    Indexed<KnotId, Side> along_row_; ///< the side to the next column
-    Indexed<KnotId, Side> along_col_; ///< the side to the next row
+    std::vector<Side> along_row_; ///< the side to the next column
+    std::vector<Side> along_col_; ///< the side to the next row
     std::unordered_map<std::int64_t, std::vector<std::size_t>> in_mesh_;
     std::vector<std::vector<std::array<Vec2, 2>>> seen_stitches_;
 };

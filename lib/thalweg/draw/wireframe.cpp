@@ -87,8 +87,8 @@ Fishnet fishnet(Raster<float> const& dem, std::int64_t most_lines) {
     Fishnet net;
     net.col_at = spread(box.west, box.east, apart);
     net.row_at = spread(box.north, box.south, apart);
-    net.columns = net.col_at.count();
-    net.rows = net.row_at.count();
+    net.columns = std::ssize(net.col_at);
+    net.rows = std::ssize(net.row_at);
     net.low_m = std::numeric_limits<double>::infinity();
     net.high_m = -net.low_m;
     // A third of a mesh each way: with less, single cells make the net noisy; with more, valleys fill up.
@@ -153,7 +153,7 @@ struct Foot {
     double depth = 0.0; // [m] of the knot, growing away from the viewer
 };
 
-using Feet = Indexed<KnotId, Foot>;
+using Feet = std::vector<Foot>;
 
 /// Height of the terrain in front of a position, in its column of the sheet.
 double cover_before(Net const& net, Feet const& feet, Foot const& place) {
@@ -168,11 +168,11 @@ double cover_before(Net const& net, Feet const& feet, Foot const& place) {
             cover = std::max(cover, from.y + (to.y - from.y) * share);
         }
     };
-    for (KnotId i = 0; i < net.at.count(); ++i) {
+    for (KnotId i = 0; i < std::ssize(net.at); ++i) {
         if ((i + 1) % net.columns != 0) {
             ask(i, i + 1);
         }
-        if (i + net.columns < net.at.count()) {
+        if (i + net.columns < std::ssize(net.at)) {
             ask(i, i + net.columns);
         }
     }
@@ -188,7 +188,7 @@ void hang_skirt(Model& model, Feet const& feet) {
     auto const has_mesh = [&](std::int64_t col, std::int64_t row) { // by its knot of lowest column and row
         return has(col, row) && has(col + 1, row) && has(col, row + 1) && has(col + 1, row + 1);
     };
-    Indexed<KnotId, std::int8_t> hung(net.at.size(), 0); // 1: visible down to the base, 2: hidden there
+    std::vector<std::int8_t> hung(net.at.size(), 0); // 1: visible down to the base, 2: hidden there
     auto const hang = [&](std::int64_t col, std::int64_t row) {
         KnotId const knot = row * net.columns + col;
         if (hung[knot] == 0) {

@@ -44,9 +44,9 @@ Reaches reaches_of(StreamNetwork const& network) {
 std::vector<std::int64_t> steps_to_outlet(Reaches const& reaches) {
     constexpr std::int64_t unknown = 0;
     constexpr std::int64_t on_the_way = -1;
-    Indexed<ReachId, std::int64_t> steps(reaches.size(), unknown);
+    std::vector<std::int64_t> steps(reaches.size(), unknown);
     std::vector<ReachId> way;
-    for (ReachId start = 0; start < reaches.count(); ++start) {
+    for (ReachId start = 0; start < std::ssize(reaches); ++start) {
         way.clear();
         std::int64_t below = 0;
         for (ReachId at = start; steps[at] <= 0;) {
@@ -61,7 +61,7 @@ std::vector<std::int64_t> steps_to_outlet(Reaches const& reaches) {
                 break;
             }
             ReachId const next = reaches[at].ds;
-            if (next >= reaches.count()) {
+            if (next >= std::ssize(reaches)) {
                 throw BadInput(fmt::format("flow.steps_to_outlet: arc {} runs into reach {} of {}", reaches[at].id,
                                            next, reaches.size()));
             }
@@ -132,8 +132,8 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
 Catchments catchments(Reaches const& reaches, FlowField const& drainage, Run const& run) {
     require_countable(reaches.size(), "reaches");
     auto const steps = steps_to_outlet(reaches);
-    Indexed<std::int32_t, RiverCell> const cells = river_cells(reaches, drainage.direction.grid(), run);
-    Catchments result{first_met(cells, drainage, run), Indexed<ReachId, std::int64_t>(reaches.size(), 0), {}, 0};
+    std::vector<RiverCell> const cells = river_cells(reaches, drainage.direction.grid(), run);
+    Catchments result{first_met(cells, drainage, run), std::vector<std::int64_t>(reaches.size(), 0), {}, 0};
     for (std::int64_t i = 0; i < result.reach.cells(); ++i) {
         if (std::int32_t& place = result.reach[i]; place >= 0) {
             std::size_t const reach = cells[place].reach;
@@ -204,7 +204,7 @@ std::vector<std::int64_t> count_nearest(std::vector<RiverCell> const& cells, Gri
 /// By position in cells: counts the grid cells whose D8 flow path reaches it before any other river cell.
 std::vector<std::int64_t> count_draining(std::vector<RiverCell> const& cells, FlowField const& drainage,
                                          Run const& run) {
-    Indexed<std::int32_t, std::int64_t> count(cells.size(), 0);
+    std::vector<std::int64_t> count(cells.size(), 0);
     Raster<std::int32_t> const met = first_met(cells, drainage, run);
     for (std::int32_t const place : met.values()) {
         if (place >= 0) {

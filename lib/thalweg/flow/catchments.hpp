@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -25,7 +24,7 @@ struct Reach {
     std::int64_t id = 0;                  ///< its name in messages
 };
 
-using Reaches = Indexed<ReachId, Reach>;
+using Reaches = std::vector<Reach>;
 
 /// Makes a reach of each arc.
 /// \param network at most one arc leaves a node
@@ -92,10 +91,10 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
 
 /// Incremental catchments of reaches.
 struct Catchments {
-    Raster<std::int32_t> reach;              ///< by cell: number of the reach; -1: none
-    Indexed<ReachId, std::int64_t> cells;    ///< by reach: size of its own catchment; 0: others own its cells
-    Indexed<ReachId, std::int64_t> upstream; ///< by reach: size of its own and all upstream catchments
-    std::int64_t without = 0;                ///< cells with data in no catchment
+    Raster<std::int32_t> reach;         ///< by cell: number of the reach; -1: none
+    std::vector<std::int64_t> cells;    ///< by reach: size of its own catchment; 0: others own its cells
+    std::vector<std::int64_t> upstream; ///< by reach: size of its own and all upstream catchments
+    std::int64_t without = 0;           ///< cells with data in no catchment
 };
 
 /// Delineates incremental catchments: a cell belongs to the reach that owns the first river cell on its D8 flow path.

@@ -7,7 +7,6 @@
 #include <cmath>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -128,7 +127,7 @@ void check_hurst(EstimateParams const& params) {
 Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params, Run const& run) {
     check_hurst(params);
     CellWindow const all{0, 0, dem.width(), dem.height()};
-    Indexed<RowIndex, Sums> rows(dem.height());
+    std::vector<Sums> rows(dem.height());
     parallel_ranges(run, dem.height(), 32, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t row = first; row < last; ++row) {
             run.check();

@@ -8,10 +8,10 @@
 #include <map>
 #include <tuple>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -278,9 +278,8 @@ private:
                 for (std::size_t q = 0; q <= p; ++q) {
                     Cell const a = kept_[p].cell;
                     Cell const b = kept_[q].cell;
-                    matrix[p * n + q] =
-                        table[static_cast<std::size_t>(apart(a.row, b.row, torus_.height) * (torus_.width / 2 + 1) +
-                                                       apart(a.col, b.col, torus_.width))];
+                    matrix[p * n + q] = table[apart(a.row, b.row, torus_.height) * (torus_.width / 2 + 1) +
+                                              apart(a.col, b.col, torus_.width)];
                 }
             }
         }
@@ -654,13 +653,13 @@ std::int64_t mirrored(std::int64_t i, std::int64_t side) {
 
 /// The first DEM's means minus the second's: means are linear, so that one pass suffices.
 Raster<double> difference_of_means(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
-    Indexed<std::int64_t, double> const weights = window(cells);
+    std::vector<double> const weights = window(cells);
     auto const reach = static_cast<std::int64_t>(weights.size() / 2);
     Raster<double> along(land.grid());
     Raster<double> out(land.grid());
     parallel_ranges(run, land.height(), rows_a_range, [&](std::int64_t begin, std::int64_t end) {
         run.check();
-        Indexed<ColumnIndex, double> off(land.width());
+        std::vector<double> off(land.width());
         for (std::int64_t r = begin; r < end; ++r) {
             for (std::int64_t c = 0; c < land.width(); ++c) {
                 off[c] = static_cast<double>(land[Cell{c, r}]) - static_cast<double>(fine[Cell{c, r}]);

@@ -30,14 +30,14 @@ public:
                  // only offsets of one parity: as the neighbours lie relative to one another and to the point
                  row += 2) {
                 int const square = col * col + row * row;
-                of_square_[static_cast<std::size_t>(square)] = portable::pow(0.5 * static_cast<double>(square), hurst);
+                of_square_[square] = portable::pow(0.5 * static_cast<double>(square), hurst);
             }
         }
     }
     double operator()(Offset const& a, Offset const& b) const {
         int const col = a.col - b.col;
         int const row = a.row - b.row;
-        return of_square_[static_cast<std::size_t>(col * col + row * row)];
+        return of_square_[col * col + row * row];
     }
 
 private:
@@ -187,7 +187,7 @@ public:
 
 private:
     std::int64_t width_;
-    Indexed<CellIndex, double> of_distance_;
+    std::vector<double> of_distance_;
 };
 
 /// An interpolation: level minus the sum of weights times variograms around the cells with heights.
@@ -398,8 +398,8 @@ Character global_character(Raster<float> const& coarse, MidpointParams const& pa
 /// \return number of these cells
 std::int64_t adapt(Character& character, Raster<float> const& coarse, Run const& run) {
     constexpr std::int64_t half = 3; // of 7 x 7 cells
-    Indexed<CellIndex, float> steps(coarse.cells());
-    Indexed<CellIndex, float> sigmas(steps.size());
+    std::vector<float> steps(coarse.cells());
+    std::vector<float> sigmas(steps.size());
     std::atomic<std::int64_t> adapted = 0;
     parallel_ranges(run, coarse.height(), 8, [&](std::int64_t first, std::int64_t last) {
         for (std::int64_t row = first; row < last; ++row) {

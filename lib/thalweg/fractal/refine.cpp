@@ -71,7 +71,7 @@ LocalCharacter character_at(Refinement const& refinement, int level, std::int64_
     std::int64_t const north_west = (row >> level) * width + (col >> level);
     std::int64_t const east = x > 0.0F ? 1 : 0;
     std::int64_t const south = y > 0.0F ? width : 0;
-    auto const between = [&](Indexed<CellIndex, float> const& of) {
+    auto const between = [&](std::vector<float> const& of) {
         float const north_z = of[north_west] + x * (of[north_west + east] - of[north_west]);
         float const south_z = of[north_west + south] + x * (of[north_west + south + east] - of[north_west + south]);
         return north_z + y * (south_z - north_z);
@@ -396,9 +396,9 @@ private:
     int level_;
     std::int64_t centres_; ///< in a row
     std::array<std::vector<float>, 4> window_;
-    Indexed<std::int64_t, float> noise_;
-    Indexed<std::int64_t, float> spare_;
-    std::array<Indexed<std::int64_t, float>, 3> factors_;
+    std::vector<float> noise_;
+    std::vector<float> spare_;
+    std::array<std::vector<float>, 3> factors_;
     std::uint32_t used_;
     std::int64_t rim_ = 0; ///< rows and columns at each border whose points lack neighbours
     Makers make_{};
@@ -421,9 +421,9 @@ void make_level(Refinement const& refinement, Lattice const& from, Lattice const
 
 /// The lattices of all levels, each as far as the next finer one needs it, in the result, the floors and the coarse
 /// raster.
-Indexed<int, Lattice> plan_lattices(Refinement const& refinement, Raster<float>& dem, Floors& floors) {
+std::vector<Lattice> plan_lattices(Refinement const& refinement, Raster<float>& dem, Floors& floors) {
     Raster<float> const& coarse = *refinement.coarse;
-    Indexed<int, Lattice> lattices(refinement.levels + 1);
+    std::vector<Lattice> lattices(refinement.levels + 1);
     auto const floor_of = [&](int level) -> Floor& { return level % 2 == 1 ? floors.odd : floors.even; };
     std::int64_t cols = dem.width();
     std::int64_t rows = dem.height();
@@ -456,7 +456,7 @@ Indexed<int, Lattice> plan_lattices(Refinement const& refinement, Raster<float>&
 } // namespace
 
 void refine(Refinement const& refinement, Raster<float>& dem, Floors& floors, Run const& run) {
-    Indexed<int, Lattice> const lattices = plan_lattices(refinement, dem, floors);
+    std::vector<Lattice> const lattices = plan_lattices(refinement, dem, floors);
     double const points = static_cast<double>(dem.cells());
     for (std::size_t level = 1; level < lattices.size(); ++level) {
         make_level(refinement, lattices[level - 1], lattices[level], static_cast<int>(level), run);

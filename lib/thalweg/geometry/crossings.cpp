@@ -135,8 +135,8 @@ public:
         : low_{std::min(a.x, b.x), std::min(a.y, b.y)}, high_{std::max(a.x, b.x), std::max(a.y, b.y)},
           segment_(segment) {}
     static int dimension() { return 2; }
-    double min_coord(int d) const { return low_[static_cast<std::size_t>(d)]; }
-    double max_coord(int d) const { return high_[static_cast<std::size_t>(d)]; }
+    double min_coord(int d) const { return low_[d]; }
+    double max_coord(int d) const { return high_[d]; }
     ID id() const { return (ID{segment_.line} << 32U) | segment_.segment; }
     LineSegment segment() const { return segment_; }
 

@@ -22,7 +22,7 @@ PointGrid::PointGrid(std::vector<Vec2> points, double cell_m) : points_(std::mov
     cell_m_ = std::max(cell_m, std::max(high.x - low_.x, high.y - low_.y) / 2000.0);
     width_ = static_cast<std::int64_t>(std::floor((high.x - low_.x) / cell_m_)) + 1;
     height_ = static_cast<std::int64_t>(std::floor((high.y - low_.y) / cell_m_)) + 1;
-    first_ = Indexed<CellIndex, std::size_t>(width_ * height_ + 1, 0);
+    first_ = std::vector<std::size_t>(width_ * height_ + 1, 0);
     for (Vec2 const s : points_) {
         ++first_[cell(s) + 1];
     }
@@ -30,7 +30,7 @@ PointGrid::PointGrid(std::vector<Vec2> points, double cell_m) : points_(std::mov
         first_[i] += first_[i - 1];
     }
     in_.resize(points_.size());
-    Indexed<CellIndex, std::size_t> next = first_;
+    std::vector<std::size_t> next = first_;
     for (std::size_t i = 0; i < points_.size(); ++i) {
         in_[next[cell(points_[i])]++] = i;
     }

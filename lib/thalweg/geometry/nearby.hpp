@@ -6,7 +6,7 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 
@@ -34,8 +34,8 @@ private:
     double cell_m_ = 1.0;
     std::int64_t width_ = 1;
     std::int64_t height_ = 1;
-    Indexed<CellIndex, std::size_t> first_; ///< by bucket: position in in_
-    std::vector<std::size_t> in_;           ///< numbers of points, bucket by bucket
+    std::vector<std::size_t> first_; ///< by bucket: position in in_
+    std::vector<std::size_t> in_;    ///< numbers of points, bucket by bucket
 };
 
 /// A segment of a polyline close to a point.

@@ -7,7 +7,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg {
@@ -34,7 +33,7 @@ private:
 /// \throws Error what term throws
 template <class Term> auto sum_rows(Run const& run, std::int64_t rows, Term const& term) {
     using Sum = decltype(term(rows));
-    Indexed<RowIndex, Sum> parts(rows);
+    std::vector<Sum> parts(rows);
     parallel_ranges(run, rows, 8, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = begin; r < end; ++r) {
             parts[r] = term(r);

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/vec.hpp>
 
@@ -18,10 +17,10 @@ namespace thalweg::draw {
 struct Fishnet {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
-    Indexed<ColumnIndex, double> col_at;    ///< column of the DEM by column of knots; cell centres are whole numbers
-    Indexed<RowIndex, double> row_at;       ///< the same for rows
-    Indexed<std::int64_t, double> height_m; ///< by knot, row-major; NaN: most of the terrain around it has no height
-    double low_m = 0.0;                     ///< of the knots; low > high: none has a height
+    std::vector<double> col_at;   ///< column of the DEM by column of knots; cell centres are whole numbers
+    std::vector<double> row_at;   ///< the same for rows
+    std::vector<double> height_m; ///< by knot, row-major; NaN: most of the terrain around it has no height
+    double low_m = 0.0;           ///< of the knots; low > high: none has a height
     double high_m = 0.0;
 };
 
@@ -41,9 +40,9 @@ using KnotId = std::int64_t; ///< index of a knot in a net, row by row
 struct Net {
     std::int64_t columns = 0;
     std::int64_t rows = 0;
-    Indexed<KnotId, Vec2> at; ///< knots on the sheet, row-major: x to the right, y up; NaN: none
-    int away_col = 1;         ///< 1 or -1: columns grow away from or towards the viewer
-    int away_row = -1;        ///< the same for rows
+    std::vector<Vec2> at; ///< knots on the sheet, row-major: x to the right, y up; NaN: none
+    int away_col = 1;     ///< 1 or -1: columns grow away from or towards the viewer
+    int away_row = -1;    ///< the same for rows
 
     Vec2 const& knot(std::int64_t col, std::int64_t row) const { return at[row * columns + col]; }
 };

@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -18,9 +17,9 @@ namespace thalweg::fractal {
 struct Character {
     static constexpr double steps_of_hurst = 256.0; ///< local H has a resolution of 1 / 256
     double hurst = 0.5;
-    double sigma = 0.0;               ///< [m] one coarse cell apart
-    Indexed<CellIndex, float> steps;  ///< H x steps_of_hurst
-    Indexed<CellIndex, float> sigmas; ///< [m] one coarse cell apart
+    double sigma = 0.0;        ///< [m] one coarse cell apart
+    std::vector<float> steps;  ///< H x steps_of_hurst
+    std::vector<float> sigmas; ///< [m] one coarse cell apart
     bool varies() const { return !steps.empty(); }
 };
 

@@ -141,7 +141,7 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
             if (r <= 0 || r > static_cast<std::int64_t>(attributes.rows.size())) {
                 return {};
             }
-            Value value = attributes.rows[static_cast<std::size_t>(r - 1)][c];
+            Value value = attributes.rows[r - 1][c];
             if (auto* const text = std::get_if<std::string>(&value); text != nullptr && short_names) {
                 *text = cut_to(*text, dbf_text);
             }

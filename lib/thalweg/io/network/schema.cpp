@@ -4,8 +4,9 @@
 
 #include <algorithm>
 #include <array>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>

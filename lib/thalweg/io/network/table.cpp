@@ -5,12 +5,13 @@
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <vector>
 
 #include <cpl_conv.h>
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>

@@ -7,13 +7,13 @@
 #include <filesystem>
 #include <map>
 #include <memory>
+#include <vector>
 
 #include <fmt/format.h>
 #include <gdal_alg.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/crs/crs.hpp>
@@ -294,7 +294,7 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
     gdal_progress.settle();
     driver.check(what);
     refuse_if<IoError>(error != CE_None, "{} failed", what);
-    Indexed<std::int64_t, std::vector<Polygon>> polygons(count);
+    std::vector<std::vector<Polygon>> polygons(count);
     for (auto const& feature : *layer) {
         auto const number = feature->GetFieldAsInteger64(0);
         polygons[number].push_back(taken(*feature->GetGeometryRef()->toPolygon(), number));
@@ -315,9 +315,9 @@ struct Basin {
 };
 
 void require_counted(CatchmentTables const& tables, std::string const& what) {
-    Indexed<std::int32_t, std::int64_t> counted(tables.rows.size(), 0);
+    std::vector<std::int64_t> counted(tables.rows.size(), 0);
     for (std::int32_t const number : tables.number.values()) {
-        if (number >= 0 && number < counted.count()) {
+        if (number >= 0 && number < std::ssize(counted)) {
             ++counted[number];
         }
     }
@@ -330,7 +330,7 @@ void require_counted(CatchmentTables const& tables, std::string const& what) {
 }
 
 /// Basins by id, and by row the index of its basin.
-std::vector<Basin> basins_of(std::vector<CatchmentRow> const& rows, Indexed<std::int32_t, std::int32_t>& basin_of_row) {
+std::vector<Basin> basins_of(std::vector<CatchmentRow> const& rows, std::vector<std::int32_t>& basin_of_row) {
     std::map<std::int64_t, Basin> by_id;
     for (CatchmentRow const& row : rows) {
         if (row.cells > 0) {
@@ -368,7 +368,7 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
             count.parts += static_cast<std::int64_t>(outlines[i].size());
         }
     }
-    Indexed<std::int32_t, std::int32_t> basin_of_row;
+    std::vector<std::int32_t> basin_of_row;
     auto const basins = basins_of(tables.rows, basin_of_row);
     Raster<std::int32_t> basin_number(grid, -1);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {

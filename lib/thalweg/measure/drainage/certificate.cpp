@@ -7,11 +7,11 @@
 #include <limits>
 #include <map>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
@@ -469,8 +469,8 @@ private:
     Mask lake_;
     Mask corner_; ///< 1: only corners of reaches
     std::vector<flow::RiverCell> rivers_;
-    Indexed<flow::ReachId, Ends> ends_;
-    Indexed<flow::ReachId, std::uint8_t> fed_; ///< another reach flows into it
+    std::vector<Ends> ends_;
+    std::vector<std::uint8_t> fed_; ///< another reach flows into it
     std::map<std::string, std::int64_t> told_;
     Certificate out_;
 };

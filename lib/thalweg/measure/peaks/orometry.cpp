@@ -7,9 +7,9 @@
 #include <cmath>
 #include <tuple>
 #include <unordered_map>
+#include <vector>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -22,7 +22,7 @@ constexpr PeakIndex no_peak = -1;
 /// Maps each cell to the peak reached by ascending to the highest neighbour.
 struct Summits {
     Raster<PeakIndex> of;
-    Indexed<PeakIndex, std::int64_t> cell; ///< cell of a peak
+    std::vector<std::int64_t> cell; ///< cell of a peak
 };
 
 bool is_higher(Raster<float> const& dem, std::int64_t a, std::int64_t b) {
@@ -58,7 +58,7 @@ Summits climb(Raster<float> const& dem, Run const& run) {
             way.push_back(top);
             std::int64_t const next = highest_neighbour(dem, top);
             if (next < 0) {
-                found.of[top] = found.cell.count();
+                found.of[top] = static_cast<std::int32_t>(found.cell.size());
                 found.cell.push_back(top);
                 break;
             }
@@ -112,9 +112,10 @@ std::vector<Saddle> saddles(Raster<float> const& dem, Summits const& summits, Ru
 /// Joins the areas of peaks from the highest saddle down; the lower peak of two gets its prominence.
 class Joining {
 public:
-    Joining(Raster<float> const& dem, Indexed<PeakIndex, std::int64_t> const& cell)
-        : dem_(dem), cell_(cell), highest_(cell.count()), prominence_(cell.count()) {
-        for (PeakIndex p = 0; p < cell.count(); ++p) {
+    Joining(Raster<float> const& dem, std::vector<std::int64_t> const& cell)
+        : dem_(dem), cell_(cell), highest_(static_cast<std::int32_t>(cell.size())),
+          prominence_(static_cast<std::int32_t>(cell.size())) {
+        for (PeakIndex p = 0; p < static_cast<std::int32_t>(cell.size()); ++p) {
             highest_[p] = p;
         }
     }
@@ -141,21 +142,21 @@ public:
 
 private:
     Raster<float> const& dem_;
-    Indexed<PeakIndex, std::int64_t> const& cell_;
-    Indexed<PeakIndex, PeakIndex> highest_;
-    Indexed<PeakIndex, double> prominence_;
+    std::vector<std::int64_t> const& cell_;
+    std::vector<PeakIndex> highest_;
+    std::vector<double> prominence_;
 };
 
 /// The highest peak of each connected area gets its height above the lowest cell as prominence.
 void finish(Raster<float> const& dem, Summits const& summits, Joining& joining) {
-    Indexed<PeakIndex, float> lowest(summits.cell.count(), std::numeric_limits<float>::infinity());
+    std::vector<float> lowest(static_cast<std::int32_t>(summits.cell.size()), std::numeric_limits<float>::infinity());
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (summits.of[i] != no_peak) {
             float& least = lowest[joining.highest_peak(summits.of[i])];
             least = std::min(least, dem[i]);
         }
     }
-    for (PeakIndex p = 0; p < summits.cell.count(); ++p) {
+    for (PeakIndex p = 0; p < static_cast<std::int32_t>(summits.cell.size()); ++p) {
         if (joining.highest_peak(p) == p) {
             joining.prominence(p) = static_cast<double>(dem[summits.cell[p]]) - static_cast<double>(lowest[p]);
         }
@@ -181,7 +182,7 @@ std::vector<Peak> prominent_peaks(Raster<float> const& dem, double least_m, Run 
     }
     finish(dem, summits, joining);
     std::vector<Peak> found;
-    for (PeakIndex p = 0; p < summits.cell.count(); ++p) {
+    for (PeakIndex p = 0; p < static_cast<std::int32_t>(summits.cell.size()); ++p) {
         std::int64_t const cell = summits.cell[p];
         if (joining.prominence(p) >= least_m && has_all_neighbours(dem, cell)) {
             found.push_back({cell, static_cast<double>(dem[cell]), joining.prominence(p)});

@@ -9,7 +9,6 @@
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
@@ -117,10 +116,10 @@ private:
     std::int64_t first_;
     std::int64_t beyond_;
     std::int64_t skip_;
-    Indexed<ColumnIndex, double> up_;
-    Indexed<ColumnIndex, double> down_;
-    Indexed<ColumnIndex, std::uint8_t> rise_;
-    Indexed<ColumnIndex, std::uint8_t> fall_;
+    std::vector<double> up_;
+    std::vector<double> down_;
+    std::vector<std::uint8_t> rise_;
+    std::vector<std::uint8_t> fall_;
 };
 
 void check(GeomorphonParams const& params, Grid const& grid) {

@@ -11,10 +11,10 @@
 #include <limits>
 #include <mutex>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -139,7 +139,7 @@ std::int64_t cells_with_height(Raster<float> const& dem) {
 
 /// Mean height above the lowest, summed in row order.
 double mean_above(double lowest, Raster<float> const& dem, std::int64_t cells, Run const& run) {
-    Indexed<RowIndex, CompensatedSum> rows(dem.height());
+    std::vector<CompensatedSum> rows(dem.height());
     parallel_ranges(run, dem.height(), 64, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t r = begin; r < end; ++r) {
             for (float const z : dem.row(r)) {

@@ -9,7 +9,6 @@
 #include <utility>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
@@ -231,9 +230,9 @@ double slope_area_ratio(Raster<float> const& dem, flow::FlowField const& drainag
     auto const offsets = d8_offsets(dem.grid());
     Tangents hillslopes;
     Tangents channels;
-    for (RowIndex r = 1; r + 1 < dem.height(); ++r) {
+    for (std::int64_t r = 1; r + 1 < dem.height(); ++r) {
         run.check();
-        for (ColumnIndex c = 1; c + 1 < dem.width(); ++c) {
+        for (std::int64_t c = 1; c + 1 < dem.width(); ++c) {
             std::int64_t const i = dem.grid().index({c, r});
             std::int64_t const area = drainage.area_cells[i];
             bool const hillslope = area >= params.hillslope_from && area < params.hillslope_to;

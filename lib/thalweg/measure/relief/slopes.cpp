@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cmath>
 #include <cstdlib>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
@@ -131,8 +131,8 @@ Slopes slopes(Raster<float> const& dem, Run const& run) {
     std::int64_t const rows = std::max<std::int64_t>(dem.height() - 2, 0);
     Sector const wide = sector(11.25);
     Sector const narrow = sector(2.5);
-    Indexed<std::int64_t, Block> blocks((rows + rows_a_block - 1) / rows_a_block);
-    parallel_ranges(run, blocks.count(), 1, [&](std::int64_t begin, std::int64_t end) {
+    std::vector<Block> blocks((rows + rows_a_block - 1) / rows_a_block);
+    parallel_ranges(run, std::ssize(blocks), 1, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t b = begin; b < end; ++b) {
             run.check();
             Block& block = blocks[b];

@@ -9,7 +9,6 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -182,7 +181,7 @@ Statistics statistics(Raster<float> const& dem, Run const& run) {
     refuse_if<BadInput>(!(dem.grid().cell_m > 0.0),
                         "measure.statistics: the DEM's cells have a side of {} m; it must be greater than 0",
                         dem.grid().cell_m);
-    Indexed<RowIndex, RowSums> rows(dem.height());
+    std::vector<RowSums> rows(dem.height());
     auto const for_rows = [&](auto const& add) {
         parallel_ranges(run, dem.height(), rows_a_sum, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t r = begin; r < end; ++r) {

@@ -76,7 +76,7 @@ Raster<Tensor> smooth_and_turn(Raster<Tensor> const& blocks, std::vector<double>
                 Tensor& sum = out[Cell{r, c}];
                 for (std::int64_t k = -reach; k <= reach; ++k) {
                     Tensor part = blocks[Cell{c, mirrored(r + k, blocks.height())}];
-                    part *= half[static_cast<std::size_t>(k < 0 ? -k : k)];
+                    part *= half[k < 0 ? -k : k];
                     sum += part;
                 }
             }
@@ -119,9 +119,7 @@ UnitGradients unit_gradients(Raster<float> const& dem, Run const& run) {
             auto const here = dem.row(r);
             auto const south = dem.row(std::min(r + 1, bottom));
             for (std::int64_t c = 0; c <= right; ++c) {
-                auto const at = [](std::span<float const> row, std::int64_t col) {
-                    return row[static_cast<std::size_t>(col)];
-                };
+                auto const at = [](std::span<float const> row, std::int64_t col) { return row[col]; };
                 float const z = at(here, c);
                 float const x = difference(at(here, std::max<std::int64_t>(c - 1, 0)), z,
                                            at(here, std::min(c + 1, right)), c == 0, c == right);
@@ -318,11 +316,11 @@ struct RowOfReaches {
     }
 };
 
-RowOfReaches row_of(Channels const& channels, RowIndex r) {
+RowOfReaches row_of(Channels const& channels, std::int64_t r) {
     Grid const& grid = channels.drainage.grid();
     RowOfReaches row;
     std::vector<Cell> reach;
-    for (ColumnIndex c = 0; c < grid.width; ++c) {
+    for (std::int64_t c = 0; c < grid.width; ++c) {
         std::int64_t const cell = grid.index({c, r});
         if (!channels.contains(cell)) {
             continue;
@@ -348,7 +346,7 @@ StraightChannels straight_channels(flow::FlowField const& drainage, StraightChan
     require_in(self, "reach_steps", params.reach_steps, Range::at_least(2));
     require_in(self, "tolerance_cells", params.tolerance_cells, Range::at_least(0.0));
     Channels const channels{drainage, params};
-    RowOfReaches const all = sum_rows(run, drainage.grid().height, [&](RowIndex r) {
+    RowOfReaches const all = sum_rows(run, drainage.grid().height, [&](std::int64_t r) {
         run.check();
         return row_of(channels, r);
     });

@@ -9,11 +9,11 @@
 #include <tuple>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -66,7 +66,7 @@ public:
     explicit Drawing(Grid const& grid) : number_(grid, -1) {}
 
     std::int64_t number(Cell c) const { return number_[c]; }
-    ChannelId size() const { return cell_.count(); }
+    ChannelId size() const { return std::ssize(cell_); }
     std::int64_t receiver(std::int64_t i) const { return receiver_[i]; }
     std::int64_t donors(std::int64_t i) const { return donors_[i]; }
     bool is_gone(std::int64_t i) const { return gone_[i] != 0; }
@@ -111,11 +111,11 @@ public:
     }
 
     /// New numbers without removed cells; -1: removed.
-    Indexed<ChannelId, ChannelId> renumbered(Channels& out) const {
-        Indexed<ChannelId, ChannelId> now(cell_.size(), -1);
+    std::vector<ChannelId> renumbered(Channels& out) const {
+        std::vector<ChannelId> now(cell_.size(), -1);
         for (std::size_t i = 0; i < cell_.size(); ++i) {
             if (gone_[i] == 0) {
-                now[i] = out.cell.count();
+                now[i] = std::ssize(out.cell);
                 out.cell.push_back(cell_[i]);
                 out.receiver.push_back(receiver_[i] < 0 ? -1 : now[receiver_[i]]);
             }
@@ -125,10 +125,10 @@ public:
 
 private:
     Raster<std::int32_t> number_; ///< by cell; -1: no channel
-    Indexed<ChannelId, CellIndex> cell_;
-    Indexed<ChannelId, ChannelId> receiver_; ///< less than the cell's own number
-    Indexed<ChannelId, std::int64_t> donors_;
-    Indexed<ChannelId, std::uint8_t> gone_;
+    std::vector<CellIndex> cell_;
+    std::vector<ChannelId> receiver_; ///< less than the cell's own number
+    std::vector<std::int64_t> donors_;
+    std::vector<std::uint8_t> gone_;
 };
 
 /// The arcs by steps to their outlet, then number: a cell belongs to the first.
@@ -212,15 +212,15 @@ private:
 
     StreamNetwork const& network_;
     Grid grid_;
-    Indexed<ChannelId, ArcId> owner_; ///< by channel cell
+    std::vector<ArcId> owner_; ///< by channel cell
     std::vector<std::pair<std::size_t, Finding>> notes_;
 };
 
 /// By channel cell: whether a river begins there. Paths that begin where rivers share cells begin there too, except
 /// short ones, which are removed.
-Indexed<ChannelId, std::uint8_t> sources(Drawer& drawer, StreamNetwork const& network, std::int64_t stub_cells) {
+std::vector<std::uint8_t> sources(Drawer& drawer, StreamNetwork const& network, std::int64_t stub_cells) {
     Drawing& drawing = drawer.drawing;
-    Indexed<ChannelId, std::uint8_t> begins(drawing.size(), 0);
+    std::vector<std::uint8_t> begins(drawing.size(), 0);
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         if (network.in(network.from(a)).empty()) {
             begins[drawing.number(drawer.way[a].front())] = 1;
@@ -261,7 +261,7 @@ std::int64_t farthest_neighbour(Drawing const& drawing, std::int64_t i, std::int
 }
 
 /// Takes shortcuts until there are none. Each brings a cell closer to its outlet, so the loop ends.
-void take_short_cuts(Drawing& drawing, Indexed<ChannelId, std::uint8_t> const& begins, std::int64_t look_cells,
+void take_short_cuts(Drawing& drawing, std::vector<std::uint8_t> const& begins, std::int64_t look_cells,
                      Run const& run) {
     for (bool changed = true; changed;) {
         run.check();
@@ -298,12 +298,12 @@ ChannelsOfArcs channels(StreamNetwork const& network, Grid const& grid, Channels
         run.check();
         drawer.draw(a);
     }
-    Indexed<ChannelId, std::uint8_t> const begins = sources(drawer, network, params.stub_cells);
+    std::vector<std::uint8_t> const begins = sources(drawer, network, params.stub_cells);
     take_short_cuts(drawer.drawing, begins, params.look_cells, run);
 
     ChannelsOfArcs out;
     out.channels.grid = grid;
-    Indexed<ChannelId, ChannelId> const now = drawer.drawing.renumbered(out.channels);
+    std::vector<ChannelId> const now = drawer.drawing.renumbered(out.channels);
     out.of_arc.resize(network.arc_count());
     for (std::size_t a = 0; a < network.arc_count(); ++a) {
         for (Cell const c : drawer.way[a]) {

@@ -11,13 +11,14 @@
 #include <unordered_map>
 #include <unordered_set>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -270,10 +271,10 @@ public:
         }
     }
 
-    Indexed<ChannelId, CellIndex> cell;        ///< new ones at the end
-    Indexed<ChannelId, ChannelId> receiver;    ///< new ones at the end
-    Indexed<ChannelId, std::uint8_t> is_gone;  ///< new ones at the end
-    Indexed<ChannelId, std::uint8_t> is_level; ///< new ones at the end
+    std::vector<CellIndex> cell;        ///< new ones at the end
+    std::vector<ChannelId> receiver;    ///< new ones at the end
+    std::vector<std::uint8_t> is_gone;  ///< new ones at the end
+    std::vector<std::uint8_t> is_level; ///< new ones at the end
     std::vector<Lake> lakes;
     std::vector<Finding> notes;
 
@@ -444,15 +445,15 @@ private:
     Raster<std::int32_t> number_; ///< by cell; -1: no channel
     Mask lake_;                   ///< the current lake
     /// by channel cell: number of channel cells upstream before there were lakes, itself included
-    Indexed<ChannelId, std::int64_t> above_;
-    Indexed<ChannelId, std::int64_t> donors_;
+    std::vector<std::int64_t> above_;
+    std::vector<std::int64_t> donors_;
     std::vector<std::int64_t> left_; ///< cells into which the lake's water flowed
 };
 
 /// Old numbers, receivers before donors.
 std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
-    Indexed<ChannelId, ChannelId> first(lakes.cell.size(), no_cell); // donor, and the next one of the same receiver
-    Indexed<ChannelId, ChannelId> next(lakes.cell.size(), no_cell);
+    std::vector<ChannelId> first(lakes.cell.size(), no_cell); // donor, and the next one of the same receiver
+    std::vector<ChannelId> next(lakes.cell.size(), no_cell);
     std::vector<std::int64_t> order;
     for (std::size_t i = lakes.cell.size(); i-- > 0;) {
         if (lakes.is_gone[i] == 0 && lakes.receiver[i] >= 0) {
@@ -474,8 +475,8 @@ std::vector<std::int64_t> downstream_first(Lakes const& lakes) {
 
 /// Lake cells beside a river that does not flow into their lake: its former receiver may now belong to another lake.
 std::vector<std::int64_t> leaks(Lakes const& lakes, std::vector<std::int64_t> const& order, Grid const& grid) {
-    Indexed<ChannelId, ChannelId> outlet(lakes.cell.size(), no_cell); // by level cell
-    std::unordered_map<std::int64_t, std::int64_t> number;            // only looked up, never iterated
+    std::vector<ChannelId> outlet(lakes.cell.size(), no_cell); // by level cell
+    std::unordered_map<std::int64_t, std::int64_t> number;     // only looked up, never iterated
     for (std::int64_t const i : order) {
         number[lakes.cell[i]] = i;
         if (lakes.is_level[i] != 0) {
@@ -518,16 +519,16 @@ void raise_to_lakes(Channels& channels) {
 /// The channels with their lakes, in a new order.
 Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::int64_t> const& order) {
     Flooded out;
-    Indexed<ChannelId, ChannelId> now(lakes.cell.size(), no_cell);
+    std::vector<ChannelId> now(lakes.cell.size(), no_cell);
     Channels& channels = out.drawn.channels;
     channels.grid = drawn.channels.grid;
     for (std::int64_t const i : order) {
-        now[i] = channels.cell.count();
+        now[i] = std::ssize(channels.cell);
         channels.cell.push_back(lakes.cell[i]);
         channels.receiver.push_back(lakes.receiver[i] < 0 ? no_cell : now[lakes.receiver[i]]);
         channels.level.push_back(lakes.is_level[i]);
         if (!drawn.channels.z.empty()) {
-            bool const is_new = i >= drawn.channels.z.count();
+            bool const is_new = i >= std::ssize(drawn.channels.z);
             channels.z.push_back(is_new ? std::numeric_limits<float>::quiet_NaN() : drawn.channels.z[i]);
         }
     }

@@ -6,11 +6,11 @@
 #include <iterator>
 #include <optional>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/channels/channels.hpp>
@@ -22,13 +22,13 @@ namespace thalweg::network {
 namespace {
 
 using Flags = std::vector<std::uint8_t>;
-using ChannelFlags = Indexed<ChannelId, std::uint8_t>;
+using ChannelFlags = std::vector<std::uint8_t>;
 
 /// By channel cell: whether it is removed.
 ChannelFlags flags_of(std::vector<std::int64_t> const& gone, Channels const& channels) {
     ChannelFlags is_gone(channels.cell.size(), 0);
     for (std::int64_t const i : gone) {
-        refuse_if<BadInput>(i < 0 || i >= is_gone.count(), "network.shorten: cell {} of {} channel cells", i,
+        refuse_if<BadInput>(i < 0 || i >= std::ssize(is_gone), "network.shorten: cell {} of {} channel cells", i,
                             is_gone.size());
         is_gone[i] = 1;
     }
@@ -134,7 +134,7 @@ void mark(Mask& mask, Channels const& channels, std::vector<std::int64_t> const&
 }
 
 /// The remaining channels, and the new numbers; -1: removed.
-Channels left_of(Channels const& channels, ChannelFlags const& is_gone, Indexed<ChannelId, ChannelId>& now) {
+Channels left_of(Channels const& channels, ChannelFlags const& is_gone, std::vector<ChannelId>& now) {
     Channels out;
     out.grid = channels.grid;
     now.assign(is_gone.size(), -1);
@@ -142,7 +142,7 @@ Channels left_of(Channels const& channels, ChannelFlags const& is_gone, Indexed<
         if (is_gone[i] != 0) {
             continue;
         }
-        now[i] = out.cell.count();
+        now[i] = std::ssize(out.cell);
         out.cell.push_back(channels.cell[i]);
         out.receiver.push_back(channels.receiver[i] < 0 ? -1 : now[channels.receiver[i]]);
         if (!channels.z.empty()) {
@@ -303,7 +303,7 @@ Shortened shorten(StreamNetwork const& network, ChannelsOfArcs const& drawn, std
     Shortened out;
     out.network = std::move(kept.network);
     out.notes = std::move(tips.notes);
-    Indexed<ChannelId, ChannelId> now;
+    std::vector<ChannelId> now;
     out.drawn.channels = left_of(drawn.channels, is_gone, now);
     out.drawn.notes = drawn.notes;
     for (std::vector<std::size_t> const& pieces : kept.pieces) {

@@ -5,10 +5,11 @@
 #include <algorithm>
 #include <cstddef>
 #include <string>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
@@ -81,7 +82,7 @@ Rosgen of_order(int order, int highest, std::vector<Rosgen> const& types) {
     auto const last = static_cast<std::int64_t>(types.size()) - 1;
     std::int64_t const steps = std::int64_t{highest} - 1;
     std::int64_t const place = steps > 0 ? (std::int64_t{2} * (order - 1) * last + steps) / (2 * steps) : last;
-    return types[static_cast<std::size_t>(place)];
+    return types[place];
 }
 
 } // namespace

@@ -87,7 +87,7 @@ constexpr double least_share = 0.01;
 std::vector<double> straight_heights(StreamNetwork const& network, double slope) {
     std::vector<double> z(network.node_count(), 0.0);
     for (NodeId const n : network.upstream_order()) {
-        NodeId const outlet = network.outlets()[static_cast<std::size_t>(network.basin(n) - 1)];
+        NodeId const outlet = network.outlets()[network.basin(n) - 1];
         z[n] = slope * distance(network.node(n).at, network.node(outlet).at);
     }
     return z;

@@ -5,10 +5,10 @@
 #include <algorithm>
 #include <cmath>
 #include <cstddef>
+#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
@@ -154,9 +154,9 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
     StreamCounts counts;
     counts.links = static_cast<std::int64_t>(links);
     std::size_t orders = 0;
-    Indexed<std::int64_t, std::size_t> order(links, 1);
-    Indexed<std::int64_t, std::size_t> highest(links, 0); // among those upstream
-    Indexed<std::int64_t, int> equals(links, 0);          // number of those upstream with the highest order
+    std::vector<std::size_t> order(links, 1);
+    std::vector<std::size_t> highest(links, 0); // among those upstream
+    std::vector<int> equals(links, 0);          // number of those upstream with the highest order
     for (std::size_t i = links; i-- > 0;) {
         refuse_if<BadInput>(down[i] >= static_cast<std::int64_t>(i),
                             "network.count_streams: link {} flows into link {}; number them from the outlet", i,

@@ -10,11 +10,11 @@
 #include <string>
 #include <unordered_map>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/cells.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 #include <thalweg/network/planform/internal/segment_grid.hpp>
@@ -393,7 +393,7 @@ public:
     void join(std::int64_t basin, std::int64_t into) { into_[root(basin)] = root(into); }
 
 private:
-    Indexed<std::int64_t, std::int64_t> into_;
+    std::vector<std::int64_t> into_;
 };
 
 /// Turns vertices at which other rivers end into nodes. ends: nodes that lie on such a vertex.

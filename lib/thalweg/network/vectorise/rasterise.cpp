@@ -105,7 +105,7 @@ Rasterised rasterise(ElevatedNetwork const& network, Grid const& grid) {
 
 std::vector<float> channel_heights(ElevatedNetwork const& network, Channels const& channels) {
     Raster<float> const drawn = rasterise(network, channels.grid).valley.z;
-    Indexed<ChannelId, float> z;
+    std::vector<float> z;
     z.reserve(channels.cell.size());
     for (std::int64_t const cell : channels.cell) {
         z.push_back(drawn[cell]);

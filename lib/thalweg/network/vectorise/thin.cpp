@@ -5,7 +5,6 @@
 #include <bit>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 
 namespace thalweg::network {
@@ -120,10 +119,10 @@ template <int Subiteration> Word mark_row(Word const* up, Word const* mid, Word 
 
 /// What each subiteration must examine: per row the words around which something changed since that subiteration last
 /// examined them. Row y is at y + 1.
-using Live = std::array<Indexed<RowIndex, Span>, 2>;
+using Live = std::array<std::vector<Span>, 2>;
 
 template <int Subiteration> bool subiterate(BitRows& bits, BitRows& marks, Live& live, std::int64_t height) {
-    Indexed<RowIndex, Span>& mine = live[Subiteration];
+    std::vector<Span>& mine = live[Subiteration];
     std::vector<std::int64_t> changed;
     std::vector<Span> looked_at;
     for (std::int64_t y = 0; y < height; ++y) {
@@ -150,7 +149,7 @@ template <int Subiteration> bool subiterate(BitRows& bits, BitRows& marks, Live&
         }
         std::int64_t const from = std::max<std::int64_t>(hit.first - 1, 0);
         std::int64_t const to = std::min(hit.last + 1, bits.words() - 1);
-        for (Indexed<RowIndex, Span>& spans : live) {
+        for (std::vector<Span>& spans : live) {
             for (std::int64_t near = y; near <= y + 2; ++near) {
                 spans[near].cover(from, to);
             }
@@ -167,7 +166,7 @@ Mask thin(Mask const& mask, Run const& run) {
     BitRows marks(mask.width(), height);
     pack(mask, bits);
     Live live;
-    live.fill(Indexed<RowIndex, Span>(height + 2, Span{0, bits.words() - 1}));
+    live.fill(std::vector<Span>(height + 2, Span{0, bits.words() - 1}));
     for (bool changed = true; changed;) {
         run.check();
         changed = subiterate<0>(bits, marks, live, height);

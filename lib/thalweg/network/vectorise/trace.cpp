@@ -7,8 +7,8 @@
 #include <queue>
 #include <span>
 #include <utility>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
@@ -76,7 +76,7 @@ private:
 
     Mask const& mask_;
     std::vector<Cell> cells_;
-    Indexed<RowIndex, Number> row_begin_;
+    std::vector<Number> row_begin_;
 };
 
 /// Distance to the outlet as numbers of both kinds of steps: equal distances compare equal, in any order of steps.

@@ -37,7 +37,7 @@ Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& boar
     Padded<std::uint8_t> degree(board);
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
         // The row beyond the border is all outside.
-        Indexed<ColumnIndex, std::uint8_t> const nothing(board.width, outside_cell);
+        std::vector<std::uint8_t> const nothing(board.width, outside_cell);
         for (std::int64_t y = begin; y < end; ++y) {
             std::uint8_t const* const here = kind.row(y).data();
             std::uint8_t const* const above = y > 0 ? kind.row(y - 1).data() : nothing.data();
@@ -114,7 +114,7 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
                       Plane<float>(board),
                       Plane<float>(board)};
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
-        Indexed<ColumnIndex, float> inverse(2 * board.half());
+        std::vector<float> inverse(2 * board.half());
         for (std::int64_t y = begin; y < end; ++y) {
             float const* const diagonal = from.diagonal.row(y);
             for (std::int64_t x = 0; x < board.width; ++x) {
@@ -231,8 +231,8 @@ void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, G
     parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
         Window e_red(level.board);
         Window e_black(level.board);
-        std::array<Indexed<ColumnIndex, float>, 2> rest;
-        rest.fill(Indexed<ColumnIndex, float>(level.board.stride()));
+        std::array<std::vector<float>, 2> rest;
+        rest.fill(std::vector<float>(level.board.stride()));
         for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
             loop.first(e_red.row(y), r.of[red].row(y), equations(level, y, red), n);
             if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
@@ -258,11 +258,11 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
           GridRows const& rows, Run const& run) {
     SmoothingRows<std::remove_cvref_t<decltype(equations(level, 0, red))>> const& loop = loops(rows, level);
     std::int64_t const n = level.board.half();
-    Indexed<RowIndex, double> sums(coarse.board.height);
+    std::vector<double> sums(coarse.board.height);
     parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
         Window e_red(level.board);
         Window e_black(level.board);
-        Indexed<ColumnIndex, float> correction(level.board.stride());
+        std::vector<float> correction(level.board.stride());
         for (std::int64_t y = 2 * begin - 2; y < 2 * end + 2; ++y) {
             if ((y & 1) == 0) {
                 std::int64_t const row = y / 2;
@@ -361,7 +361,7 @@ public:
     double advance() {
         auto const conjugate = static_cast<float>(rz_before_ > 0.0 ? rz_ / rz_before_ : 0.0);
         rz_before_ = rz_;
-        Indexed<RowIndex, Products> parts(board_.height);
+        std::vector<Products> parts(board_.height);
         std::int64_t const chunk = rows_a_range(board_);
         std::int64_t const chunks = (board_.height + chunk - 1) / chunk;
         parallel_ranges(run_, chunks, 1, [&](std::int64_t first, std::int64_t last) {

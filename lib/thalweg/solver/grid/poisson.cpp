@@ -240,7 +240,7 @@ double sum_of(std::vector<double> const& parts) {
 
 void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, float* r, GridRows const& rows) {
     Board const& board = problem.top.board;
-    Indexed<ColumnIndex, double> b(board.half());
+    std::vector<double> b(board.half());
     if (problem.b != nullptr) {
         double const* const given = problem.b->row(y).data();
         for (std::int64_t x = Board::first(y, colour); x < board.width; x += 2) {
@@ -254,7 +254,7 @@ void residual_row(ColouredProblem const& problem, std::int64_t y, int colour, fl
 double residual_norm(ColouredProblem const& problem, GridRows const& rows, Run const& run) {
     Board const& board = problem.top.board;
     return std::sqrt(sum_of(each_row(board, run, [&](std::int64_t y) {
-        Indexed<ColumnIndex, float> r(board.stride());
+        std::vector<float> r(board.stride());
         double squares = 0.0;
         for (int colour : {0, 1}) {
             residual_row(problem, y, colour, r.data(), rows);

@@ -5,8 +5,8 @@
 #include <algorithm>
 #include <cstddef>
 #include <utility>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 
@@ -162,7 +162,7 @@ Stencil stencil(float before, float after) {
     return std::isnan(after) ? Stencil{-1.0, 1.0, 0.0} : Stencil{-0.5, 0.0, 0.5};
 }
 
-using Slopes = Indexed<ColumnIndex, Gradient>; ///< of a row of cells
+using Slopes = std::vector<Gradient>; ///< of a row of cells
 
 /// Derivatives of one row's arctan |grad z| by the differences along both axes.
 Slopes slope_row(Raster<float> const& dem, std::int64_t r) {

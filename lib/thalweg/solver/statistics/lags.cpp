@@ -5,8 +5,8 @@
 #include <cmath>
 #include <cstddef>
 #include <optional>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -16,8 +16,8 @@
 namespace thalweg::solver {
 namespace {
 
-using PairLine = Indexed<std::int64_t, Complex>;
-using PairLines = Indexed<std::int64_t, PairLine>;
+using PairLine = std::vector<Complex>;
+using PairLines = std::vector<PairLine>;
 
 // Two real lines form one complex line; this many pairs read at once fill a cache line with each row's part.
 constexpr std::int64_t lines_at_once = 16;

@@ -194,7 +194,7 @@ Dilated dilate_masked(Valley const& valley, Mask const& inside, DilateParams con
     for (std::int64_t i = 0; i < level.cells(); ++i) {
         if (level[i] > 0) {
             double const base = static_cast<double>(dilated.dem[i]);
-            dilated.dem[i] = static_cast<float>(base + above_valley[static_cast<std::size_t>(level[i])]);
+            dilated.dem[i] = static_cast<float>(base + above_valley[level[i]]);
         }
     }
     report_flats(dilated, valley, above_valley, greatest, run);

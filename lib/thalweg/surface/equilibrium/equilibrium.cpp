@@ -81,7 +81,7 @@ void check_order(Channels const& rivers) {
         }
         if (receiver >= 0) {
             Cell const a = grid.at(cell);
-            Cell const b = grid.at(rivers.cell[static_cast<std::size_t>(receiver)]);
+            Cell const b = grid.at(rivers.cell[receiver]);
             if (std::max(std::abs(a.col - b.col), std::abs(a.row - b.row)) != 1) {
                 throw BadInput(
                     fmt::format("surface.equilibrium: river cell {} at {} flows to {}, which is not a neighbour", n,
@@ -138,7 +138,7 @@ void check_channel_heights(Channels const& rivers) {
                                        place(rivers.grid, rivers.cell[n])));
         }
         std::int64_t const receiver = rivers.receiver[n];
-        float const next = receiver < 0 ? none : below[static_cast<std::size_t>(receiver)];
+        float const next = receiver < 0 ? none : below[receiver];
         if (z < next) {
             throw BadInput(fmt::format("surface.equilibrium: the river rises downstream of cell {} at {}, from {} m to "
                                        "{} m; reverse or repair it",

@@ -48,7 +48,7 @@ public:
             auto const iy = static_cast<std::int32_t>(at_y);
             float const u = eased(static_cast<float>(at_x - ix));
             float const v = eased(static_cast<float>(at_y - iy));
-            float const* const n = &nodes_[static_cast<std::size_t>(iy * width_ + ix)];
+            float const* const n = &nodes_[iy * width_ + ix];
             float const upper = n[0] + (n[1] - n[0]) * u;
             float const lower = n[width_] + (n[width_ + 1] - n[width_]) * u;
             out[col] += w * (upper + (lower - upper) * v);
@@ -86,8 +86,7 @@ private:
                     }
                     auto const k = static_cast<std::uint64_t>(at % a_block);
                     auto const half = static_cast<std::uint32_t>(words[k / 2] >> (32 * (k % 2)));
-                    nodes_[static_cast<std::size_t>(row * width_ + col)] =
-                        static_cast<float>(static_cast<double>(half) * 0x1p-32 - 0.5);
+                    nodes_[row * width_ + col] = static_cast<float>(static_cast<double>(half) * 0x1p-32 - 0.5);
                 }
             }
         });
@@ -120,7 +119,7 @@ Cells<float> erodibility_noise(TerrainLevel const& level, ErodibilityNoise const
         Octave const octave(level, params, number, wave, run);
         parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t row = begin; row < end; ++row) {
-                octave.add_to_row(row, weight, &noise[static_cast<std::size_t>(row * level.width)], level.width);
+                octave.add_to_row(row, weight, &noise[row * level.width], level.width);
             }
         });
     }
@@ -150,7 +149,7 @@ Cells<float> level_of(Raster<float> const& field, TerrainLevel const& level) {
     for (std::int64_t row = 1; row + 1 < level.height; ++row) {
         for (std::int64_t col = 1; col + 1 < level.width; ++col) {
             Cell const from{level.corner.col + (col - 1) * side, level.corner.row + (row - 1) * side};
-            out[static_cast<std::size_t>(row * level.width + col)] = mean_over(field, from, side);
+            out[row * level.width + col] = mean_over(field, from, side);
         }
     }
     return out;
@@ -209,8 +208,8 @@ float wanted_height(TerrainLevel const& level, EquilibriumLaw const& law, std::s
     if (!rivers.asked.empty() && !std::isnan(rivers.asked[n])) {
         return rivers.asked[n];
     }
-    float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
-    float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.direction[n])];
+    float const below = level.z[rivers.cell[rivers.receiver[n]]];
+    float const length = level.side * step_lengths[rivers.direction[n]];
     return below + graded_tangent(level, law, rivers.cell[n]) * length;
 }
 
@@ -227,7 +226,7 @@ void mark_lack(TerrainLevel const& level, EquilibriumLaw const& law, std::size_t
     std::size_t at = *lowest;
     while (is_land(level.type[at]) && level.direction[at] >= 0 && path.size() < longest) {
         path.push_back(at);
-        at = moved(at, offsets[static_cast<std::size_t>(level.direction[at])]);
+        at = moved(at, offsets[level.direction[at]]);
     }
     constexpr int steps = 12;
     if (runs_through(rivers, n, at, steps)) { // it falls as its own river does
@@ -250,9 +249,9 @@ Cells<float> sums_along(Cells<float> const& values, std::int64_t lines, std::int
         for (std::int64_t k = 0; k < length; ++k) {
             float sum = 0.0F;
             for (std::int64_t n = std::max<std::int64_t>(0, k - reach); n <= std::min(length - 1, k + reach); ++n) {
-                sum += values[static_cast<std::size_t>(line * line_step + n * step)];
+                sum += values[line * line_step + n * step];
             }
-            sums[static_cast<std::size_t>(line * line_step + k * step)] = sum;
+            sums[line * line_step + k * step] = sum;
         }
     }
     return sums;

@@ -178,7 +178,7 @@ void settle_terrain(TerrainLevel& level, float step, RiverHeights heights) {
     });
     for (std::size_t at = level.order.size(); at-- > 0;) {
         std::size_t const i = level.order[at];
-        float least = above(level.z[moved(i, offsets[static_cast<std::size_t>(level.direction[i])])]);
+        float least = above(level.z[moved(i, offsets[level.direction[i]])]);
         if (is_bank(level.type[i])) {
             least = std::max(least, above(highest_river(level, i, offsets)));
         }
@@ -234,7 +234,7 @@ Raster<flow::Direction> directions(Raster<float> const& dem, Channels const& riv
             continue;
         }
         Cell const from = dem.grid().at(rivers.cell[n]);
-        Cell const to = dem.grid().at(rivers.cell[static_cast<std::size_t>(r)]);
+        Cell const to = dem.grid().at(rivers.cell[r]);
         for (std::size_t k = 0; k < d8_steps.size(); ++k) {
             if (d8_steps[k] == Cell{to.col - from.col, to.row - from.row}) {
                 out[rivers.cell[n]] = flow::direction_of(k);
@@ -269,7 +269,7 @@ void keep_below_asked(TerrainLevel& level, Channels const& rivers) {
         }
         auto const r = static_cast<std::size_t>(cells.receiver[n]);
         std::int64_t const number = cells.number[r];
-        if (number >= 0 && std::isnan(rivers.z[static_cast<std::size_t>(number)])) {
+        if (number >= 0 && std::isnan(rivers.z[number])) {
             level.z[cells.cell[r]] = std::min(level.z[cells.cell[r]], level.z[cells.cell[n]]);
         }
     }
@@ -280,7 +280,7 @@ void lower_to_ends(TerrainLevel& level, Channels const& rivers) {
     RiverCells const& cells = level.rivers;
     float low = std::numeric_limits<float>::infinity();
     for (std::size_t n = 0; n < cells.cell.size(); ++n) {
-        if (cells.number[n] >= 0 && rivers.receiver[static_cast<std::size_t>(cells.number[n])] < 0) {
+        if (cells.number[n] >= 0 && rivers.receiver[cells.number[n]] < 0) {
             low = std::min(low, level.z[cells.cell[n]]);
         }
     }
@@ -355,7 +355,7 @@ EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels con
     to_metres(level, raise);
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         std::int64_t const number = level.rivers.number[n];
-        float const asked = number < 0 ? std::nanf("") : rivers.z[static_cast<std::size_t>(number)];
+        float const asked = number < 0 ? std::nanf("") : rivers.z[number];
         if (!std::isnan(asked)) {
             float& z = level.z[level.rivers.cell[n]];
             z = heights == RiverHeights::soft ? std::min(z, asked) : asked;

@@ -195,7 +195,7 @@ void set_stack_order(TerrainLevel& level) {
     Cells<std::uint8_t> awaited(level.direction.size());
     for (std::size_t i = 0; i < awaited.size(); ++i) {
         if (level.direction[i] >= 0) {
-            ++awaited[moved(i, offsets[static_cast<std::size_t>(level.direction[i])])];
+            ++awaited[moved(i, offsets[level.direction[i]])];
         }
     }
     level.area.assign(level.direction.size(), 1);
@@ -213,7 +213,7 @@ void set_stack_order(TerrainLevel& level) {
             if (is_land(level.type[at])) {
                 level.order[count++] = static_cast<std::uint32_t>(at);
             }
-            std::size_t const next = moved(at, offsets[static_cast<std::size_t>(level.direction[at])]);
+            std::size_t const next = moved(at, offsets[level.direction[at]]);
             level.area[next] += level.area[at];
             --awaited[next];
             at = next;
@@ -335,7 +335,7 @@ std::vector<float> filled_mouths(TerrainLevel const& level, double cell_m) {
     auto const kept = static_cast<float>(portable::exp(-cell_m / reach_m));
     for (std::size_t n = 0; n < more.size(); ++n) {
         if (rivers.receiver[n] >= 0) {
-            more[n] = kept * more[static_cast<std::size_t>(rivers.receiver[n])];
+            more[n] = kept * more[rivers.receiver[n]];
         } else if (std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
                        return level.type[moved(rivers.cell[n], offset)] == CellType::sea;
                    })) {

@@ -14,7 +14,7 @@ std::vector<std::int32_t> steps_to_end(RiverCells const& rivers) {
     std::vector<std::int32_t> steps(rivers.cell.size());
     for (std::size_t n = 0; n < steps.size(); ++n) {
         std::int32_t const r = rivers.receiver[n];
-        steps[n] = r < 0 ? 0 : steps[static_cast<std::size_t>(r)] + 1;
+        steps[n] = r < 0 ? 0 : steps[r] + 1;
     }
     return steps;
 }
@@ -32,18 +32,18 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
     std::vector<std::int32_t> chosen(static_cast<std::size_t>(coarse_width * coarse_height), -1);
     for (std::size_t n = 0; n < steps.size(); ++n) {
         std::int32_t& best = chosen[above(fine.cell[n])];
-        if (best < 0 || steps[n] < steps[static_cast<std::size_t>(best)]) {
+        if (best < 0 || steps[n] < steps[best]) {
             best = static_cast<std::int32_t>(n);
         }
     }
     std::vector<std::int32_t> kept;
     std::copy_if(chosen.begin(), chosen.end(), std::back_inserter(kept), [](std::int32_t n) { return n >= 0; });
     std::sort(kept.begin(), kept.end(), [&](std::int32_t a, std::int32_t b) {
-        auto const rank = [&](std::int32_t n) { return std::pair{steps[static_cast<std::size_t>(n)], n}; };
+        auto const rank = [&](std::int32_t n) { return std::pair{steps[n], n}; };
         return rank(a) < rank(b);
     });
     for (std::size_t n = 0; n < kept.size(); ++n) {
-        chosen[above(fine.cell[static_cast<std::size_t>(kept[n])])] = static_cast<std::int32_t>(n);
+        chosen[above(fine.cell[kept[n]])] = static_cast<std::int32_t>(n);
     }
     RiverCells coarse;
     for (std::int32_t const from : kept) {
@@ -60,7 +60,7 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
             coarse.direction.push_back(-1);
             continue;
         }
-        std::size_t const there = above(fine.cell[static_cast<std::size_t>(fine.receiver[n])]);
+        std::size_t const there = above(fine.cell[fine.receiver[n]]);
         coarse.receiver.push_back(chosen[there]);
         coarse.direction.push_back(direction_between(here, there, coarse_width));
     }
@@ -160,9 +160,7 @@ private:
         auto const i = static_cast<std::size_t>((c.row + margin_ + 1) * width_ + c.col + margin_ + 1);
         out_.cell.push_back(static_cast<std::uint32_t>(i));
         out_.receiver.push_back(receiver);
-        out_.direction.push_back(receiver < 0
-                                     ? std::int8_t{-1}
-                                     : direction_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
+        out_.direction.push_back(receiver < 0 ? std::int8_t{-1} : direction_between(i, out_.cell[receiver], width_));
         out_.level.push_back(0);
         out_.number.push_back(-1);
     }
@@ -287,7 +285,7 @@ void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks
                              std::clamp<std::int64_t>(row, 1, level.height - 2) - 1};
             bool const on_frame = inner.col + 1 != col || inner.row + 1 != row;
             bool const dry = land.cells() == 0 || land[inner] != 0;
-            level.type[static_cast<std::size_t>(row * level.width + col)] =
+            level.type[row * level.width + col] =
                 on_frame ? (dry ? frame : frame_at_rest) : (dry ? CellType::land : rest);
         }
     }
@@ -336,7 +334,7 @@ JitteredPerLength jittered_per_length() {
             for (int south = 1 - jitter_places; south < jitter_places; ++south) {
                 double const x = static_cast<double>(d8_steps[k].col) + step * east;
                 double const y = static_cast<double>(d8_steps[k].row) + step * south;
-                out[k][static_cast<std::size_t>(east * jitter_stride + south + jitter_codes)] =
+                out[k][east * jitter_stride + south + jitter_codes] =
                     static_cast<float>(1.0 / std::sqrt(x * x + y * y));
             }
         }
@@ -348,7 +346,7 @@ void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run) {
     level.shift.resize(static_cast<std::size_t>(level.cells()));
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            std::uint8_t* const codes = &level.shift[static_cast<std::size_t>(row * level.width)];
+            std::uint8_t* const codes = &level.shift[row * level.width];
             random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
                 codes[col] = static_cast<std::uint8_t>((byte & 7U) * jitter_stride + ((byte >> 3U) & 7U));
             });
@@ -367,7 +365,7 @@ void set_heights(TerrainLevel& level, std::uint64_t seed, float rough, Run const
     parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             random_bytes(seed, start_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
-                level.z[static_cast<std::size_t>(row * level.width + col)] =
+                level.z[row * level.width + col] =
                     height(col, row) + rough * level.side * static_cast<float>(byte) * 0x1p-8F;
             });
         }
@@ -383,8 +381,8 @@ public:
         east_.resize(static_cast<std::size_t>(across_ * down));
         south_.resize(east_.size());
         for (std::int64_t row = 0; row < down; ++row) {
-            draw(seed, 2 * row, level.side, &east_[static_cast<std::size_t>(row * across_)]);
-            draw(seed, 2 * row + 1, level.side, &south_[static_cast<std::size_t>(row * across_)]);
+            draw(seed, 2 * row, level.side, &east_[row * across_]);
+            draw(seed, 2 * row + 1, level.side, &south_[row * across_]);
         }
     }
 
@@ -425,7 +423,7 @@ private:
 
 void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
     set_heights(level, seed, 0.3F, run, [&](std::int64_t col, std::int64_t row) {
-        float const far = near.distance[static_cast<std::size_t>(row * level.width + col)];
+        float const far = near.distance[row * level.width + col];
         auto const rim = static_cast<float>(std::min({col, row, level.width - 1 - col, level.height - 1 - row}));
         return first_tangent * level.side * std::min(far, rim);
     });
@@ -435,8 +433,7 @@ void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t s
     // The frame's infinite heights must not be interpolated: the outermost inner cells replace it.
     auto const held = [](std::int64_t at, std::int64_t size) { return std::clamp<std::int64_t>(at, 1, size - 2); };
     auto const height_at = [&](std::int64_t col, std::int64_t row) {
-        float const z =
-            coarse.z[static_cast<std::size_t>(held(row, coarse.height) * coarse.width + held(col, coarse.width))];
+        float const z = coarse.z[held(row, coarse.height) * coarse.width + held(col, coarse.width)];
         return std::isinf(z) ? 0.0F : z;
     };
     Bends const bends(level, seed);
@@ -473,7 +470,7 @@ void start_rivers(TerrainLevel& level, std::vector<float> const& end_z) {
             z = !std::isnan(asked) ? asked : end_z.empty() ? 0.0F : end_z[n];
             continue;
         }
-        float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
+        float const below = level.z[rivers.cell[rivers.receiver[n]]];
         z = std::isnan(asked) ? std::min(z, below + first_tangent * level.side) : asked;
         z = std::max(z, below + least_tangent * level.side);
     }
@@ -488,14 +485,14 @@ constexpr float fall_of_large = 0.005F; // the fall of rivers that drain the who
 /// Means over 2 reach + 1 neighbours on a ring.
 std::vector<double> ring_means(std::vector<double> const& values, std::int64_t reach) {
     auto const n = static_cast<std::int64_t>(values.size());
-    auto const at = [&](std::int64_t k) { return values[static_cast<std::size_t>(((k % n) + n) % n)]; };
+    auto const at = [&](std::int64_t k) { return values[((k % n) + n) % n]; };
     double sum = 0.0;
     for (std::int64_t k = -reach; k <= reach; ++k) {
         sum += at(k);
     }
     std::vector<double> means(values.size());
     for (std::int64_t k = 0; k < n; ++k) {
-        means[static_cast<std::size_t>(k)] = sum / static_cast<double>(2 * reach + 1);
+        means[k] = sum / static_cast<double>(2 * reach + 1);
         sum += at(k + reach + 1) - at(k - reach);
     }
     return means;
@@ -504,8 +501,8 @@ std::vector<double> ring_means(std::vector<double> const& values, std::int64_t r
 float above_rivers(TerrainLevel const& level, std::size_t i, float z) {
     for (std::int64_t const offset : level.offsets()) {
         std::int64_t const n = static_cast<std::int64_t>(i) + offset;
-        if (n >= 0 && n < level.cells() && level.type[static_cast<std::size_t>(n)] == CellType::river) {
-            z = std::max(z, level.z[static_cast<std::size_t>(n)] + bank_step * level.side);
+        if (n >= 0 && n < level.cells() && level.type[n] == CellType::river) {
+            z = std::max(z, level.z[n] + bank_step * level.side);
         }
     }
     return z;

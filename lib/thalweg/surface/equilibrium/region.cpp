@@ -68,9 +68,7 @@ public:
         auto const i = index(c);
         out_.cell.push_back(static_cast<std::uint32_t>(i));
         out_.receiver.push_back(receiver);
-        out_.direction.push_back(receiver < 0
-                                     ? std::int8_t{-1}
-                                     : direction_between(i, out_.cell[static_cast<std::size_t>(receiver)], width_));
+        out_.direction.push_back(receiver < 0 ? std::int8_t{-1} : direction_between(i, out_.cell[receiver], width_));
         out_.level.push_back(is_level);
         out_.number.push_back(number);
         auto const n = static_cast<std::int32_t>(out_.cell.size()) - 1;
@@ -139,8 +137,8 @@ RiverCells rivers_of_region(RiverCells const& rivers, LevelExtent const& window,
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         Cell const c = cell_of(n);
         std::int32_t const r = rivers.receiver[n];
-        place[n] = out.put({c.col + shift.col, c.row + shift.row}, r < 0 ? next[n] : place[static_cast<std::size_t>(r)],
-                           rivers.number[n], rivers.level[n]);
+        place[n] = out.put({c.col + shift.col, c.row + shift.row}, r < 0 ? next[n] : place[r], rivers.number[n],
+                           rivers.level[n]);
     }
     return out.taken();
 }
@@ -208,8 +206,7 @@ void share_out(RegionFrame& frame, TerrainLevel const& level, TerrainLevel const
     auto const leaves = [&](std::size_t beyond) {
         return std::any_of(around.begin(), around.end(), [&](std::int64_t offset) {
             std::size_t const n = moved(beyond, offset);
-            return within(n) && region.direction[n] >= 0 &&
-                   moved(n, around[static_cast<std::size_t>(region.direction[n])]) == beyond;
+            return within(n) && region.direction[n] >= 0 && moved(n, around[region.direction[n]]) == beyond;
         });
     };
     std::map<std::size_t, std::vector<Cell>> beside; // cells of the frame by that of the region
@@ -260,7 +257,7 @@ RegionFrame frame_by_region(TerrainLevel& level, TerrainLevel const& region, std
         LevelPlace const place = place_in(region, level, col, row);
         std::size_t const outside = cell_at(region, place);
         std::int8_t const way = region.direction[outside];
-        if (way >= 0 && within(moved(outside, around[static_cast<std::size_t>(way)]))) {
+        if (way >= 0 && within(moved(outside, around[way]))) {
             level.type[i] = CellType::outside;
             level.z[i] = std::numeric_limits<float>::infinity();
             std::size_t const inner = beside_frame(level, col, row);
@@ -347,8 +344,7 @@ std::vector<RegionInflow> inflows_of(TerrainLevel const& level, Grid const& grid
         for (std::size_t k = 0; k < offsets.size(); ++k) {
             Cell const beyond{c.col + d8_steps[k].col, c.row + d8_steps[k].row};
             std::size_t const n = moved(at, offsets[k]);
-            bool const flows_in =
-                level.direction[n] >= 0 && moved(n, offsets[static_cast<std::size_t>(level.direction[n])]) == at;
+            bool const flows_in = level.direction[n] >= 0 && moved(n, offsets[level.direction[n]]) == at;
             area += !grid.contains(beyond) && flows_in ? level.area[n] : 0;
         }
         if (area >= much) {

@@ -41,8 +41,7 @@ std::vector<float> greatest_heights(TerrainLevel const& level, EquilibriumLaw co
             continue;
         }
         auto const r = static_cast<std::size_t>(rivers.receiver[n]);
-        float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side *
-                           step_lengths[static_cast<std::size_t>(rivers.direction[n])];
+        float const fall = graded_tangent(level, law, rivers.cell[n]) * level.side * step_lengths[rivers.direction[n]];
         float const below = most[n] - kept_share * fall;
         if (below < most[r] && level.area[rivers.cell[r]] / great <= area[n]) {
             most[r] = below;
@@ -69,12 +68,12 @@ void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
             continue; // an end keeps its height
         }
         std::uint32_t const i = rivers.cell[n];
-        float const below = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]];
+        float const below = level.z[rivers.cell[rivers.receiver[n]]];
         if (rivers.level[n] != 0) {
             level.z[i] = below;
             continue;
         }
-        float const length = level.side * step_lengths[static_cast<std::size_t>(rivers.direction[n])];
+        float const length = level.side * step_lengths[rivers.direction[n]];
         float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
         level.z[i] = std::max(z, below + least_tangent * length);
     }
@@ -112,9 +111,7 @@ public:
 
     bool is_end(std::size_t n) const { return rivers_.receiver[n] < 0; }
     std::size_t receiver(std::size_t n) const { return static_cast<std::size_t>(rivers_.receiver[n]); }
-    float length(std::size_t n) const {
-        return level_.side * step_lengths[static_cast<std::size_t>(rivers_.direction[n])];
-    }
+    float length(std::size_t n) const { return level_.side * step_lengths[rivers_.direction[n]]; }
 
 private:
     static constexpr std::int32_t nothing = -1;
@@ -242,7 +239,7 @@ bool is_perched(TerrainLevel const& level, std::uint32_t cell, float tangent) {
 
 bool leaves_grid(RiverCells const& rivers, std::size_t n) {
     std::int32_t const r = rivers.receiver[n];
-    return r < 0 || rivers.number[static_cast<std::size_t>(r)] < 0;
+    return r < 0 || rivers.number[r] < 0;
 }
 
 bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps) {
@@ -284,7 +281,7 @@ void lower_perched(TerrainLevel& level, float tangent, float step) {
         std::size_t const n = k % count;
         if (!leaves_grid(rivers, n) && rivers.level[n] == 0) {
             float& z = level.z[rivers.cell[n]];
-            float const least = level.z[rivers.cell[static_cast<std::size_t>(rivers.receiver[n])]] + step;
+            float const least = level.z[rivers.cell[rivers.receiver[n]]] + step;
             float const lawful = highest_lawful(level, rivers.cell[n], tangent);
             z = std::max(std::min(z, lawful), std::min(z, least));
             if (z > lawful) {
@@ -326,7 +323,7 @@ std::vector<std::int32_t> upstream_of(RiverCells const& rivers) {
     std::vector<std::int32_t> upstream(rivers.cell.size(), 1);
     for (std::size_t n = upstream.size(); n-- > 0;) {
         if (rivers.receiver[n] >= 0) {
-            upstream[static_cast<std::size_t>(rivers.receiver[n])] += upstream[n];
+            upstream[rivers.receiver[n]] += upstream[n];
         }
     }
     return upstream;
@@ -341,7 +338,7 @@ std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::vector<std:
         if (leaves_grid(rivers, n)) {
             continue;
         }
-        bool const below = marked[static_cast<std::size_t>(rivers.receiver[n])] != 0;
+        bool const below = marked[rivers.receiver[n]] != 0;
         bool const tip = rivers.level[n] == 0 && upstream[n] <= longest;
         marked[n] = below || (tip && is(n)) ? 1 : 0;
     }
@@ -353,7 +350,7 @@ bool meet_soon(RiverCells const& rivers, std::int32_t a, std::int32_t b) {
     constexpr int most = 400;
     for (int step = 0; a != b; ++step) { // receivers have lower numbers
         std::int32_t& upper = a > b ? a : b;
-        upper = rivers.receiver[static_cast<std::size_t>(upper)];
+        upper = rivers.receiver[upper];
         if (upper < 0 || step == most) {
             return false;
         }
@@ -375,8 +372,7 @@ std::vector<std::uint8_t> touching_heads(TerrainLevel const& level) {
         return std::any_of(offsets.begin(), offsets.end(), [&](std::int64_t offset) {
             std::int32_t const other = number_at[moved(rivers.cell[n], offset)];
             auto const i = static_cast<std::int32_t>(n);
-            return other != nothing &&
-                   std::pair(upstream[n], -i) < std::pair(upstream[static_cast<std::size_t>(other)], -other) &&
+            return other != nothing && std::pair(upstream[n], -i) < std::pair(upstream[other], -other) &&
                    !meet_soon(rivers, i, other);
         });
     });
@@ -403,7 +399,7 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
             continue;
         }
         rivers.cell[kept] = rivers.cell[n];
-        rivers.receiver[kept] = rivers.receiver[n] < 0 ? -1 : place[static_cast<std::size_t>(rivers.receiver[n])];
+        rivers.receiver[kept] = rivers.receiver[n] < 0 ? -1 : place[rivers.receiver[n]];
         rivers.direction[kept] = rivers.direction[n];
         rivers.level[kept] = rivers.level[n];
         rivers.number[kept] = rivers.number[n];
@@ -435,7 +431,7 @@ std::vector<std::int64_t> remove_tips(TerrainLevel& level, std::vector<std::uint
         }
         if (gone[n] == 0) {
             if (rivers.receiver[n] >= 0) {
-                holds[static_cast<std::size_t>(rivers.receiver[n])] = 1;
+                holds[rivers.receiver[n]] = 1;
             }
             continue;
         }
@@ -507,7 +503,7 @@ public:
         }
         float& z = level_.z[rivers_.cell[n]];
         float const below = level_.z[rivers_.cell[receiver(n)]];
-        float const length = level_.side * step_lengths[static_cast<std::size_t>(rivers_.direction[n])];
+        float const length = level_.side * step_lengths[rivers_.direction[n]];
         z = rivers_.level[n] != 0 ? below : std::max(z, below + least_ * length);
     }
 
@@ -530,7 +526,7 @@ private:
     void keep_off(std::size_t n, std::size_t q, float length) {
         float& z = level_.z[rivers_.cell[n]];
         float const below = level_.z[rivers_.cell[receiver(n)]];
-        float const own = step_lengths[static_cast<std::size_t>(rivers_.direction[n])];
+        float const own = step_lengths[rivers_.direction[n]];
         float const ratio = length / own;
         float const least = z - ratio * (z - below) * (1.0F - margin);
         if (level_.z[q] >= least || lies_downstream(n, q)) {

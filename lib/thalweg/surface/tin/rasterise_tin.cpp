@@ -234,7 +234,7 @@ void require_sound(Tin const& tin, Run const& run) {
     }
     parallel_ranges(run, static_cast<std::int64_t>(tin.triangles.size()), 1 << 15, [&](std::int64_t b, std::int64_t e) {
         for (std::int64_t i = b; i < e; ++i) {
-            auto const& t = tin.triangles[static_cast<std::size_t>(i)];
+            auto const& t = tin.triangles[i];
             if (std::max({t[0], t[1], t[2]}) >= tin.vertices.size()) {
                 throw BadInput(fmt::format("surface.rasterise_tin: triangle {} has vertex {} of {}", i + 1,
                                            std::max({t[0], t[1], t[2]}) + 1, tin.vertices.size()));
@@ -283,7 +283,7 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
     std::vector<std::size_t> next = binned.begin;
     for (std::size_t i = 0; i < bands.size(); ++i) {
         for (std::int32_t k = bands[i].first; k <= bands[i].last; ++k) {
-            binned.triangles[next[static_cast<std::size_t>(k)]++] = static_cast<std::uint32_t>(i);
+            binned.triangles[next[k]++] = static_cast<std::uint32_t>(i);
         }
     }
     return binned;
@@ -340,7 +340,7 @@ public:
         order(b, c);
         order(a, b);
         auto [row, end] = rows(a.y, c.y);
-        if (row > first_row_ && centres_.y[static_cast<std::size_t>(row - 1)] == c.y) {
+        if (row > first_row_ && centres_.y[row - 1] == c.y) {
             claim_top(row - 1, b.y == c.y ? std::min(b.x, c.x) : c.x, b.y == c.y ? std::max(b.x, c.x) : c.x);
         }
         if (row == end) {
@@ -349,7 +349,7 @@ public:
         Side const whole = side(a, c);
         if (b.y < c.y) {
             Side const upper = side(b, c);
-            for (; row < end && centres_.y[static_cast<std::size_t>(row)] >= b.y; ++row) {
+            for (; row < end && centres_.y[row] >= b.y; ++row) {
                 draw_row(row, b_is_west ? upper : whole, b_is_west ? whole : upper);
             }
         }
@@ -379,7 +379,7 @@ private:
     // Rows of this band whose centres lie in [south, north).
     std::pair<std::int64_t, std::int64_t> rows(double south, double north) const {
         Grid const& grid = centres_.grid;
-        auto const y = [&](std::int64_t r) { return centres_.y[static_cast<std::size_t>(r)]; };
+        auto const y = [&](std::int64_t r) { return centres_.y[r]; };
         std::int64_t first = clamped((grid.north - north) * per_m_ - 0.5, first_row_, end_row_);
         while (first > first_row_ && y(first - 1) < north) {
             --first;
@@ -398,7 +398,7 @@ private:
     }
 
     Column column(Side const& side, std::int64_t row) const {
-        double const y = centres_.y[static_cast<std::size_t>(row)];
+        double const y = centres_.y[row];
         double const past_west = side.column + (y - side.from.y) * side.slope + 1.0; // columns from -1 on
         std::int64_t const width = centres_.grid.width;
         std::int64_t const c = clamped(past_west, 0, width);
@@ -413,7 +413,7 @@ private:
     Column exact_column(Side const& side, std::int64_t c, double y) const {
         std::int64_t const width = centres_.grid.width;
         auto const turn = [&](std::int64_t col) {
-            return geometry::side_of_line(side.from, side.to, {centres_.x[static_cast<std::size_t>(col)], y});
+            return geometry::side_of_line(side.from, side.to, {centres_.x[col], y});
         };
         while (c > 0 && turn(c - 1) <= 0) {
             --c;
@@ -428,15 +428,12 @@ private:
         double const z = base + plane_.east * (x - plane_.at.x);
         return static_cast<float>(z > plane_.highest ? plane_.highest : z < plane_.lowest ? plane_.lowest : z);
     }
-    double base(std::int64_t row) const {
-        return plane_.at.z + plane_.north * (centres_.y[static_cast<std::size_t>(row)] - plane_.at.y);
-    }
+    double base(std::int64_t row) const { return plane_.at.z + plane_.north * (centres_.y[row] - plane_.at.y); }
 
     float height_in_sliver(std::int64_t row, std::int64_t col) const {
         auto const& t = *sliver_;
-        return static_cast<float>(geometry::height_on_plane(
-            tin_.vertices[t[0]], tin_.vertices[t[1]], tin_.vertices[t[2]],
-            {centres_.x[static_cast<std::size_t>(col)], centres_.y[static_cast<std::size_t>(row)]}));
+        return static_cast<float>(geometry::height_on_plane(tin_.vertices[t[0]], tin_.vertices[t[1]],
+                                                            tin_.vertices[t[2]], {centres_.x[col], centres_.y[row]}));
     }
 
     void draw_row(std::int64_t row, Side const& west, Side const& east) {
@@ -455,8 +452,7 @@ private:
 
     void claim(std::int64_t row, std::int64_t col) {
         claims_.emplace_back(dem_.grid().index({col, row}),
-                             sliver_ == nullptr ? height(centres_.x[static_cast<std::size_t>(col)], base(row))
-                                                : height_in_sliver(row, col));
+                             sliver_ == nullptr ? height(centres_.x[col], base(row)) : height_in_sliver(row, col));
     }
 
     void claim_top(std::int64_t row, double west, double east) {
@@ -512,7 +508,7 @@ Raster<float> rasterise_tin(Tin const& tin, Grid const& grid, RasteriseTinParams
             run.check();
             Band band(tin, centres, reach, k * band_rows, std::min((k + 1) * band_rows, grid.height), dem);
             std::size_t const end = binned.begin[static_cast<std::size_t>(k) + 1];
-            for (std::size_t i = binned.begin[static_cast<std::size_t>(k)]; i < end; ++i) {
+            for (std::size_t i = binned.begin[k]; i < end; ++i) {
                 fetch(tin, binned.triangles[std::min(i + ahead, end - 1)]);
                 band.draw(binned.triangles[i]);
             }

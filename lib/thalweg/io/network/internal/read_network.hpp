@@ -12,8 +12,8 @@
 #include <utility>
 #include <vector>
 
+#include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/driver.hpp>

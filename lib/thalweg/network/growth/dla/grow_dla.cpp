@@ -5,8 +5,8 @@
 #include <bit>
 #include <cmath>
 #include <limits>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -132,7 +132,7 @@ public:
     }
 
     Fate arrive(Walker& walker, unsigned mask) {
-        double const hold = holds_[static_cast<std::size_t>(std::popcount(mask))];
+        double const hold = holds_[std::popcount(mask)];
         if (rule_ == VisitRule::stick_then_count) {
             return !stick(hold, walker) ? Fate::walks_on : count(walker.at) ? Fate::sticks : Fate::is_removed;
         }
@@ -225,8 +225,8 @@ void check(Cluster const& cluster, BranchParams const& params) {
 }
 
 /// By particle: whether it descends from the root, or is it.
-Indexed<ParticleId, std::uint8_t> descendants(Cluster const& cluster, std::size_t root) {
-    Indexed<ParticleId, std::uint8_t> descends(cluster.cells.size(), 0);
+std::vector<std::uint8_t> descendants(Cluster const& cluster, std::size_t root) {
+    std::vector<std::uint8_t> descends(cluster.cells.size(), 0);
     descends[root] = 1;
     for (std::size_t p = root + 1; p < descends.size(); ++p) {
         descends[p] = descends[cluster.parent[p]];
@@ -250,8 +250,8 @@ bool lies(Cell c, BranchChoice direction) {
 /// The particle whose descendants form the arm; 0: none.
 std::size_t root_of(Cluster const& cluster, BranchChoice choice) {
     std::size_t const count = cluster.cells.size();
-    Indexed<ParticleId, std::int64_t> size(count, 1);
-    Indexed<ParticleId, std::int64_t> inside(count, 0);
+    std::vector<std::int64_t> size(count, 1);
+    std::vector<std::int64_t> inside(count, 0);
     Cell const seed = cluster.cells.front();
     for (std::size_t p = count - 1; p > 0; --p) { // children arrive after their parents
         Cell const c{cluster.cells[p].col - seed.col, cluster.cells[p].row - seed.row};

@@ -7,8 +7,8 @@
 #include <cstddef>
 #include <limits>
 #include <unordered_map>
+#include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
@@ -67,7 +67,7 @@ private:
     Vec2 along_;
     Vec2 offset_;
     std::int64_t half_ = 0;
-    Indexed<std::int64_t, Vec2> gradients_;
+    std::vector<Vec2> gradients_;
 };
 
 /// Octaves, each half as long as the previous one and nearly half as strong.

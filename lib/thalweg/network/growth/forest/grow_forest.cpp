@@ -159,7 +159,7 @@ void ForestGrowth::add(Cell c) {
 }
 
 void ForestGrowth::place(Cell c, std::int64_t parent) {
-    std::int32_t const number = particles_.count();
+    std::int32_t const number = static_cast<std::int32_t>(particles_.size());
     particles_.push_back(c);
     parents_.push_back(parent);
     std::int32_t& first = first_[Cell{c.col / step_, c.row / step_}];

@@ -6,7 +6,6 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
@@ -28,10 +27,10 @@ enum class ForestStop : std::uint8_t { full, particles };
 
 /// Trees in a region, one from each seed.
 struct GrownForest {
-    Indexed<ParticleId, Cell> cells;        ///< in order of arrival, the seeds first
-    Indexed<ParticleId, ParticleId> parent; ///< by particle: its parent; -1: a seed
-    Indexed<ParticleId, std::int64_t> tree; ///< by particle: number of its seed
-    std::int64_t walkers = 0;               ///< number released
+    std::vector<Cell> cells;        ///< in order of arrival, the seeds first
+    std::vector<ParticleId> parent; ///< by particle: its parent; -1: a seed
+    std::vector<std::int64_t> tree; ///< by particle: number of its seed
+    std::int64_t walkers = 0;       ///< number released
     ForestStop stop = ForestStop::full;
 };
 

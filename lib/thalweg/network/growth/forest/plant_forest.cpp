@@ -176,8 +176,8 @@ void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>&
 
 /// The trees as arcs: outlets and particles with no or several children are nodes.
 NetworkDraft as_network(GrownForest const& forest, Grid const& grid, std::vector<Mouth> const& mouths) {
-    ParticleId const count = forest.cells.count();
-    Indexed<ParticleId, int> children(count, 0);
+    ParticleId const count = std::ssize(forest.cells);
+    std::vector<int> children(count, 0);
     for (std::int64_t const up : forest.parent) {
         if (up >= 0) {
             ++children[up];
@@ -187,7 +187,7 @@ NetworkDraft as_network(GrownForest const& forest, Grid const& grid, std::vector
     for (Mouth const& mouth : mouths) {
         network.add_node(grid.centre(mouth.outlet));
     }
-    Indexed<ParticleId, NodeId> node(count, 0);
+    std::vector<NodeId> node(count, 0);
     for (ParticleId p = 0; p < count; ++p) {
         if (children[p] != 1) {
             node[p] = network.add_node(grid.centre(forest.cells[p]));

@@ -240,11 +240,11 @@ private:
     }
 
     Forest const& forest_;
-    Indexed<LinkId, Vec2> at_;
+    std::vector<Vec2> at_;
     std::vector<double> usual_; ///< [m] by tree: square root of its area per link
     std::size_t links_;
-    Indexed<LinkId, std::uint8_t> stays_;
-    Indexed<LinkId, std::vector<std::size_t>> up_;
+    std::vector<std::uint8_t> stays_;
+    std::vector<std::vector<std::size_t>> up_;
     std::optional<SegmentGrid> grid_;
 };
 
@@ -254,17 +254,16 @@ SettledLinks settle_links(Forest const& forest, std::vector<Vec2> wanted) {
     return Settler(forest, std::move(wanted)).settle();
 }
 
-KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
-                       Indexed<LinkId, std::uint8_t> const& stays) {
+KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::vector<std::uint8_t> const& stays) {
     std::size_t const links = at.size();
-    Indexed<LinkId, int> arrivals(links, 0);
+    std::vector<int> arrivals(links, 0);
     for (std::size_t i = 0; i < links; ++i) {
         if (stays[i] != 0 && forest.links[i].down >= 0) {
             ++arrivals[forest.links[i].down];
         }
     }
     KeptNetwork kept;
-    Indexed<LinkId, NodeId> node(links);
+    std::vector<NodeId> node(links);
     std::vector<NodeId> mouth(forest.shares.size());
     std::vector<std::uint8_t> has_mouth(forest.shares.size(), 0);
     struct Course {
@@ -272,7 +271,7 @@ KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
         std::vector<LinkId> links;
         NodeId to = 0;
     };
-    Indexed<LinkId, Course> open(links); ///< the partial course that has reached the node
+    std::vector<Course> open(links); ///< the partial course that has reached the node
     for (std::size_t i = 0; i < links; ++i) {
         if (stays[i] == 0) {
             continue;
@@ -373,19 +372,19 @@ Vec2 far_end(EmbedParams const& params, double spacing) {
 
 /// A tree without its lowest orders; links without inflow between them are joined.
 struct Thinned {
-    Indexed<LinkId, ForestLink> links;
-    Indexed<LinkId, std::vector<LinkId>> links_of; ///< of the tree, by link of the forest, downstream first
+    std::vector<ForestLink> links;
+    std::vector<std::vector<LinkId>> links_of; ///< of the tree, by link of the forest, downstream first
 };
 
 Thinned thinned(TokunagaTree const& tree, int lowest) {
-    Indexed<LinkId, int> arrivals(tree.links.size(), 0);
+    std::vector<int> arrivals(tree.links.size(), 0);
     for (TreeLink const& link : tree.links) {
         if (link.down >= 0 && link.order >= lowest) {
             ++arrivals[link.down];
         }
     }
     Thinned out;
-    Indexed<LinkId, LinkId> part(tree.links.size(), -1); // of the forest
+    std::vector<LinkId> part(tree.links.size(), -1); // of the forest
     for (std::size_t i = 0; i < tree.links.size(); ++i) {
         TreeLink const& link = tree.links[i];
         if (link.order < lowest) {
@@ -395,7 +394,7 @@ Thinned thinned(TokunagaTree const& tree, int lowest) {
         if (link.down >= 0 && arrivals[link.down] == 1) {
             part[i] = below;
         } else {
-            part[i] = out.links.count();
+            part[i] = std::ssize(out.links);
             out.links.push_back({.down = below, .order = link.order, .turn = link.turn, .tree = 0, .pinned = {}});
             out.links_of.emplace_back();
         }

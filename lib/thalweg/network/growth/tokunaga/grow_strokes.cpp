@@ -235,7 +235,7 @@ double distance_to(Stroke const& stroke, Vec2 p) {
 
 std::vector<std::size_t> downstream_first(Strokes const& strokes) {
     std::vector<std::size_t> turn;
-    Indexed<StrokeId, std::uint8_t> done(strokes.size(), 0);
+    std::vector<std::uint8_t> done(strokes.size(), 0);
     while (turn.size() < strokes.size()) {
         for (std::size_t k = 0; k < strokes.size(); ++k) {
             if (done[k] == 0 && (strokes[k].onto < 0 || done[strokes[k].onto] != 0)) {
@@ -337,8 +337,8 @@ struct Wing {
 };
 
 /// By link: number of links upstream, itself included.
-Indexed<LinkId, std::int64_t> sizes_of(TokunagaTree const& tree) {
-    Indexed<LinkId, std::int64_t> links(tree.links.size(), 1);
+std::vector<std::int64_t> sizes_of(TokunagaTree const& tree) {
+    std::vector<std::int64_t> links(tree.links.size(), 1);
     for (std::size_t i = tree.links.size(); i-- > 1;) {
         links[tree.links[i].down] += links[i];
     }
@@ -361,7 +361,7 @@ std::vector<std::size_t> trunk_of(TokunagaTree const& tree) {
 
 void balance_banks(TokunagaTree& tree, double share_left) {
     require_in("network.balance_banks", "share_left", share_left, Range::between(0.0, 1.0));
-    Indexed<LinkId, std::int64_t> const sizes = sizes_of(tree);
+    std::vector<std::int64_t> const sizes = sizes_of(tree);
     std::int64_t left = 0;
     std::int64_t right = 0;
     std::vector<Wing> branches;
@@ -470,7 +470,7 @@ public:
         std::vector<double> const ways =
             positions_on_trunk(trunk.size(), strokes_[stroke].way.back(), junctions_[stroke]);
 
-        Indexed<LinkId, LinkId> number(tree.links.size(), -1); // of its links in the forest
+        std::vector<LinkId> number(tree.links.size(), -1); // of its links in the forest
         LinkId below = joints_[stroke];
         int turn = below < 0 ? 0 : side_of(stroke);
         std::size_t joined = 0;
@@ -495,7 +495,7 @@ public:
     }
 
     /// A river's order is at least that of its tributaries.
-    Indexed<LinkId, ForestLink> take() {
+    std::vector<ForestLink> take() {
         for (std::size_t i = links_.size(); i-- > 0;) {
             if (links_[i].down >= 0) {
                 int& order = links_[links_[i].down].order;
@@ -506,7 +506,7 @@ public:
     }
 
     /// The link into which each stroke flows; -1: its own mouth.
-    Indexed<StrokeId, LinkId> const& joints() const { return joints_; }
+    std::vector<LinkId> const& joints() const { return joints_; }
 
 private:
     int depth_of(std::size_t stroke) const {
@@ -526,7 +526,7 @@ private:
 
     LinkId add(LinkId down, int order, int turn, std::size_t tree, std::optional<Vec2> pinned) {
         links_.push_back({.down = down, .order = order, .turn = turn, .tree = tree, .pinned = pinned});
-        return links_.count() - 1;
+        return std::ssize(links_) - 1;
     }
 
     Strokes const& strokes_;
@@ -534,13 +534,13 @@ private:
     StrokeLands const& lands_;
     double width_m_; ///< [m] of the grid
     StrokesParams const& params_;
-    Indexed<LinkId, ForestLink> links_;
-    Indexed<StrokeId, LinkId> joints_;
-    Indexed<StrokeId, std::vector<Junction>> junctions_;
+    std::vector<ForestLink> links_;
+    std::vector<LinkId> joints_;
+    std::vector<std::vector<Junction>> junctions_;
 };
 
 /// Throws if a stroke would join another more than a cell from where it was drawn.
-void require_in_place(Strokes const& strokes, RiverLines const& drawn, Indexed<StrokeId, LinkId> const& joints,
+void require_in_place(Strokes const& strokes, RiverLines const& drawn, std::vector<LinkId> const& joints,
                       SettledLinks const& settled, double cell_m) {
     for (std::size_t k = 0; k < strokes.size(); ++k) {
         Vec3 const start = drawn.lines[k].vertices.front();

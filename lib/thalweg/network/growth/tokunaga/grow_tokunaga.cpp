@@ -58,7 +58,7 @@ public:
         }
     }
 
-    Indexed<LinkId, TreeLink> refine(Indexed<LinkId, TreeLink> const& coarse) {
+    std::vector<TreeLink> refine(std::vector<TreeLink> const& coarse) {
         links_.clear();
         tops_.assign(coarse.size(), -1);
         for (std::size_t i = 0; i < coarse.size(); ++i) {
@@ -79,7 +79,7 @@ public:
                 add(top, 1, -first);
             }
             tops_[i] = top;
-            refuse_if<BadParameter>(links_.count() > params_.max_links,
+            refuse_if<BadParameter>(std::ssize(links_) > params_.max_links,
                                     "network.grow_tokunaga: order {} with generator {} has more than {} links; lower "
                                     "the order or the generator",
                                     params_.order, params_.generator, params_.max_links);
@@ -91,7 +91,7 @@ private:
     static constexpr int fork_bit = 63;
 
     LinkId add(LinkId down, int order, int turn) {
-        LinkId const link = links_.count();
+        LinkId const link = std::ssize(links_);
         links_.push_back({.down = down, .up = {{-1, -1}}, .order = order, .turn = turn});
         if (down >= 0) {
             auto& up = links_[down].up;
@@ -119,10 +119,10 @@ private:
 
     TokunagaParams const& params_;
     int step_;
-    Indexed<int, double> means_; ///< by order - 2
+    std::vector<double> means_; ///< by order - 2
     std::array<std::uint64_t, 4> words_{};
-    Indexed<LinkId, TreeLink> links_;
-    Indexed<LinkId, LinkId> tops_; ///< by old link: the uppermost of the links that replaced it
+    std::vector<TreeLink> links_;
+    std::vector<LinkId> tops_; ///< by old link: the uppermost of the links that replaced it
 };
 
 } // namespace

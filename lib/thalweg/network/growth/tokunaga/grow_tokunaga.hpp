@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace thalweg::network {
@@ -72,7 +71,7 @@ struct TreeLink {
 
 /// The topology of a network: a binary tree of links, the outlet's first.
 struct TokunagaTree {
-    Indexed<LinkId, TreeLink> links;
+    std::vector<TreeLink> links;
     double link_length = 1.0; ///< of every link, relative to a generator's trunk: c^-(order - 2)
 };
 

@@ -8,7 +8,6 @@
 #include <limits>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/memory.hpp>
@@ -214,8 +213,8 @@ void collect(ColouredProblem const& coloured, Contents const& contents, GridProb
 /// Calls term(row) for each row of a board.
 /// \return the results, by row
 template <class Part = double, class Term>
-Indexed<RowIndex, Part> each_row(Board const& board, Run const& run, Term const& term) {
-    Indexed<RowIndex, Part> parts(board.height);
+std::vector<Part> each_row(Board const& board, Run const& run, Term const& term) {
+    std::vector<Part> parts(board.height);
     parallel_ranges(run, board.height, rows_a_range(board), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t y = begin; y < end; ++y) {
             parts[y] = term(y);

@@ -195,7 +195,7 @@ inline float value_at(TerrainLevel const& level, Cells<float> const& field, Leve
     auto const value = [&](double col, double row) {
         auto const c = std::clamp<std::int64_t>(static_cast<std::int64_t>(col), 1, level.width - 2);
         auto const r = std::clamp<std::int64_t>(static_cast<std::int64_t>(row), 1, level.height - 2);
-        return field[static_cast<std::size_t>(r * level.width + c)];
+        return field[r * level.width + c];
     };
     auto const u = static_cast<float>(p.col - left);
     auto const v = static_cast<float>(p.row - top);

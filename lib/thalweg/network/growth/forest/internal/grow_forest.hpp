@@ -5,7 +5,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
@@ -97,11 +96,11 @@ private:
     Mask land_; ///< cells that walkers reach
     RegionWalk walk_;
     std::int64_t cells_ = 0;
-    Indexed<std::int32_t, Cell> particles_;
-    Indexed<std::int32_t, std::int64_t> parents_;
-    Raster<std::int32_t> nearest_;             ///< by cell: the nearest particle, within s + 1; -1: none
-    Raster<std::int32_t> first_;               ///< by block of s x s cells: its last particle; -1: none
-    Indexed<std::int32_t, std::int32_t> next_; ///< by particle: the previous one in its block
+    std::vector<Cell> particles_;
+    std::vector<std::int64_t> parents_;
+    Raster<std::int32_t> nearest_;   ///< by cell: the nearest particle, within s + 1; -1: none
+    Raster<std::int32_t> first_;     ///< by block of s x s cells: its last particle; -1: none
+    std::vector<std::int32_t> next_; ///< by particle: the previous one in its block
     Raster<State> state_;
     std::int64_t open_cells_ = 0;
     std::vector<Cell> opened_;            ///< every open cell, and some that are no longer open

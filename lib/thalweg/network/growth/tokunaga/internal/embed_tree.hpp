@@ -7,7 +7,6 @@
 #include <optional>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/vec.hpp>
@@ -49,7 +48,7 @@ struct ForestShare {
 };
 
 struct Forest {
-    Indexed<LinkId, ForestLink> links;
+    std::vector<ForestLink> links;
     std::vector<ForestShare> shares;  ///< by tree
     std::vector<Segment> walls;       ///< that links keep clear of, except those at the mouths
     std::function<bool(Vec2)> inside; ///< the area of all trees
@@ -69,8 +68,8 @@ std::vector<Vec2> spread_forest(Forest const& forest, Run const& run = {});
 
 /// Links that keep clear of one another.
 struct SettledLinks {
-    Indexed<LinkId, Vec2> at;            ///< by link: position of its node, in multiples of 1e-6 m
-    Indexed<LinkId, std::uint8_t> stays; ///< by link: 1: placed
+    std::vector<Vec2> at;            ///< by link: position of its node, in multiples of 1e-6 m
+    std::vector<std::uint8_t> stays; ///< by link: 1: placed
 };
 
 /// Selects links that keep clear of one another, prescribed ones first, then streams of the highest order, and
@@ -94,7 +93,6 @@ struct KeptNetwork {
 
 /// Makes a network of links: joins links between which no other link enters into one arc.
 /// \return arcs in the order of their lowest link
-KeptNetwork join_links(Forest const& forest, Indexed<LinkId, Vec2> const& at,
-                       Indexed<LinkId, std::uint8_t> const& stays);
+KeptNetwork join_links(Forest const& forest, std::vector<Vec2> const& at, std::vector<std::uint8_t> const& stays);
 
 } // namespace thalweg::network

@@ -6,7 +6,6 @@
 #include <cstdint>
 #include <vector>
 
-#include <thalweg/core/indexed.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -25,7 +24,7 @@ struct Stroke {
     std::int64_t feature = 0; ///< as numbered by the file
 };
 
-using Strokes = Indexed<StrokeId, Stroke>;
+using Strokes = std::vector<Stroke>;
 
 /// Reads strokes and finds which begins on which: a stroke whose first vertex is within half a cell of another begins
 /// on it and is moved onto it.
