@@ -3,15 +3,18 @@
 #pragma once
 
 /// All public headers of the module.
-#include <thalweg/pipeline/commands/check_files.hpp>
+#include <thalweg/pipeline/commands/blend.hpp>
+#include <thalweg/pipeline/commands/check.hpp>
 #include <thalweg/pipeline/commands/convert.hpp>
-#include <thalweg/pipeline/commands/draw_files.hpp>
-#include <thalweg/pipeline/commands/make_blend.hpp>
-#include <thalweg/pipeline/commands/make_deform.hpp>
-#include <thalweg/pipeline/commands/make_measures.hpp>
-#include <thalweg/pipeline/commands/make_points.hpp>
-#include <thalweg/pipeline/commands/make_tin.hpp>
+#include <thalweg/pipeline/commands/deform.hpp>
+#include <thalweg/pipeline/commands/draw.hpp>
+#include <thalweg/pipeline/commands/grow.hpp>
+#include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/pipeline/commands/measure.hpp>
+#include <thalweg/pipeline/commands/points.hpp>
 #include <thalweg/pipeline/commands/replay.hpp>
+#include <thalweg/pipeline/commands/stats.hpp>
+#include <thalweg/pipeline/commands/tin.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/given.hpp>

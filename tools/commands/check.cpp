@@ -10,11 +10,11 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/pipeline/commands/check_files.hpp>
+#include <thalweg/pipeline/commands/check.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "commands/verdict.hpp"
+#include "commands/print.hpp"
 #include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
@@ -22,8 +22,8 @@ namespace thalweg::tools {
 namespace {
 
 struct CheckOptions {
-    pipeline::CheckJob job;
-    NetworkOptions source;
+    pipeline::CheckParams params;
+    std::vector<std::string> fields;
 };
 
 void print_some(std::vector<Finding> const& findings, char const* before, Session const& session) {
@@ -52,7 +52,7 @@ void print_certificate(measure::Certificate const& c) {
     }
 }
 
-void print_table(pipeline::CheckedFiles const& checked, std::string const& network, Session const& session) {
+void print_table(pipeline::CheckResult const& checked, std::string const& network, Session const& session) {
     fmt::print("{} arcs, {} nodes\n", checked.arcs, checked.nodes);
     for (Check const& c : checked.checks) {
         fmt::print("{:<24}{:>8.6g}  {}\n", c.name, c.value,
@@ -77,13 +77,12 @@ void print_table(pipeline::CheckedFiles const& checked, std::string const& netwo
 }
 
 int check(CheckOptions& options, Session const& session) {
-    options.job.network = options.source.path;
-    options.job.read = options.source.params();
-    pipeline::CheckedFiles const checked = pipeline::check_files(options.job, session.run);
+    options.params.read.fields = fields_by_quantity(options.fields);
+    pipeline::CheckResult const checked = pipeline::run_check(options.params, session.run);
     if (session.json) {
         fmt::print("{}", pipeline::as_json(checked));
     } else {
-        print_table(checked, options.job.network, session);
+        print_table(checked, options.params.network, session);
     }
     return checked.ok() ? Exit::done : Exit::check_failed;
 }
@@ -92,28 +91,28 @@ int check(CheckOptions& options, Session const& session) {
 
 Command add_check(CLI::App& app, Session& session) {
     auto const options = std::make_shared<CheckOptions>();
-    add_network_options(app, options->source, "--schema,--from");
-    app.add_option("--dem", options->job.dem,
+    add_network_options(app, options->params.network, options->params.read, options->fields, "--schema,--from");
+    app.add_option("--dem", options->params.dem,
                    "Also check that this DEM drains, and by these rivers; --fix finds the flow direction of lines by "
                    "it. It must "
                    "have the network's CRS.")
         ->type_name("FILE(tif)");
     app.add_option(
-           "--fix", options->job.fix,
+           "--fix", options->params.fix,
            "Write a repaired copy in the native schema and list the repairs. Nothing is written if faults remain. "
            "NETWORK may then be any file of lines.")
         ->type_name("FILE(gpkg,shp)");
-    app.add_option("--findings", options->job.findings, "Write the findings as a point layer, for QGIS.")
+    app.add_option("--findings", options->params.findings, "Write the findings as a point layer, for QGIS.")
         ->type_name("FILE(gpkg)");
     app.add_option(
-           "--near", options->job.near_m,
+           "--near", options->params.near_m,
            "Report line ends closer than this to a line that they do not meet [m]; --fix joins those that meet no "
            "other line. Default: a millionth of the network's extent.")
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
-    add_nodata_option(app, options->job.nodata);
-    app.add_flag("--json", session.json, "Print one JSON object.");
-    app.add_flag("--overwrite", options->job.overwrite, "Replace existing --fix and --findings files.");
+    add_nodata_option(app, options->params.nodata);
+    add_json_option(app, session);
+    add_overwrite_option(app, options->params.existing, "Replace existing --fix and --findings files.");
     app.footer("Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and "
                "has the right orders and downstream arc. A file in another schema is checked for what it contains. A "
                "fault is reported once, without its consequences. The exit status is 3 when a check fails, also when a "

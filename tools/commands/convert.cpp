@@ -1,36 +1,33 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
-#include <cstdio>
 #include <limits>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/pipeline/commands/convert.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "commands/print.hpp"
 
 namespace thalweg::tools {
 
 namespace {
 
 struct ConvertOptions {
-    pipeline::ConvertParams convert;
-    NetworkOptions source;
+    pipeline::ConvertParams params;
+    std::vector<std::string> fields;
     std::string schema = "native";
-    std::string output;
-    bool overwrite = false;
 };
 
-void tell(pipeline::Converted const& made, Session const& session) {
+void tell(pipeline::ConvertResult const& made, Session const& session) {
     std::size_t const shown = session.verbose ? made.findings.size() : 10;
     for (std::size_t i = 0; i < std::min(shown, made.findings.size()); ++i) {
         session.run.tell("note", made.findings[i].text);
@@ -48,7 +45,7 @@ void tell(pipeline::Converted const& made, Session const& session) {
     }
 }
 
-std::string as_json(pipeline::Converted const& made) {
+nlohmann::ordered_json json_of(pipeline::ConvertResult const& made) {
     nlohmann::ordered_json json{{"written", made.written}, {"schema", made.schema}, {"crs", made.crs},
                                 {"arcs", made.arcs},       {"nodes", made.nodes},   {"split", made.split},
                                 {"heights", made.heights}, {"areas", made.areas}};
@@ -60,23 +57,15 @@ std::string as_json(pipeline::Converted const& made) {
                                     {"amount", f.amount},
                                     {"text", f.text}});
     }
-    return json.dump(2, ' ', false, nlohmann::ordered_json::error_handler_t::replace) + "\n";
+    return json;
 }
 
 int convert(ConvertOptions& options, Session const& session) {
-    options.convert.schema = io::schema_named(options.schema);
-    options.convert.read = options.source.params();
-    options.convert.path = options.source.path;
-    pipeline::Converted const made = pipeline::convert(
-        options.convert, options.output, options.overwrite ? io::Existing::replace : io::Existing::refuse, session.run);
+    options.params.schema = io::schema_named(options.schema);
+    options.params.read.fields = fields_by_quantity(options.fields);
+    pipeline::ConvertResult const made = pipeline::run_convert(options.params, session.run);
     tell(made, session);
-    if (session.json) {
-        fmt::print("{}", as_json(made));
-    } else {
-        for (std::string const& file : made.written) {
-            fmt::print("{}\n", file);
-        }
-    }
+    print_result(session, json_of(made), made.written);
     return Exit::done;
 }
 
@@ -84,13 +73,10 @@ int convert(ConvertOptions& options, Session const& session) {
 
 Command add_convert(CLI::App& app, Session& session) {
     auto const options = std::make_shared<ConvertOptions>();
-    pipeline::ConvertParams& params = options->convert;
-    std::string formats;
-    for (auto const& f : io::network_formats()) {
-        formats += (formats.empty() ? "" : ", ") + std::string(f.name);
-    }
-    add_network_options(app, options->source);
-    app.add_option("-o,--output", options->output,
+    pipeline::ConvertParams& params = options->params;
+    std::string const formats = names_in_words(io::network_formats());
+    add_network_options(app, params.path, params.read, options->fields);
+    app.add_option("-o,--output", params.output,
                    "Write this file, or tables in a PostGIS database: PG:dbname=rivers host=db.")
         ->type_name("FILE(gpkg,shp,fgb,geojson,graphml,csv,edges,tif)")
         ->required();
@@ -116,8 +102,8 @@ Command add_convert(CLI::App& app, Session& session) {
         ->type_name("NAME")
         ->capture_default_str();
     add_nodata_option(app, params.nodata);
-    app.add_flag("--json", session.json, "Print one JSON object.");
-    app.add_flag("--overwrite", options->overwrite, "Replace existing files, or the tables and view in a database.");
+    add_json_option(app, session);
+    add_overwrite_option(app, params.existing, "Replace existing files, or the tables and view in a database.");
     app.footer(
         "Networks that are not trees are rejected; thalweg check tells why. Arcs get new numbers; the native field "
         "feature keeps their ids of another schema. TauDEM allows two arcs upstream of one: use --max-upstream 2. In "

@@ -3,28 +3,19 @@
 #include <algorithm>
 #include <cstdint>
 #include <cstdio>
-#include <map>
 #include <memory>
-#include <optional>
 #include <string>
-#include <utility>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
-#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/plan/make_input.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
-#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/pipeline/commands/make.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
-#include "commands/verdict.hpp"
+#include "commands/print.hpp"
 #include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
@@ -70,75 +61,21 @@ std::string forecast_in_words(pipeline::Forecast const& forecast, bool json) {
 }
 
 struct MakeOptions {
-    std::string input;
-    std::string folder = "valley";
-    std::vector<std::string> set;
-    std::optional<std::uint64_t> seed;
-    std::string crs;
-    std::string source_crs;
+    pipeline::MakeParams params;
     std::vector<std::string> fields;
-    std::string units;
-    std::string schema;
-    bool overwrite = false;
     bool dry_run = false;
 };
 
-/// The recipe if no file is given: if keys of the cluster are set, a cluster; else rivers that suit the grid.
-pipeline::Recipe recipe_without_file(MakeOptions const& options) {
-    bool const of_cluster = std::ranges::any_of(options.set, [](std::string const& assignment) {
-        return assignment.starts_with("network.dla.") || assignment.starts_with("network.source=dla") ||
-               assignment.starts_with("network.source=\"dla");
-    });
-    if (of_cluster) {
-        return pipeline::cluster_recipe();
-    }
-    pipeline::Recipe asked = pipeline::default_recipe();
-    for (std::string const& assignment : options.set) {
-        pipeline::set_key(asked, assignment);
-    }
-    return pipeline::default_recipe_on(asked.grid.width, asked.grid.height);
-}
-
-/// The columns of a line file that have a role in the network, named as for `thalweg check`.
-pipeline::Recipe with_fields(pipeline::Recipe recipe, std::vector<std::string> const& fields) {
-    static std::map<std::string, char const*> const keys{{"arc_id", "network.lines.id_field"},
-                                                         {"ds_arc", "network.lines.down_field"},
-                                                         {"key", "network.lines.rank_field"},
-                                                         {"type", "network.lines.type_field"}};
-    for (auto const& [quantity, name] : fields_by_quantity(fields)) {
-        auto const key = keys.find(quantity);
-        refuse_if<BadParameter>(key == keys.end(),
-                                "--field {}={}: make reads arc_id, ds_arc, key (a rank that falls downstream) and type "
-                                "from fields that are named",
-                                quantity, name);
-        pipeline::set_key(recipe, fmt::format("{}={}", key->second, name));
-    }
-    return recipe;
-}
-
-pipeline::Recipe recipe_of(MakeOptions const& options) {
-    pipeline::Recipe recipe =
-        options.input.empty() ? recipe_without_file(options) : pipeline::recipe_from(options.input);
-    for (std::string const& assignment : options.set) {
-        pipeline::set_key(recipe, assignment);
-    }
-    if (options.seed) {
-        pipeline::set_key(recipe, fmt::format("seed={}", *options.seed));
-    }
-    if (!options.crs.empty()) {
-        pipeline::set_key(recipe, "grid.crs=" + options.crs);
-    }
-    if (!options.source_crs.empty()) {
-        pipeline::set_key(recipe, "network.lines.source_crs=" + options.source_crs);
-    }
-    recipe = with_fields(std::move(recipe), options.fields);
-    if (!options.units.empty()) {
-        pipeline::set_key(recipe, "output.units=" + options.units);
-    }
-    if (!options.schema.empty()) {
-        pipeline::set_key(recipe, fmt::format("output.schema={}", options.schema));
-    }
-    return recipe;
+/// An option that stands for a key of the recipe. It comes after --set, which replaces what is set.
+template <class T>
+CLI::Option* add_key_option(CLI::App& app, char const* name, char const* key, std::vector<std::string>& set,
+                            char const* meaning) {
+    auto const put = [&set, key](T const& value) {
+        if (std::string const word = fmt::format("{}", value); !word.empty()) {
+            set.push_back(fmt::format("{}={}", key, word));
+        }
+    };
+    return app.add_option_function<T>(name, put, meaning);
 }
 
 void tell_all(char const* what, std::vector<Finding> const& findings, Run const& run) {
@@ -147,17 +84,13 @@ void tell_all(char const* what, std::vector<Finding> const& findings, Run const&
     }
 }
 
-int make(MakeOptions const& options, Session const& session) {
-    auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
-    pipeline::Recipe recipe = recipe_of(options);
-    pipeline::UserFiles const files(recipe, session.run);
+int make(MakeOptions& options, Session const& session) {
+    options.params.fields = fields_by_quantity(options.fields);
     if (options.dry_run) {
-        fmt::print("{}", forecast_in_words(pipeline::forecast(recipe, session.run), session.json));
+        fmt::print("{}", forecast_in_words(pipeline::forecast_make(options.params, session.run), session.json));
         return Exit::done;
     }
-    pipeline::check_folder(options.folder, existing);
-    pipeline::Made const made = pipeline::make(recipe, session.run);
-    pipeline::write_terrain(made, options.folder, existing, session.run);
+    pipeline::Made const made = pipeline::run_make(options.params, session.run);
     if (session.verbose) {
         tell_all("repair", pipeline::repairs_of(made), session.run);
         tell_all("finding", made.assessment.findings, session.run);
@@ -178,9 +111,10 @@ int make(MakeOptions const& options, Session const& session) {
         }
         session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));
     }
-    session.run.tell(
-        "open", fmt::format("{}   (no internet needed)", toned(Tone::name, options.folder + "/report.html", stderr)));
-    fmt::print("{}", session.json ? io::read_text(options.folder + "/report.json", 1 << 30) : options.folder + "\n");
+    session.run.tell("open", fmt::format("{}   (no internet needed)",
+                                         toned(Tone::name, options.params.output + "/report.html", stderr)));
+    fmt::print("{}", session.json ? io::read_text(options.params.output + "/report.json", 1 << 30)
+                                  : options.params.output + "\n");
     return made.assessment.passed() ? Exit::done : Exit::check_failed;
 }
 
@@ -189,47 +123,48 @@ int make(MakeOptions const& options, Session const& session) {
 Command add_make(CLI::App& app, Session& session) {
     auto const options = std::make_shared<MakeOptions>();
     app.add_option(
-           "INPUT", options->input,
+           "INPUT", options->params.input,
            "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or convert. "
            "Without it, thalweg grows a valley on 1024x1024 cells.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
-    app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->capture_default_str();
-    app.add_option(
-           "--set", options->set,
-           "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
-           "relative to the current folder.")
-        ->type_name("KEY=VALUE")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--seed", options->seed, "Set the random seed; the same as --set seed=N.")->check(is_seed);
-    app.add_option("--crs", options->crs,
-                   "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
+    app.add_option("-o,--output", options->params.output, "Write to this folder.")
+        ->type_name("DIR")
+        ->capture_default_str();
+    add_list(app, "--set", "KEY=VALUE", options->params.set,
+             "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
+             "relative to the current folder.",
+             '\0');
+    add_key_option<std::uint64_t>(app, "--seed", "seed", options->params.set,
+                                  "Set the random seed; the same as --set seed=N.")
+        ->check(is_seed);
+    add_key_option<std::string>(app, "--crs", "grid.crs", options->params.set,
+                                "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
         ->type_name("EPSG:N");
-    app.add_option("--source-crs", options->source_crs,
-                   "Read rivers whose file has no CRS in this one; the same as --set network.lines.source_crs=CRS.")
+    add_key_option<std::string>(
+        app, "--source-crs", "network.lines.source_crs", options->params.set,
+        "Read rivers whose file has no CRS in this one; the same as --set network.lines.source_crs=CRS.")
         ->type_name("EPSG:N");
-    app.add_option(
-           "--field", options->fields,
-           "Name the field of rivers that holds a quantity: arc_id and ds_arc (a line's id and that of the line "
-           "downstream), key (a rank that falls downstream) or type. May be repeated. The same as --set "
-           "network.lines.id_field=NAME, down_field, rank_field and type_field.")
-        ->type_name("QUANTITY=NAME")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--units", options->units,
-                   "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
-                   "--set output.units=UNIT. Lengths stay in m, areas in m2.")
+    add_list(app, "--field", "QUANTITY=NAME", options->fields,
+             "Name the field of rivers that holds a quantity: arc_id and ds_arc (a line's id and that of the line "
+             "downstream), key (a rank that falls downstream) or type. May be repeated. The same as --set "
+             "network.lines.id_field=NAME, down_field, rank_field and type_field.",
+             '\0');
+    add_key_option<std::string>(
+        app, "--units", "output.units", options->params.set,
+        "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
+        "--set output.units=UNIT. Lengths stay in m, areas in m2.")
         ->check(CLI::IsMember({"m", "ft"}));
-    app.add_option(
-           "--schema", options->schema,
-           "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
+    add_key_option<std::string>(
+        app, "--schema", "output.schema", options->params.set,
+        "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
         ->check(CLI::IsMember(schema_names()));
     app.add_flag("--dry-run", options->dry_run,
                  "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
                  "time. Nothing is written.");
     app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
-    app.add_flag("--overwrite", options->overwrite,
-                 "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
+    add_overwrite_option(
+        app, options->params.existing,
+        "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
     app.footer(
         "Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
         "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "

@@ -1,17 +1,16 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <cstdio>
 #include <memory>
 #include <string>
+#include <vector>
 
 #include <CLI/CLI.hpp>
-#include <fmt/format.h>
-#include <nlohmann/json.hpp>
 
-#include <thalweg/pipeline/commands/make_measures.hpp>
+#include <thalweg/pipeline/commands/measure.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "commands/print.hpp"
 
 namespace thalweg::tools {
 
@@ -20,13 +19,11 @@ namespace {
 using nlohmann::ordered_json;
 
 struct MeasureOptions {
-    pipeline::MakeMeasuresParams params;
-    NetworkOptions network;
-    std::string folder;
-    bool overwrite = false;
+    pipeline::MeasureParams params;
+    std::vector<std::string> fields;
 };
 
-ordered_json json_of(pipeline::MadeMeasures const& made) {
+ordered_json json_of(pipeline::MeasureResult const& made) {
     ordered_json json{{"files", made.files},
                       {"notes", made.notes},
                       {"cells", made.cells},
@@ -49,20 +46,12 @@ ordered_json json_of(pipeline::MadeMeasures const& made) {
 }
 
 int measure(MeasureOptions& options, Session const& session) {
-    options.params.network = options.network.path;
-    options.params.read = options.network.params();
-    auto const existing = options.overwrite ? io::Existing::replace : io::Existing::refuse;
-    pipeline::MadeMeasures const made = pipeline::make_measures(options.params, options.folder, existing, session.run);
+    options.params.read.fields = fields_by_quantity(options.fields);
+    pipeline::MeasureResult const made = pipeline::run_measure(options.params, session.run);
     for (std::string const& note : made.notes) {
         session.run.tell("note", note);
     }
-    if (session.json) {
-        fmt::print("{}\n", json_of(made).dump(-1, ' ', false, ordered_json::error_handler_t::replace));
-        return Exit::done;
-    }
-    for (std::string const& file : made.files) {
-        fmt::print("{}\n", file);
-    }
+    print_result(session, json_of(made), made.files, -1);
     return Exit::done;
 }
 
@@ -73,20 +62,16 @@ Command add_measure(CLI::App& app, Session& session) {
     app.add_option("DEM", options->params.dem, "A folder written by make, or any height raster GDAL reads.")
         ->type_name("FILE")
         ->required();
-    add_network_options(app, options->network, "--schema,--from");
+    add_network_options(app, options->params.network, options->params.read, options->fields, "--schema,--from");
     app.get_option("NETWORK")->required(false)->description(
         "Use these rivers for catchments: a network in any schema that convert reads. Default: those of the folder.");
-    app.add_option("-o,--output", options->folder, "Write to this folder.")->type_name("DIR")->required();
-    app.add_option("--what", options->params.what,
-                   "Write these, separated by commas: d8 and dinf (contributing areas), directions (of both), "
-                   "catchments (one polygon per arc). Default: d8, dinf and, with rivers, catchments.")
-        ->type_name("LIST")
-        ->delimiter(',')
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_flag("--overwrite", options->overwrite, "Replace files of the same names. Other files are kept.");
+    app.add_option("-o,--output", options->params.output, "Write to this folder.")->type_name("DIR")->required();
+    add_list(app, "--what", "LIST", options->params.what,
+             "Write these, separated by commas: d8 and dinf (contributing areas), directions (of both), "
+             "catchments (one polygon per arc). Default: d8, dinf and, with rivers, catchments.");
+    add_overwrite_option(app, options->params.existing, "Replace files of the same names. Other files are kept.");
     add_nodata_option(app, options->params.nodata);
-    app.add_flag("--json", session.json, "Print one JSON object.");
+    add_json_option(app, session);
     app.footer("Writes area_d8.tif and area_dinf.tif (contributing areas in m2, by D8 and D-infinity), "
                "direction_d8.tif (1 to 128 clockwise from east, 0 at outlets), direction_dinf.tif (radians "
                "counterclockwise from east, -1 at outlets) and catchments.gpkg (layers catchments and basins). Flow is "

@@ -6,8 +6,6 @@
 #include <cstdint>
 #include <system_error>
 
-#include <CLI/CLI.hpp>
-
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/schema.hpp>
 
@@ -24,34 +22,23 @@ std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> c
     return named;
 }
 
-io::ReadNetworkParams NetworkOptions::params() const {
-    io::ReadNetworkParams read;
-    if (!schema.empty()) {
-        read.schema = io::schema_named(schema);
-    }
-    read.fields = fields_by_quantity(fields);
-    read.arcs_layer = layer;
-    read.nodes_layer = nodes_layer;
-    read.source_crs = source_crs;
-    return read;
-}
-
-void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag) {
-    app.add_option("NETWORK", options.path,
+void add_network_options(CLI::App& app, std::string& path, io::ReadNetworkParams& read,
+                         std::vector<std::string>& fields, char const* schema_flag) {
+    app.add_option("NETWORK", path,
                    "A network: any vector file GDAL reads, a folder written by make, or a database (PG:dbname=rivers).")
         ->type_name("FILE(gpkg,shp,fgb,geojson)")
         ->required();
-    app.add_option(schema_flag, options.schema, "Set the schema of NETWORK. Default: recognised by its fields.")
+    app.add_option_function<std::string>(
+           schema_flag, [&read](std::string const& name) { read.schema = io::schema_named(name); },
+           "Set the schema of NETWORK. Default: recognised by its fields.")
         ->check(CLI::IsMember(schema_names()));
-    app.add_option("--field", options.fields,
-                   "Name the field of NETWORK that holds a quantity of the native schema, such as ds_arc=NEXT_DOWN. "
-                   "May be repeated.")
-        ->type_name("QUANTITY=NAME")
-        ->expected(1)
-        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
-    app.add_option("--layer,--arcs-layer", options.layer, "Read arcs from this layer.")->type_name("NAME");
-    app.add_option("--nodes-layer", options.nodes_layer, "Read nodes from this layer.")->type_name("NAME");
-    app.add_option("--source-crs", options.source_crs,
+    add_list(app, "--field", "QUANTITY=NAME", fields,
+             "Name the field of NETWORK that holds a quantity of the native schema, such as ds_arc=NEXT_DOWN. "
+             "May be repeated.",
+             '\0');
+    app.add_option("--layer,--arcs-layer", read.arcs_layer, "Read arcs from this layer.")->type_name("NAME");
+    app.add_option("--nodes-layer", read.nodes_layer, "Read nodes from this layer.")->type_name("NAME");
+    app.add_option("--source-crs", read.source_crs,
                    "Read a NETWORK that has no CRS in this one. Default: its coordinates are metres.")
         ->type_name("EPSG:N");
 }
@@ -62,6 +49,15 @@ std::vector<std::string> schema_names() {
         names.emplace_back(table.name);
     }
     return names;
+}
+
+void add_json_option(CLI::App& app, Session& session) {
+    app.add_flag("--json", session.json, "Print one JSON object.");
+}
+
+void add_overwrite_option(CLI::App& app, io::Existing& existing, std::string const& meaning) {
+    app.add_flag_callback(
+        "--overwrite", [&existing] { existing = io::Existing::replace; }, meaning);
 }
 
 void add_nodata_option(CLI::App& app, std::optional<double>& nodata) {

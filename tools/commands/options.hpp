@@ -7,11 +7,12 @@
 #include <string>
 #include <vector>
 
+#include <CLI/CLI.hpp>
+
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 
-namespace CLI {
-class App;
-}
+#include "commands/commands.hpp"
 
 namespace thalweg::tools {
 
@@ -20,24 +21,40 @@ namespace thalweg::tools {
 /// \throws BadParameter when one is not QUANTITY=NAME
 std::map<std::string, std::string> fields_by_quantity(std::vector<std::string> const& fields);
 
-/// The options with which every command reads a network.
-struct NetworkOptions {
-    std::string path;
-    std::string schema; ///< "": detected
-    std::vector<std::string> fields;
-    std::string layer;
-    std::string nodes_layer;
-    std::string source_crs; ///< of a file without a CRS
-
-    /// \throws BadParameter when a field is not QUANTITY=NAME.
-    io::ReadNetworkParams params() const;
-};
-
-/// Adds NETWORK, --from (or the names in schema_flag), --field, --layer, --nodes-layer and --source-crs.
-void add_network_options(CLI::App& app, NetworkOptions& options, char const* schema_flag = "--from");
+/// Adds NETWORK, --from (or the names in schema_flag), --field, --layer, --nodes-layer and --source-crs. What --field
+/// names has yet to be parsed.
+void add_network_options(CLI::App& app, std::string& path, io::ReadNetworkParams& read,
+                         std::vector<std::string>& fields, char const* schema_flag = "--from");
 
 /// \return the names of all schemas.
 std::vector<std::string> schema_names();
+
+/// An option that may be repeated, with values between separators; '\0': one value each time.
+template <class T>
+void add_list(CLI::App& app, char const* name, char const* type, std::vector<T>& values, char const* meaning,
+              char separator = ',') {
+    app.add_option(name, values, meaning)
+        ->type_name(type)
+        ->delimiter(separator)
+        ->expected(1)
+        ->multi_option_policy(CLI::MultiOptionPolicy::TakeAll);
+}
+
+/// The names of a table of formats: "las, ply, xyz".
+template <class Formats> std::string names_in_words(Formats const& formats) {
+    std::string words;
+    for (auto const& format : formats) {
+        words += (words.empty() ? "" : ", ") + std::string(format.name);
+    }
+    return words;
+}
+
+/// The option of commands that print one JSON object.
+void add_json_option(CLI::App& app, Session& session);
+
+/// The option of commands that write.
+void add_overwrite_option(CLI::App& app, io::Existing& existing,
+                          std::string const& meaning = "Replace an existing file.");
 
 /// The option of commands that read a DEM.
 void add_nodata_option(CLI::App& app, std::optional<double>& nodata);

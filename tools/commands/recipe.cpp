@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cstdio>
-#include <filesystem>
 #include <memory>
 #include <string>
 #include <vector>
@@ -12,11 +11,11 @@
 #include <nlohmann/json.hpp>
 
 #include <thalweg/core/run/messages.hpp>
-#include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/plan/make_input.hpp>
+#include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 #include "commands/commands.hpp"
+#include "commands/options.hpp"
 
 namespace thalweg::tools {
 
@@ -123,23 +122,11 @@ std::string keys_as_json(std::vector<KeyHelp> const& keys) {
     return json.dump(2) + "\n";
 }
 
-int print_keys(std::string const& word, Session const& session) {
+void print_keys(std::string const& word, Session const& session) {
     std::vector<KeyHelp> const keys = keys_named(word);
     fmt::print("{}", session.json       ? keys_as_json(keys)
                      : keys.size() == 1 ? key_as_text(keys.front())
                                         : keys_as_list(keys));
-    return Exit::done;
-}
-
-int print_for(std::string const& rivers, std::string const& source_crs, Session const& session) {
-    refuse_if<BadInput>(!is_utf8(std::filesystem::absolute(rivers).string()),
-                        "the path of {} is not UTF-8, and recipes are: rename it", rivers);
-    pipeline::Recipe recipe = pipeline::rivers_recipe(rivers);
-    if (!source_crs.empty()) {
-        pipeline::set_key(recipe, "network.lines.source_crs=" + source_crs);
-    }
-    fmt::print("{}", pipeline::write_recipe(pipeline::settled_recipe(recipe, session.run)));
-    return Exit::done;
 }
 
 } // namespace
@@ -151,7 +138,7 @@ Command add_recipe(CLI::App& app, Session& session) {
     auto const key = std::make_shared<std::string>();
     app.add_option("KEY", *key,
                    "Show this key, such as network.prune, or the keys of this section. Default: every key.");
-    app.add_flag("--json", session.json, "Print one JSON object.");
+    add_json_option(app, session);
     app.add_flag("--dump", *dump, "Print the default recipe as a TOML file.");
     CLI::Option* const of_rivers =
         app.add_option("--for", *rivers,
@@ -170,13 +157,13 @@ Command add_recipe(CLI::App& app, Session& session) {
                "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
     return [dump, rivers, source_crs, key, &session] {
         if (!rivers->empty()) {
-            return print_for(*rivers, *source_crs, session);
-        }
-        if (*dump) {
+            fmt::print("{}", pipeline::write_recipe(pipeline::recipe_for(*rivers, *source_crs, session.run)));
+        } else if (*dump) {
             fmt::print("{}", pipeline::write_recipe(pipeline::default_recipe()));
-            return static_cast<int>(Exit::done);
+        } else {
+            print_keys(*key, session);
         }
-        return print_keys(*key, session);
+        return static_cast<int>(Exit::done);
     };
 }
 

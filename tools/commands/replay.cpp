@@ -17,8 +17,8 @@ namespace thalweg::tools {
 
 namespace {
 
-int replay(std::string const& folder, Session const& session) {
-    pipeline::Replayed const found = pipeline::replay(folder, session.run);
+int replay(pipeline::ReplayParams const& params, Session const& session) {
+    pipeline::ReplayResult const found = pipeline::run_replay(params, session.run);
     for (std::string const& name : found.same) {
         fmt::print("{}     {}\n", toned(Tone::good, "same", stdout), printable(name));
     }
@@ -34,15 +34,15 @@ int replay(std::string const& folder, Session const& session) {
 } // namespace
 
 Command add_replay(CLI::App& app, Session& session) {
-    auto const folder = std::make_shared<std::string>();
+    auto const params = std::make_shared<pipeline::ReplayParams>();
     auto const verify = std::make_shared<bool>(true);
-    app.add_option("DIR", *folder, "A folder written by make.")->type_name("DIR")->required();
+    app.add_option("DIR", params->folder, "A folder written by make.")->type_name("DIR")->required();
     app.add_flag("--verify", *verify, "Compare the bytes. This is always done; the option makes scripts readable.");
     app.footer("Runs recipe.toml again in a temporary folder and compares each file. The exit status is 3 when a file "
                "differs or is missing. Nothing is changed.\n\n"
                "Examples:\n"
                "  thalweg replay valley --verify\n");
-    return [folder, verify, &session] { return replay(*folder, session); };
+    return [params, verify, &session] { return replay(*params, session); };
 }
 
 } // namespace thalweg::tools

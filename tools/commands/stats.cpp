@@ -5,7 +5,6 @@
 #include <cstdio>
 #include <limits>
 #include <memory>
-#include <optional>
 #include <string>
 
 #include <CLI/CLI.hpp>
@@ -13,13 +12,7 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/io/gdal/sources.hpp>
-#include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/commands/make_measures.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/make/relief.hpp>
-#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
+#include <thalweg/pipeline/commands/stats.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 #include "commands/commands.hpp"
@@ -36,15 +29,6 @@ std::string known(double figure, int digits) {
 std::string length(solver::CorrelationLength const& l) {
     return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
 }
-
-struct StatsOptions {
-    std::string path;
-    std::optional<double> nodata;
-    bool recipe = false;
-    bool laws = false;
-    bool relief = false;
-    std::int64_t support_cells = pipeline::DemLawsParams{}.support_cells;
-};
 
 void print_laws(pipeline::DemLaws const& found) {
     fmt::print("\nrivers where at least {} cells ({:.3g} km²) drain\n{:58}  in nature\n", found.support_cells,
@@ -89,41 +73,22 @@ void print_recipe(pipeline::DemRecipe const& made) {
     fmt::print("{}", pipeline::write_recipe(made.recipe));
 }
 
-int stats(StatsOptions const& options, Session const& session) {
-    refuse_if<BadParameter>(options.recipe && session.json,
+int stats(pipeline::StatsParams const& params, Session const& session) {
+    refuse_if<BadParameter>(params.recipe && session.json,
                             "thalweg stats prints a recipe or JSON: give --recipe or --json, not both");
-    // A recipe has its own cells: recipe_of_dem determines their size.
-    io::ReadDemParams const reading{.nodata = options.nodata};
-    pipeline::MetricDem const read = options.recipe
-                                         ? pipeline::MetricDem{io::read_dem(options.path, reading, session.run), {}}
-                                         : pipeline::dem_in_metres(options.path, reading, session.run);
-    Raster<float> const& dem = read.dem;
-    for (std::string const& words : read.notes) {
-        session.run.say("note   " + words);
-    }
-    if (read.notes.empty()) {
-        for (std::string const& words : io::conversions_of(options.path, "", dem.grid().crs)) {
-            session.run.say("note   " + words);
-        }
-    }
-    measure::Statistics const s = measure::statistics(dem, session.run);
-    std::optional<pipeline::DemLaws> laws;
-    if (options.laws) {
-        laws = pipeline::laws_of_dem(dem, {.support_cells = options.support_cells}, session.run);
-    }
-    std::optional<pipeline::TerrainRelief> relief;
-    if (options.relief) {
-        relief = pipeline::relief_of_dem(dem, session.run);
-    }
-    if (options.recipe) {
-        print_recipe(pipeline::recipe_of_dem(dem, s, options.path));
+    pipeline::StatsResult const found = pipeline::run_stats(params, session.run);
+    if (found.recipe) {
+        print_recipe(*found.recipe);
         return Exit::done;
     }
+    measure::Statistics const& s = found.statistics;
     if (session.json) {
-        fmt::print("{}", pipeline::statistics_json(s, laws ? &*laws : nullptr, relief ? &*relief : nullptr));
+        fmt::print("{}", pipeline::statistics_json(s, found.laws ? &*found.laws : nullptr,
+                                                   found.relief ? &*found.relief : nullptr));
         return Exit::done;
     }
-    fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, dem.width(), dem.height());
+    fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, found.grid.width,
+               found.grid.height);
     fmt::print("mean       {:.3f} m\n", s.mean);
     fmt::print("std        {:.3f} m\n", s.std);
     fmt::print("min        {:.3f} m at column {}, row {}\n", s.min.z, s.min.cell.col, s.min.cell.row);
@@ -136,11 +101,11 @@ int stats(StatsOptions const& options, Session const& session) {
     fmt::print("length     {} cells along rows, {} along columns\n", length(s.lx), length(s.ly));
     fmt::print("dimension  {} from lags 1 to 5, {} from lags 1 to 32\n", known(s.dimension, 3),
                known(s.dimension_dyadic, 3));
-    if (laws) {
-        print_laws(*laws);
+    if (found.laws) {
+        print_laws(*found.laws);
     }
-    if (relief) {
-        print_relief(*relief);
+    if (found.relief) {
+        print_relief(*found.relief);
     }
     return Exit::done;
 }
@@ -148,19 +113,19 @@ int stats(StatsOptions const& options, Session const& session) {
 } // namespace
 
 Command add_stats(CLI::App& app, Session& session) {
-    auto const options = std::make_shared<StatsOptions>();
-    app.add_option("DEM", options->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
-    add_nodata_option(app, options->nodata);
-    app.add_flag("--json", session.json, "Print one JSON object.");
-    CLI::Option* const recipe = app.add_flag("--recipe", options->recipe,
-                                             "Print a recipe of other terrain with the same statistics, for make.");
+    auto const params = std::make_shared<pipeline::StatsParams>();
+    app.add_option("DEM", params->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
+    add_nodata_option(app, params->nodata);
+    add_json_option(app, session);
+    CLI::Option* const recipe =
+        app.add_flag("--recipe", params->recipe, "Print a recipe of other terrain with the same statistics, for make.");
     CLI::Option* const laws =
-        app.add_flag("--laws", options->laws,
+        app.add_flag("--laws", params->laws,
                      "Print network laws of the streams extracted from the DEM, with natural ranges.")
             ->excludes(recipe);
-    app.add_flag("--relief", options->relief, "Print morphometric indices, with those of reference DEMs.")
+    app.add_flag("--relief", params->relief, "Print morphometric indices, with those of reference DEMs.")
         ->excludes(recipe);
-    app.add_option("--support", options->support_cells, "Start a stream where this many cells drain.")
+    app.add_option("--support", params->support_cells, "Start a stream where this many cells drain.")
         ->type_name("CELLS")
         ->check(CLI::Range(std::int64_t{1}, std::numeric_limits<std::int64_t>::max()))
         ->capture_default_str()
@@ -174,7 +139,7 @@ Command add_stats(CLI::App& app, Session& session) {
                "  thalweg stats valley/dem.tif\n"
                "  thalweg stats samples/bigtujunga_srtm1.tif --laws --support 500\n"
                "  thalweg stats samples/jacksboro_srtm3.tif --recipe > alike.toml\n");
-    return [options, &session] { return stats(*options, session); };
+    return [params, &session] { return stats(*params, session); };
 }
 
 } // namespace thalweg::tools

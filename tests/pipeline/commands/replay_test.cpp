@@ -75,7 +75,7 @@ void expect_replayed(std::string const& toml, std::string const& copy) {
         write_terrain(make(recipe), out, io::Existing::refuse);
         EXPECT_EQ(bytes_of(out + "/" + copy), bytes_of(files / fs::path(copy).filename().string()));
     }
-    Replayed const again = replay(out);
+    ReplayResult const again = run_replay({out});
     EXPECT_TRUE(again.verified()) << copy << " " << again.differ.size() << " differ, " << again.missing.size()
                                   << " are missing";
     EXPECT_GT(again.same.size(), 3U);

@@ -27,7 +27,7 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/commands/check_files.hpp>
+#include <thalweg/pipeline/commands/check.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 
 // The share of rivers of known direction that is oriented wrong without their fields and directions:
@@ -330,10 +330,10 @@ TEST(RiverDirections, AFileDrawnFromTheMouthIsTurned) {
 TEST(RiverDirections, OfAFileDrawnFromTheMouthAMendedCopyIsTurned) {
     ScratchFolder const folder;
     folder.write("rivers.geojson", test::geojson(from_the_mouth()));
-    pipeline::CheckJob job;
-    job.network = folder / "rivers.geojson";
-    job.fix = folder / "mended.gpkg";
-    pipeline::CheckedFiles const checked = pipeline::check_files(job);
+    pipeline::CheckParams params;
+    params.network = folder / "rivers.geojson";
+    params.fix = folder / "mended.gpkg";
+    pipeline::CheckResult const checked = pipeline::run_check(params);
     EXPECT_EQ(checked.written.size(), 1U);
     EXPECT_EQ(test::count(checked.mended, "reversed"), 7);
     EXPECT_EQ(test::count(checked.notes, "directions"), 1);
@@ -361,13 +361,13 @@ TEST(RiverDirections, WhatIsUncertainADemDecides) {
     std::ranges::sort(outlets, before);
     EXPECT_EQ(outlets, (std::vector<Vec2>{{496000, 5003000}, {500000, 5000000}}));
 
-    pipeline::CheckJob job;
-    job.network = folder / "rivers.geojson";
-    job.fix = folder / "mended.gpkg";
-    EXPECT_EQ(test::count(pipeline::check_files(job).notes, "uncertain_direction"), 1);
-    job.dem = folder / "dem.asc";
-    job.overwrite = true;
-    pipeline::CheckedFiles const checked = pipeline::check_files(job);
+    pipeline::CheckParams params;
+    params.network = folder / "rivers.geojson";
+    params.fix = folder / "mended.gpkg";
+    EXPECT_EQ(test::count(pipeline::run_check(params).notes, "uncertain_direction"), 1);
+    params.dem = folder / "dem.asc";
+    params.existing = io::Existing::replace;
+    pipeline::CheckResult const checked = pipeline::run_check(params);
     EXPECT_EQ(test::count(checked.notes, "uncertain_direction"), 0);
     EXPECT_TRUE(
         std::ranges::any_of(checked.mended, [](Finding const& f) { return f.kind == "reversed" && f.feature == 8; }));

@@ -3,9 +3,7 @@
 #include <thalweg/pipeline/commands/convert.hpp>
 
 #include <algorithm>
-#include <cstddef>
 #include <filesystem>
-#include <map>
 #include <optional>
 #include <system_error>
 #include <utility>
@@ -48,14 +46,15 @@ bool is_known(std::vector<double> const& areas) {
 
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
     Raster<float> dem = io::read_dem(params.dem, {.nodata = params.nodata}, run);
-    refuse_if<BadInput>(!io::same_crs(dem.grid().crs, crs, "pipeline.convert: " + params.dem, params.path),
-                        "pipeline.convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})", params.dem,
-                        dem.grid().crs, params.path, crs, crs);
+    refuse_if<BadInput>(!io::same_crs(dem.grid().crs, crs, "pipeline.run_convert: " + params.dem, params.path),
+                        "pipeline.run_convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})",
+                        params.dem, dem.grid().crs, params.path, crs, crs);
     return dem;
 }
 
 /// Adds what the source lacks: heights, areas.
-void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, Converted& converted, Run const& run) {
+void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, ConvertResult& converted,
+              Run const& run) {
     network::FileNetwork& source = ready.source;
     if (!file.says.heights) {
         converted.heights = dem != nullptr ? "dem" : "none";
@@ -84,7 +83,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
     }
 }
 
-void split(Ready& ready, ConvertParams const& params, Converted& converted, Run const& run) {
+void split(Ready& ready, ConvertParams const& params, ConvertResult& converted, Run const& run) {
     network::FileNetwork& source = ready.source;
     network::Split made =
         network::split_confluences(source.network, {params.max_upstream, params.split_distance_m}, run);
@@ -104,7 +103,7 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
     if (dem != nullptr) {
         return dem->grid();
     }
-    refuse_if<BadParameter>(!(params.cell_m > 0.0), "pipeline.convert: a raster needs cells: give --dem or --cell");
+    refuse_if<BadParameter>(!(params.cell_m > 0.0), "pipeline.run_convert: a raster needs cells: give --dem or --cell");
     RiverLines lines{{}, crs, params.path, false};
     for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
         RiverLine line;
@@ -154,35 +153,35 @@ bool may_be_read(fs::path const& file, fs::path const& source) {
 void require_other(std::vector<std::string> const& files, fs::path const& folder, std::string const& source) {
     for (std::string const& file : files) {
         if (may_be_read(folder / file, source)) {
-            throw BadInput(
-                fmt::format("pipeline.convert: {} may be the input: name another output", (folder / file).string()));
+            throw BadInput(fmt::format("pipeline.run_convert: {} may be the input: name another output",
+                                       (folder / file).string()));
         }
     }
 }
 
 class ConvertOutput {
 public:
-    ConvertOutput(ConvertParams const& params, std::string const& output, io::Existing existing)
-        : params_(params), output_(output), existing_(existing), database_(io::is_postgis(output)) {
+    explicit ConvertOutput(ConvertParams const& params) : params_(params), database_(io::is_postgis(params.output)) {
+        std::string const& output = params.output;
         if (database_) {
             refuse_if<BadInput>(
-                output == params.path && existing == io::Existing::replace,
-                "pipeline.convert: the output is the input database: name another table and leave out --overwrite");
+                output == params.path && params.existing == io::Existing::replace,
+                "pipeline.run_convert: the output is the input database: name another table and leave out --overwrite");
             return;
         }
         write_ = {io::network_format(params.format, output), params.schema, {}};
         fs::path const path(output);
         folder_ = path.has_parent_path() ? path.parent_path() : fs::path(".");
         std::error_code ignored;
-        refuse_if<BadParameter>(!path.has_filename(), "pipeline.convert: '{}' is not a valid file name", output);
+        refuse_if<BadParameter>(!path.has_filename(), "pipeline.run_convert: '{}' is not a valid file name", output);
         if (!fs::is_directory(folder_, ignored)) {
-            throw BadInput(fmt::format("pipeline.convert: there is no folder {} for {}", folder_.string(), output));
+            throw BadInput(fmt::format("pipeline.run_convert: there is no folder {} for {}", folder_.string(), output));
         }
         files_ = io::network_files(output, write_);
         require_other(files_, folder_, params.path);
         for (std::string const& file : files_) {
-            if (existing == io::Existing::refuse && fs::exists(folder_ / file, ignored)) {
-                throw BadInput(fmt::format("pipeline.convert: {} already exists: name another or use --overwrite",
+            if (params.existing == io::Existing::refuse && fs::exists(folder_ / file, ignored)) {
+                throw BadInput(fmt::format("pipeline.run_convert: {} already exists: name another or use --overwrite",
                                            (folder_ / file).string()));
             }
         }
@@ -204,26 +203,23 @@ public:
     }
 
     std::vector<std::string> write(io::NetworkTables const& tables, Grid const& grid, Run const& run) {
+        bool const overwrite = params_.existing == io::Existing::replace;
         if (database_) {
-            bool const overwrite = existing_ == io::Existing::replace;
-            return io::write_postgis(tables, output_, {params_.schema, params_.table, overwrite}, run);
+            return io::write_postgis(tables, params_.output, {params_.schema, params_.table, overwrite}, run);
         }
-        io::OutputFolder staged(folder_.string(), io::Existing::add,
-                                existing_ == io::Existing::replace ? files_ : std::vector<std::string>{});
+        io::OutputFolder staged(folder_.string(), io::Existing::add, overwrite ? files_ : std::vector<std::string>{});
         write_.grid = grid;
-        io::write_network(tables, staged.path(fs::path(output_).filename().string()), write_, run);
+        io::write_network(tables, staged.path(fs::path(params_.output).filename().string()), write_, run);
         std::vector<std::string> written = staged.files();
         staged.commit();
         for (std::string& file : written) {
-            file = fs::path(output_).has_parent_path() ? (folder_ / file).string() : file;
+            file = fs::path(params_.output).has_parent_path() ? (folder_ / file).string() : file;
         }
         return written;
     }
 
 private:
     ConvertParams const& params_;
-    std::string output_;
-    io::Existing existing_;
     bool database_;
     io::WriteNetworkParams write_ = {};
     fs::path folder_;
@@ -232,12 +228,12 @@ private:
 
 } // namespace
 
-Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing, Run const& run) {
-    ConvertOutput out(params, output, existing);
+ConvertResult run_convert(ConvertParams const& params, Run const& run) {
+    ConvertOutput out(params);
     io::ReadNetworkParams read = params.read;
     read.bridge = true;
     NetworkFile file = io::read_network(params.path, read, run);
-    Converted converted;
+    ConvertResult converted;
     converted.schema = file.schema;
     converted.crs = file.crs;
     converted.findings = std::move(file.findings);

@@ -14,9 +14,11 @@
 
 namespace thalweg::pipeline {
 
-/// Options of convert().
+/// Options of run_convert().
 struct ConvertParams {
-    std::string path = {}; ///< any input of io::read_network
+    std::string path = {};   ///< any input of io::read_network
+    std::string output = {}; ///< a file or a database ("PG:...")
+    io::Existing existing = io::Existing::refuse;
     io::ReadNetworkParams read = {};
     io::Schema schema = io::Schema::native;
     std::string format = {};           ///< a name of io::network_formats(); "": by the output's extension
@@ -29,7 +31,7 @@ struct ConvertParams {
 };
 
 /// The result of a conversion.
-struct Converted {
+struct ConvertResult {
     std::vector<std::string> written; ///< files, or relations of a database
     std::string schema;               ///< naming scheme of the source
     std::string crs;
@@ -41,16 +43,13 @@ struct Converted {
     std::vector<Finding> findings; ///< from reading
 };
 
-/// Reads a network and writes it in any schema and format, to a file or a database ("PG:..."). Arcs are in the order of
-/// their ids, renumbered from the schema's first id; orders and basins are computed. Attributes that the schema lacks
-/// are lost; unknown values get the schema's mark for unknown; unknown heights are 0. The output is written completely
-/// or not at all; the source is never replaced.
-/// \param output path of the output
-/// \param existing whether existing output is replaced
+/// Runs `thalweg convert`: reads a network and writes it in any schema and format. Arcs are in the order of their ids,
+/// renumbered from the schema's first id; orders and basins are computed. Attributes that the schema lacks are lost;
+/// unknown values get the schema's mark for unknown; unknown heights are 0. The output is written completely or not at
+/// all; the source is never replaced.
 /// \return files and changes
 /// \throws BadInput when the source is not a forest, the DEM does not cover it, the output exists and existing is
 /// refuse, or the output is the source
-Converted convert(ConvertParams const& params, std::string const& output, io::Existing existing = io::Existing::refuse,
-                  Run const& run = {});
+ConvertResult run_convert(ConvertParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

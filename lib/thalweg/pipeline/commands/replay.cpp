@@ -20,13 +20,14 @@ constexpr std::int64_t largest_file = std::int64_t{1} << 40;
 
 } // namespace
 
-Replayed replay(std::string const& folder, Run const& run) {
+ReplayResult run_replay(ReplayParams const& params, Run const& run) {
+    std::string const& folder = params.folder;
     std::string const recipe_file = folder + "/recipe.toml";
     Recipe recipe = read_recipe(io::read_text(recipe_file, 2 << 20), recipe_file);
     recipe.folder = folder;
     io::TemporaryFolder const aside("thalweg-replay");
     std::string const again = (aside.path() / "again").string();
-    Replayed out;
+    ReplayResult out;
     for (std::string const& name : write_terrain(make(recipe, run), again, io::Existing::refuse, run)) {
         if (name.rfind("report.", 0) == 0) {
             continue; // times differ

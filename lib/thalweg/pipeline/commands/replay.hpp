@@ -9,18 +9,23 @@
 
 namespace thalweg::pipeline {
 
+/// Options of run_replay().
+struct ReplayParams {
+    std::string folder; ///< written by make
+};
+
 /// Comparison of a folder with the current result of its recipe.
-struct Replayed {
+struct ReplayResult {
     std::vector<std::string> same;
     std::vector<std::string> differ;
     std::vector<std::string> missing; ///< in the folder
     bool verified() const { return differ.empty() && missing.empty(); }
 };
 
-/// Runs FOLDER/recipe.toml in a temporary folder and compares the bytes of every file except report.*; the folder is
-/// not changed.
+/// Runs `thalweg replay`: makes FOLDER/recipe.toml in a temporary folder and compares the bytes of every file except
+/// report.*; the folder is not changed.
 /// \return the files that differ
 /// \throws BadInput when there is no recipe; as make_terrain
-Replayed replay(std::string const& folder, Run const& run = {});
+ReplayResult run_replay(ReplayParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

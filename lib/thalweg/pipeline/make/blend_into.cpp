@@ -19,7 +19,7 @@ Raster<float> cut(Raster<float> const& source, blend::SourceWindow const& w, std
     refuse_if<BadInput>(w.col < 0 || w.row < 0 || w.width < 1 || w.height < 1 || w.width > source.width() ||
                             w.height > source.height() || w.col > source.width() - w.width ||
                             w.row > source.height() - w.height,
-                        "pipeline.make_blend: a window of {} x {} cells at column {}, row {} of {}, which has {} x {}; "
+                        "pipeline.blend_into: a window of {} x {} cells at column {}, row {} of {}, which has {} x {}; "
                         "it must lie within",
                         w.width, w.height, w.col, w.row, path, source.width(), source.height());
     Grid frame = source.grid();
@@ -46,7 +46,7 @@ struct PastedSource {
 
 /// The coordinates in which a source is placed on the target.
 Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
-    std::string const whose = "pipeline.make_blend: " + params.source.path;
+    std::string const whose = "pipeline.blend_into: " + params.source.path;
     std::string const target_words = "the target " + params.target;
     bool const is_same = io::same_crs(source.crs, target.crs, whose, target_words);
     bool const is_distorted = io::is_distorted(target); // a metre has its local length
@@ -73,7 +73,7 @@ PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run co
     Raster<float> dem = io::read_dem(params.source, {.nodata = params.nodata}, run);
     PastedSource source;
     Grid const frame = frame_for(dem.grid(), grid, params, source);
-    std::string const what = "pipeline.make_blend: " + params.source.path;
+    std::string const what = "pipeline.blend_into: " + params.source.path;
     source.is_warped =
         !io::same_crs(dem.grid().crs, frame.crs, what, "the target") || !io::same_size(dem.grid(), frame);
     if (!source.is_warped) {
@@ -114,7 +114,7 @@ Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
 MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run) {
     Grid const& grid = target.grid();
     refuse_if<BadInput>(params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees,
-                        "pipeline.make_blend: {} is in degrees, so its cells are not square and a patch cannot be "
+                        "pipeline.blend_into: {} is in degrees, so its cells are not square and a patch cannot be "
                         "rotated: warp it (gdalwarp -t_srs)",
                         params.target);
     PastedSource const source = read_source(params, grid, run);

@@ -12,7 +12,7 @@
 
 namespace thalweg::pipeline {
 
-/// Options of make_blend().
+/// Options of blend_into().
 struct MakeBlendParams {
     std::string target = {};     ///< a DEM
     io::Source source = {};      ///< a DEM, in any CRS and of any cell size

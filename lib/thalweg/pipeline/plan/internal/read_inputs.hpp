@@ -55,7 +55,7 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run);
 double usual_slope_deg(double cell_m);
 
 /// Throws BadInput if a file's coordinates are known not to be metres. grid: read from the file at path; who:
-/// "pipeline.make_points", for the message.
+/// "pipeline.run_points", for the message.
 void require_metres(Grid const& grid, std::string const& path, char const* who);
 
 } // namespace thalweg::pipeline

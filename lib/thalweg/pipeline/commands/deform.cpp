@@ -1,9 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make_deform.hpp>
+#include <thalweg/pipeline/commands/deform.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <limits>
 #include <utility>
 
@@ -19,9 +18,19 @@
 
 namespace thalweg::pipeline {
 
-blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
+namespace {
+
+blend::Deformed deform_dem(DeformParams const& params, Run const& run) {
+    refuse_if<BadParameter>(params.rotate_deg != 0.0 || params.axis,
+                            "pipeline.run_deform: --rotate and --axis turn meshes (.2dm, .obj, .off); a DEM has one "
+                            "height a cell. `thalweg tin` makes a mesh of it, `thalweg blend --rotate` turns a patch "
+                            "about the vertical");
+    refuse_if<BadParameter>(!params.source_crs.empty(),
+                            "pipeline.run_deform: --source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS "
+                            "by gdal_edit.py -a_srs");
+    io::OutputFile file(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
-                            "pipeline.make_deform: nothing to do: give a scale or heights to pull to");
+                            "pipeline.run_deform: nothing to do: give a scale or heights to pull to");
     Raster<float> const target = io::read_dem(params.target, {.nodata = params.nodata}, run);
     Grid const& grid = target.grid();
     Mask const region = read_part(params.mask, grid, run);
@@ -29,15 +38,16 @@ blend::Deformed make_deform(MakeDeformParams const& params, Run const& run) {
     for (Vec3 const& h : params.handles) {
         Cell const cell = grid.cell_of({h.x, h.y});
         refuse_if<BadInput>(!grid.contains(cell),
-                            "pipeline.make_deform: ({}, {}) lies outside {}, which reaches from ({}, {}) to ({}, {})",
+                            "pipeline.run_deform: ({}, {}) lies outside {}, which reaches from ({}, {}) to ({}, {})",
                             h.x, h.y, params.target, grid.west, grid.south(), grid.east(), grid.north);
         handles.push_back({cell, h.z});
     }
     run.at(0.0, "deform");
-    return blend::deform(target, region, handles, {.scale = params.scale}, run);
+    blend::Deformed made = blend::deform(target, region, handles, {.scale = params.scale}, run);
+    io::write_dem(made.dem, file.staging(), run);
+    file.commit();
+    return made;
 }
-
-namespace {
 
 /// Whether an odd number of a polygon's rings surrounds a position.
 bool surrounds(Polygon const& polygon, Vec2 p) {
@@ -79,10 +89,10 @@ std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Ve
 }
 
 /// The CRS of a mesh without one: its mask's; "": neither has one.
-std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
+std::string crs_of_mask(DeformParams const& params, Run const& run) {
     io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
     refuse_if<BadInput>(!mask.crs.empty() && !mask.in_metres,
-                        "pipeline.make_deform_tin: {} is in {:.60}, {} has no CRS: name it (--source-crs EPSG:n)",
+                        "pipeline.run_deform: {} is in {:.60}, {} has no CRS: name it (--source-crs EPSG:n)",
                         params.mask, mask.crs, params.target);
     if (!mask.crs.empty()) {
         run.say(fmt::format("note: {} has no CRS: it is taken to be in {:.60}, as {}.", params.target, mask.crs,
@@ -91,11 +101,15 @@ std::string crs_of_mask(MakeDeformTinParams const& params, Run const& run) {
     return std::move(mask.crs);
 }
 
-} // namespace
-
-DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
+DeformedTin deform_mesh(DeformParams const& params, Run const& run) {
+    refuse_if<BadParameter>(params.nodata.has_value(),
+                            "pipeline.run_deform: --nodata is for DEMs: a mesh has no cells");
+    Vec3 const axis = params.axis.value_or(Vec3{0.0, 0.0, 1.0});
+    refuse_if<BadParameter>(axis == Vec3{}, "pipeline.run_deform: --axis 0,0,0 has no direction");
+    io::TinFormat const format = io::tin_format("", params.output);
+    io::OutputFile output(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.rotate_deg == 0.0 && params.handles.empty(),
-                            "pipeline.make_deform_tin: nothing to do: give a scale, a rotation or heights to pull to");
+                            "pipeline.run_deform: nothing to do: give a scale, a rotation or heights to pull to");
     io::TinFile file = io::read_tin(params.target, run);
     if (file.crs.empty()) {
         file.crs = params.source_crs.empty() ? crs_of_mask(params, run) : io::projected_crs(params.source_crs);
@@ -104,11 +118,11 @@ DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
     std::vector<char> const inside = vertices_inside(tin, io::read_polygons(params.mask, file.crs, run));
     DeformedTin made;
     made.vertices = std::count(inside.begin(), inside.end(), char{1});
-    refuse_if<BadInput>(made.vertices == 0, "pipeline.make_deform_tin: no vertex of {} lies in {}", params.target,
+    refuse_if<BadInput>(made.vertices == 0, "pipeline.run_deform: no vertex of {} lies in {}", params.target,
                         params.mask);
     bool const turns = params.rotate_deg != 0.0;
     auto const measured = turns ? geometry::Measured::on_surface : geometry::Measured::in_plan;
-    blend::LinearMap const map = blend::rotation(params.axis, params.rotate_deg, params.scale);
+    blend::LinearMap const map = blend::rotation(axis, params.rotate_deg, params.scale);
     std::vector<blend::CoordinateGradients> guidance = blend::gradients_of(tin, tin.vertices, measured);
     for (std::size_t t = 0; t < guidance.size(); ++t) {
         auto const& corners = tin.triangles[t];
@@ -131,7 +145,18 @@ DeformedTin make_deform_tin(MakeDeformTinParams const& params, Run const& run) {
     made.tin = std::move(pasted.tin);
     made.residual = pasted.residual;
     made.crs = std::move(file.crs);
+    io::write_tin(made.tin, made.crs, output.staging(), format, HeightUnit::metre, run);
+    output.commit();
     return made;
+}
+
+} // namespace
+
+DeformResult run_deform(DeformParams const& params, Run const& run) {
+    if (io::holds_tin(params.target)) {
+        return deform_mesh(params, run);
+    }
+    return deform_dem(params, run);
 }
 
 } // namespace thalweg::pipeline

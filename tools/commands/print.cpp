@@ -1,12 +1,24 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include "commands/verdict.hpp"
+#include "commands/print.hpp"
 
 #include <algorithm>
+#include <cstdio>
 
 #include <fmt/format.h>
 
 namespace thalweg::tools {
+
+void print_result(Session const& session, nlohmann::ordered_json const& json, std::vector<std::string> const& files,
+                  int indent) {
+    if (session.json) {
+        fmt::print("{}\n", json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        return;
+    }
+    for (std::string const& file : files) {
+        fmt::print("{}\n", file);
+    }
+}
 
 std::string limit_in_words(Check const& check) {
     return fmt::format("{} {:.6g}", check.bound == Bound::at_least ? "at least" : "at most", check.limit);

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make_measures.hpp>
+#include <thalweg/pipeline/commands/measure.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -18,9 +18,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
-#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -40,7 +38,7 @@ struct Measured {
     std::string network; ///< "": none
 };
 
-Measured source_of(MakeMeasuresParams const& params) {
+Measured source_of(MeasureParams const& params) {
     std::error_code ignored;
     Measured source{params.dem, params.network};
     if (fs::is_directory(params.dem, ignored)) {
@@ -53,16 +51,11 @@ Measured source_of(MakeMeasuresParams const& params) {
     return source;
 }
 
-// The names of the measures: d8, dinf, directions, catchments.
-std::vector<std::string> measure_names() {
-    return {d8, dinf, directions, outlines};
-}
-
-std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const& source) {
-    std::vector<std::string> const known = measure_names();
+std::set<std::string> wanted_of(MeasureParams const& params, Measured const& source) {
+    std::vector<std::string> const known{d8, dinf, directions, outlines};
     for (std::string const& word : params.what) {
         if (std::find(known.begin(), known.end(), word) == known.end()) {
-            throw BadParameter(fmt::format("pipeline.make_measures: unknown measure '{}'; the measures are {}.{}", word,
+            throw BadParameter(fmt::format("pipeline.run_measure: unknown measure '{}'; the measures are {}.{}", word,
                                            fmt::join(known, ", "), did_you_mean(word, known)));
         }
     }
@@ -74,7 +67,7 @@ std::set<std::string> wanted_of(MakeMeasuresParams const& params, Measured const
         }
     }
     refuse_if<BadInput>(wanted.contains(outlines) && source.network.empty(),
-                        "pipeline.make_measures: catchments need rivers: name a network after the DEM");
+                        "pipeline.run_measure: catchments need rivers: name a network after the DEM");
     return wanted;
 }
 
@@ -144,7 +137,7 @@ private:
             }
         }
         if (!names.empty() && existing == io::Existing::refuse) {
-            throw BadInput(fmt::format("pipeline.make_measures: {} already exists: name another folder or use "
+            throw BadInput(fmt::format("pipeline.run_measure: {} already exists: name another folder or use "
                                        "--overwrite",
                                        (fs::path(folder) / names.front()).string()));
         }
@@ -195,26 +188,25 @@ std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments co
 
 } // namespace
 
-MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& output, io::Existing existing,
-                           Run const& run) {
+MeasureResult run_measure(MeasureParams const& params, Run const& run) {
     Measured const source = source_of(params);
     auto const wanted = wanted_of(params, source);
-    Writer out(output, wanted, existing);
+    Writer out(params.output, wanted, params.existing);
     Raster<float> const dem = io::read_dem(source.dem, {.nodata = params.nodata}, run);
-    require_metres(dem.grid(), source.dem, "pipeline.make_measures");
+    require_metres(dem.grid(), source.dem, "pipeline.run_measure");
     NetworkFile network;
     if (wanted.contains(outlines)) {
         io::ReadNetworkParams how = params.read;
         how.crs = dem.grid().crs;
         network = io::read_network(source.network, how, run);
         refuse_if<BadInput>(!network.crs.empty() && dem.grid().crs.empty(),
-                            "pipeline.make_measures: {} has no CRS, {} is in {:.60}: give the DEM its CRS first "
+                            "pipeline.run_measure: {} has no CRS, {} is in {:.60}: give the DEM its CRS first "
                             "(gdal_translate -a_srs)",
                             source.dem, source.network, network.crs);
     }
 
     flow::FlowField const drainage = flow::route(dem, run);
-    MadeMeasures made;
+    MeasureResult made;
     made.pits = drainage.pits;
     made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
                                [](flow::Direction way) { return way != flow::Direction::no_data; });
@@ -244,38 +236,6 @@ MadeMeasures make_measures(MakeMeasuresParams const& params, std::string const& 
     }
     made.files = out.commit();
     return made;
-}
-
-MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params, Run const& run) {
-    std::string const name = std::filesystem::path(path).filename().string();
-    if (!io::has_square_cells(path)) {
-        constexpr std::int64_t most_side = 30000;
-        io::Drawable read = io::read_drawable(path, {.most_side = most_side, .nodata = params.nodata}, run);
-        for (std::string& note : read.notes) {
-            note.insert(0, name + ": ");
-        }
-        return {std::move(read.dem), std::move(read.notes)};
-    }
-    MetricDem out{io::read_dem(path, params, run), {}};
-    Grid const own = out.dem.grid();
-    io::GroundCell const ground = io::ground_cell(own);
-    bool const is_distorted = ground.unit == io::GridUnit::distorted;
-    if (ground.unit != io::GridUnit::degrees && !is_distorted) {
-        return out;
-    }
-    Grid lattice;
-    lattice.cell_m = ground.side_m;
-    lattice.crs =
-        is_distorted ? ground.crs : io::utm_zone(0.5 * (own.west + own.east()), 0.5 * (own.south() + own.north));
-    lattice.west = 0.0;
-    lattice.north = 0.0;
-    out.dem = io::warp_to_grid(out.dem, lattice, "pipeline.dem_in_metres: " + path, run);
-    out.notes.push_back(fmt::format("{}: coordinates in {} are reprojected into {}, onto cells of {:.2f} m", name,
-                                    is_distorted ? fmt::format("{:.60}, whose metres are {:.2f} m on the ground,",
-                                                               own.crs, ground.side_m / own.cell_m)
-                                                 : "degrees",
-                                    fmt::format("{:.60}", lattice.crs), ground.side_m));
-    return out;
 }
 
 } // namespace thalweg::pipeline

@@ -9,25 +9,26 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 
 namespace thalweg::pipeline {
 
-/// Input and output of `thalweg check`.
-struct CheckJob {
+/// Options of run_check().
+struct CheckParams {
     std::string network = {};        ///< as for io::read_network
     io::ReadNetworkParams read = {}; ///< how its fields are read
     std::string dem = {};            ///< a DEM that the network should drain, and by which fix orients lines; "": none
     std::string fix = {};            ///< NAME.gpkg or NAME.shp: a repaired copy; "": none
     std::string findings = {};       ///< NAME.gpkg: the findings as points; "": none
-    double near_m = 0.0;             ///< [m] >= 0: as measure::TopologyParams
-    bool overwrite = false;          ///< replace existing fix and findings
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    io::Existing existing = io::Existing::refuse; ///< fix and findings
+    double near_m = 0.0;                          ///< [m] >= 0: as measure::TopologyParams
+    std::optional<double> nodata = {};            ///< of the DEM, as in io::ReadDemParams
 };
 
-/// What check_files() returns.
-struct CheckedFiles {
+/// What run_check() returns.
+struct CheckResult {
     std::int64_t arcs = 0;
     std::int64_t nodes = 0;
     std::string schema;            ///< naming scheme of the network's fields
@@ -42,19 +43,18 @@ struct CheckedFiles {
     bool ok() const;
 };
 
-/// Checks a network's files, optionally with a DEM; writes the findings, and a repaired copy in the native schema if it
-/// passes the topology check itself. For a repaired copy, lines of an unknown schema are accepted as they are. The
-/// input is never changed.
-/// \param job the files and options
+/// Runs `thalweg check`: checks a network's files, optionally with a DEM; writes the findings, and a repaired copy in
+/// the native schema if it passes the topology check itself. For a repaired copy, lines of an unknown schema are
+/// accepted as they are. The input is never changed.
 /// \return findings, and the files written
 /// \throws BadInput when a file cannot be read as a network or DEM, or an output exists already
 /// \throws BadParameter as the readers, and for an output that is the input or not .gpkg or .shp
-CheckedFiles check_files(CheckJob const& job, Run const& run = {});
+CheckResult run_check(CheckParams const& params, Run const& run = {});
 
 /// Formats the result as one JSON object: ok, arcs, nodes, schema, checks, findings, notes, mended, written;
 /// certificate with a DEM.
 /// \param checked the result of a check
 /// \return JSON
-std::string as_json(CheckedFiles const& checked);
+std::string as_json(CheckResult const& checked);
 
 } // namespace thalweg::pipeline

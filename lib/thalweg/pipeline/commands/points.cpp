@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make_points.hpp>
+#include <thalweg/pipeline/commands/points.hpp>
 
 #include <filesystem>
 #include <limits>
@@ -10,6 +10,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -49,23 +50,26 @@ SkeletonOfLand skeleton_of(Raster<float> land, fs::path const& folder, Run const
 
 } // namespace
 
-MadePoints make_points(MakePointsParams const& params, std::string const& output, Run const& run) {
+PointsResult run_points(PointsParams const& params, Run const& run) {
+    io::WritePointsParams const write{io::point_format(params.format, params.output), params.every};
+    io::OutputFile file(params.output, params.existing);
     std::error_code ignored;
     bool const is_folder = fs::is_directory(params.path, ignored);
     refuse_if<BadParameter>(params.of == PointsOf::skeleton && !is_folder,
-                            "pipeline.make_points: --skeleton needs a folder written by make; {} is not one",
+                            "pipeline.run_points: --skeleton needs a folder written by make; {} is not one",
                             params.path);
     fs::path const folder(params.path);
     Raster<float> land =
         io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, {.nodata = params.nodata}, run);
-    require_metres(land.grid(), params.path, "pipeline.make_points");
-    MadePoints made{0, land.grid().crs};
+    require_metres(land.grid(), params.path, "pipeline.run_points");
+    PointsResult made{0, land.grid().crs};
     if (params.of == PointsOf::skeleton) {
         SkeletonOfLand const drawn = skeleton_of(std::move(land), folder, run);
-        made.count = io::write_points(drawn.skeleton, drawn.rivers, output, params.write, run);
+        made.count = io::write_points(drawn.skeleton, drawn.rivers, file.staging(), write, run);
     } else {
-        made.count = io::write_points(land, output, params.write, run);
+        made.count = io::write_points(land, file.staging(), write, run);
     }
+    file.commit();
     return made;
 }
 

@@ -5,9 +5,17 @@
 #include <string>
 #include <vector>
 
+#include <nlohmann/json.hpp>
+
 #include <thalweg/core/finding.hpp>
 
+#include "commands/commands.hpp"
+
 namespace thalweg::tools {
+
+/// Prints what a command that writes files says on stdout: one JSON object, or the names of the files.
+void print_result(Session const& session, nlohmann::ordered_json const& json, std::vector<std::string> const& files,
+                  int indent = 2);
 
 /// The limit of a check: "at least 0.95".
 std::string limit_in_words(Check const& check);

@@ -8,13 +8,17 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/points.hpp>
 
 namespace thalweg::pipeline {
 
-/// Options of make_tin().
-struct MakeTinParams {
-    std::string path = {};              ///< a DEM, points, lines with heights, or a folder written by make
+/// Options of run_tin().
+struct TinParams {
+    std::string path = {};   ///< a DEM, points, lines with heights, or a folder written by make
+    std::string output = {}; ///< a new file
+    io::Existing existing = io::Existing::refuse;
+    std::string format = {};            ///< a name of io::tin_formats(); "": by the output's extension
     std::string breaklines = {};        ///< lines with heights, for points and lines; "": none
     std::string crs = {};               ///< of the result, projected, in metres; "": the file's own
     std::optional<double> error_m = {}; ///< [m] > 0, for a DEM; 1 if not set
@@ -26,7 +30,7 @@ struct MakeTinParams {
 };
 
 /// A TIN and the statistics of its construction.
-struct MadeTin {
+struct TinResult {
     Tin tin;
     std::string crs;
     std::string source;            ///< "dem", "points" or "network"
@@ -40,11 +44,12 @@ struct MadeTin {
     double crossings_dz_m = 0.0;
 };
 
-/// Reads a file and makes a TIN of its content: a DEM within an error; points, with breaklines; lines as breaklines.
+/// Runs `thalweg tin`: reads a file and writes a TIN of its content, completely or not at all: of a DEM within an
+/// error; of points, with breaklines; of lines as breaklines.
 /// \param params files and options; breaklines are reprojected to the CRS of the points
 /// \return as the stages
-/// \throws BadParameter when an option does not apply to the file's content
-/// \throws BadInput as the stages and readers, and when lines have no heights
-MadeTin make_tin(MakeTinParams const& params, Run const& run = {});
+/// \throws BadParameter when an option does not apply to the file's content, or for an unknown format
+/// \throws BadInput as the stages, readers and io::OutputFile, and when lines have no heights
+TinResult run_tin(TinParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make_tin.hpp>
+#include <thalweg/pipeline/commands/tin.hpp>
 
 #include <utility>
 #include <vector>
@@ -12,6 +12,7 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -29,11 +30,11 @@ struct Breaklines {
 
 Breaklines read_lines(std::string const& path, std::string const& crs, std::string const& source_crs, Run const& run) {
     io::FileContent const content = io::content_of(path);
-    refuse_if<BadInput>(content.kind != Kind::lines, "pipeline.make_tin: {} holds no lines", path);
+    refuse_if<BadInput>(content.kind != Kind::lines, "pipeline.run_tin: {} holds no lines", path);
     RiverLines rivers =
         io::read_rivers({.path = content.path, .layer = content.layer, .crs = crs, .source_crs = source_crs}, run);
     refuse_if<BadInput>(!rivers.has_z,
-                        "pipeline.make_tin: the lines of {} have no heights (or all the same): a TIN takes lines with "
+                        "pipeline.run_tin: the lines of {} have no heights (or all the same): a TIN takes lines with "
                         "Z, such as layer arcs of a network.gpkg",
                         content.path);
     Breaklines read{{}, rivers.crs};
@@ -43,14 +44,14 @@ Breaklines read_lines(std::string const& path, std::string const& crs, std::stri
     return read;
 }
 
-MadeTin of_dem(std::string const& path, MakeTinParams const& params, Run const& run) {
+TinResult of_dem(std::string const& path, TinParams const& params, Run const& run) {
     double const error_m = params.error_m.value_or(geometry::TinOfDemParams{}.error_m);
     auto const dem = io::read_dem(path, {.nodata = params.nodata}, run);
     if (io::is_distorted(dem.grid())) {
-        require_metres(dem.grid(), path, "pipeline.make_tin");
+        require_metres(dem.grid(), path, "pipeline.run_tin");
     }
     auto simplified = geometry::tin_of_dem(dem, {error_m}, run);
-    MadeTin made;
+    TinResult made;
     made.tin = std::move(simplified.tin);
     made.crs = dem.grid().crs;
     made.source = "dem";
@@ -59,9 +60,9 @@ MadeTin of_dem(std::string const& path, MakeTinParams const& params, Run const& 
     return made;
 }
 
-MadeTin of_points(std::vector<Vec3> const& points, Breaklines const& breaklines, char const* source, Run const& run) {
+TinResult of_points(std::vector<Vec3> const& points, Breaklines const& breaklines, char const* source, Run const& run) {
     auto triangulation = geometry::triangulate(points, breaklines.lines, run);
-    MadeTin made;
+    TinResult made;
     made.tin = std::move(triangulation.tin);
     made.crs = breaklines.crs;
     made.source = source;
@@ -72,34 +73,31 @@ MadeTin of_points(std::vector<Vec3> const& points, Breaklines const& breaklines,
     return made;
 }
 
-} // namespace
-
-MadeTin make_tin(MakeTinParams const& params, Run const& run) {
+TinResult tin_of(TinParams const& params, Run const& run) {
     io::FileContent const content = io::content_of(params.path);
     if (params.duplicates && content.kind != Kind::points) {
-        throw BadParameter(fmt::format("pipeline.make_tin: --duplicates applies to points only; {} holds {}",
+        throw BadParameter(fmt::format("pipeline.run_tin: --duplicates applies to points only; {} holds {}",
                                        content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
     }
     if (!params.columns.empty() && content.kind != Kind::points) {
-        throw BadParameter(fmt::format("pipeline.make_tin: --columns applies to text with points; {} holds {}",
+        throw BadParameter(fmt::format("pipeline.run_tin: --columns applies to text with points; {} holds {}",
                                        content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
     }
     if (content.kind == Kind::raster) {
         refuse_if<BadParameter>(
             !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty(),
-            "pipeline.make_tin: --breaklines, --crs and --source-crs apply to points and lines, not to a DEM");
+            "pipeline.run_tin: --breaklines, --crs and --source-crs apply to points and lines, not to a DEM");
         return of_dem(content.path, params, run);
     }
     for (auto const& [option, given] :
          {std::pair{"--error", params.error_m.has_value()}, std::pair{"--nodata", params.nodata.has_value()}}) {
         if (given) {
-            throw BadParameter(fmt::format("pipeline.make_tin: {} applies to a DEM only; {} holds {}", option,
+            throw BadParameter(fmt::format("pipeline.run_tin: {} applies to a DEM only; {} holds {}", option,
                                            content.path, content.kind == Kind::points ? "points" : "lines"));
         }
     }
     if (content.kind == Kind::points) {
         FeaturePoints const points =
-
             io::read_points({.path = content.path,
                              .crs = params.crs,
                              .duplicates = params.duplicates.value_or(io::DuplicatePoints::averaged),
@@ -110,7 +108,7 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
         if (!params.breaklines.empty()) {
             breaklines = read_lines(params.breaklines, points.crs, params.source_crs, run);
         }
-        MadeTin made = of_points(points.points, breaklines, "points", run);
+        TinResult made = of_points(points.points, breaklines, "points", run);
         made.averaged = points.averaged;
         made.averaged_dz_m = points.averaged_dz_m;
         return made;
@@ -128,6 +126,17 @@ MadeTin make_tin(MakeTinParams const& params, Run const& run) {
         network.lines.insert(network.lines.end(), more.lines.begin(), more.lines.end());
     }
     return of_points({}, network, "network", run);
+}
+
+} // namespace
+
+TinResult run_tin(TinParams const& params, Run const& run) {
+    io::TinFormat const format = io::tin_format(params.format, params.output);
+    io::OutputFile file(params.output, params.existing);
+    TinResult made = tin_of(params, run);
+    io::write_tin(made.tin, made.crs, file.staging(), format, HeightUnit::metre, run);
+    file.commit();
+    return made;
 }
 
 } // namespace thalweg::pipeline

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/draw_files.hpp>
+#include <thalweg/pipeline/commands/draw.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -32,12 +32,6 @@ struct SceneRead {
     std::vector<std::string> notes; // changes and choices for the pictures, as sentences
 };
 
-// A folder written by make, or a raster of heights.
-struct SceneSource {
-    std::string path;
-    std::optional<double> nodata = {}; // as in io::ReadDrawableParams
-};
-
 namespace fs = std::filesystem;
 
 constexpr std::int64_t largest_text = 1 << 30;
@@ -50,7 +44,7 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
     for (NetworkFile::FileNode const& node : file.nodes) {
         NodeId const id = plan.add_node({node.at.x, node.at.y});
         refuse_if<BadInput>(!nodes.emplace(node.id, id).second,
-                            "pipeline.read_scene: {}: node {} is there twice; check the network (thalweg check)", name,
+                            "pipeline.run_draw: {}: node {} is there twice; check the network (thalweg check)", name,
                             node.id);
         out.node_z.push_back(node.at.z);
     }
@@ -58,7 +52,7 @@ ElevatedNetwork network_of(NetworkFile const& file, std::string const& name) {
         auto const from = nodes.find(arc.from_node);
         auto const to = nodes.find(arc.to_node);
         refuse_if<BadInput>(from == nodes.end() || to == nodes.end() || arc.line.size() < 2,
-                            "pipeline.read_scene: {}: arc {} lacks a node or a line; check the network (thalweg check)",
+                            "pipeline.run_draw: {}: arc {} lacks a node or a line; check the network (thalweg check)",
                             name, arc.id);
         Arc drawn;
         std::vector<double> z;
@@ -168,8 +162,8 @@ void read_increments(Scene& scene, Recipe const& recipe, std::string const& repo
     }
 }
 
-SceneRead read_folder(SceneSource const& source, std::string const& network, Run const& run) {
-    fs::path const folder = source.path;
+SceneRead read_folder(DrawParams const& params, Run const& run) {
+    fs::path const folder = params.source;
     SceneRead out;
     Scene& scene = out.scene;
     std::string const dem = (folder / "dem.tif").string();
@@ -177,17 +171,17 @@ SceneRead read_folder(SceneSource const& source, std::string const& network, Run
     std::string const recipe = (folder / "recipe.toml").string();
     std::string const report = (folder / "report.json").string();
     if (!fs::exists(dem) && !fs::exists(rivers)) {
-        throw BadInput(fmt::format("pipeline.read_scene: {} holds neither dem.tif nor network.gpkg: name a folder "
+        throw BadInput(fmt::format("pipeline.run_draw: {} holds neither dem.tif nor network.gpkg: name a folder "
                                    "written by make, or a raster",
                                    folder.string()));
     }
     if (fs::exists(dem)) {
-        io::Drawable read = io::read_drawable(dem, {.metres = io::MetresOf::any_crs, .nodata = source.nodata},
+        io::Drawable read = io::read_drawable(dem, {.metres = io::MetresOf::any_crs, .nodata = params.nodata},
                                               run); // the choice of its maker
         scene.dem = std::move(read.dem);
         out.notes = std::move(read.notes);
     }
-    if (network.empty() && fs::exists(rivers)) {
+    if (params.network.empty() && fs::exists(rivers)) {
         NetworkFile const file = io::read_network(rivers, run);
         scene.network = network_of(file, rivers);
         for (NetworkFile::FileArc const& arc : file.arcs) {
@@ -211,23 +205,24 @@ SceneRead read_folder(SceneSource const& source, std::string const& network, Run
 // the DEM, imported and ordered, with the file's heights if these fall everywhere, else the DEM's. The title is from
 // the recipe or the raster's name. Throws BadInput when the folder contains nothing to draw; as the readers and
 // network::import_lines.
-SceneRead read_scene(SceneSource const& from, std::string const& network = {}, Run const& run = {}) {
-    std::string const& source = from.path;
+SceneRead read_scene(DrawParams const& params, Run const& run) {
+    std::string const& source = params.source;
+    std::string const& network = params.network;
     SceneRead out;
     std::error_code ignored;
     if (fs::is_directory(source, ignored) &&
         (fs::exists(fs::path(source) / "dem.tif") || fs::exists(fs::path(source) / "report.json") ||
          fs::exists(fs::path(source) / "network.gpkg") || fs::path(source).extension().empty())) {
-        out = read_folder(from, network, run);
+        out = read_folder(params, run);
     } else {
-        io::Drawable read = io::read_drawable(source, {.nodata = from.nodata}, run);
+        io::Drawable read = io::read_drawable(source, {.nodata = params.nodata}, run);
         out.scene.dem = std::move(read.dem);
         out.notes = std::move(read.notes);
         out.scene.title = fs::path(source).stem().string();
     }
     if (!network.empty()) {
         if (!out.scene.dem) {
-            throw BadInput(fmt::format("pipeline.read_scene: there is no DEM to lay the rivers of {} on", network));
+            throw BadInput(fmt::format("pipeline.run_draw: there is no DEM to lay the rivers of {} on", network));
         }
         out.scene.network = rivers_on(*out.scene.dem, network, out.notes, run);
     }
@@ -247,7 +242,7 @@ constexpr char const* page_word = "page";
 constexpr char const* page_ending = ".html";
 
 [[noreturn]] void unknown(char const* what, std::string const& word, std::vector<std::string> const& known) {
-    throw BadParameter(fmt::format("pipeline.draw_files: unknown {1} '{0}'; there are {2}.{3}", word, what,
+    throw BadParameter(fmt::format("pipeline.run_draw: unknown {1} '{0}'; there are {2}.{3}", word, what,
                                    fmt::join(known, ", "), did_you_mean(word, known)));
 }
 
@@ -297,7 +292,8 @@ template <class T, class Same> void add_once(std::vector<T>& list, T const& item
     }
 }
 
-Order order_of(std::string const& output, DrawParams const& params) {
+Order order_of(DrawParams const& params) {
+    std::string const& output = params.output;
     Order order;
     for (std::string const& word : params.what) {
         if (word == page_word) {
@@ -310,39 +306,37 @@ Order order_of(std::string const& output, DrawParams const& params) {
         add_once(order.formats, format_of(word),
                  [](NamedFormat const& a, NamedFormat const& b) { return a.format == b.format; });
     }
-    refuse_if<BadParameter>(output.empty(), "pipeline.draw_files: the name of the output is empty");
+    refuse_if<BadParameter>(output.empty(), "pipeline.run_draw: the name of the output is empty");
     fs::path const path(output);
     std::string const ending = path.extension().string();
-    if (!fs::is_directory(path) && ending == page_ending) {
-        refuse_if<BadParameter>(!order.kinds.empty() || !order.formats.empty(),
-                                "pipeline.draw_files: {} is the name of a page: name a folder for pictures", output);
-        order.page = true;
+    bool const is_folder = fs::is_directory(path);
+    bool const is_page = !is_folder && ending == page_ending;
+    bool const is_picture = !is_folder && std::any_of(std::begin(formats), std::end(formats), [&](auto const& f) {
+        return ending == std::string(".") + f.name;
+    });
+    order.folder = output;
+    if (is_page || is_picture) {
         order.single = path.filename().string();
         order.folder = path.has_parent_path() ? path.parent_path().string() : ".";
-        return order;
     }
-    bool const is_picture =
-        !fs::is_directory(path) && std::any_of(std::begin(formats), std::end(formats),
-                                               [&](auto const& f) { return ending == std::string(".") + f.name; });
-    if (!is_picture) {
-        order.folder = output;
-        if (order.formats.empty()) {
-            order.formats = {formats[0]};
+    if (is_page) {
+        refuse_if<BadParameter>(!order.kinds.empty() || !order.formats.empty(),
+                                "pipeline.run_draw: {} is the name of a page: name a folder for pictures", output);
+        order.page = true;
+    } else if (is_picture) {
+        NamedFormat const own = format_of(ending.substr(1));
+        bool const other = std::any_of(order.formats.begin(), order.formats.end(),
+                                       [&](NamedFormat const& f) { return f.format != own.format; });
+        refuse_if<BadParameter>(
+            order.kinds.size() > 1 || other || order.page,
+            "pipeline.run_draw: {} is the name of one picture in one format: name a folder for several", output);
+        if (order.kinds.empty()) {
+            order.kinds = {PictureKind::map};
         }
-        return order;
+        order.formats = {own};
+    } else if (order.formats.empty()) {
+        order.formats = {formats[0]};
     }
-    NamedFormat const own = format_of(ending.substr(1));
-    bool const other = std::any_of(order.formats.begin(), order.formats.end(),
-                                   [&](NamedFormat const& f) { return f.format != own.format; });
-    refuse_if<BadParameter>(
-        order.kinds.size() > 1 || other || order.page,
-        "pipeline.draw_files: {} is the name of one picture in one format: name a folder for several", output);
-    if (order.kinds.empty()) {
-        order.kinds = {PictureKind::map};
-    }
-    order.formats = {own};
-    order.single = path.filename().string();
-    order.folder = path.has_parent_path() ? path.parent_path().string() : ".";
     return order;
 }
 
@@ -357,7 +351,7 @@ std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
             continue;
         }
         if (!missing.empty()) {
-            throw BadInput(fmt::format("pipeline.draw_files: no {} can be drawn: {}", name_of(kind), missing));
+            throw BadInput(fmt::format("pipeline.run_draw: no {} can be drawn: {}", name_of(kind), missing));
         }
         for (NamedFormat const& format : order.formats) {
             tasks.push_back({kind, format.format,
@@ -381,8 +375,9 @@ std::string for_shell(std::string const& word) {
     return out + "'";
 }
 
-std::string command_of(std::string const& source, std::string const& output, DrawParams const& params) {
-    std::string command = fmt::format("thalweg draw {} -o {} --what page", for_shell(source), for_shell(output));
+std::string command_of(DrawParams const& params) {
+    std::string command =
+        fmt::format("thalweg draw {} -o {} --what page", for_shell(params.source), for_shell(params.output));
     if (!params.network.empty()) {
         command += " --network " + for_shell(params.network);
     }
@@ -394,10 +389,9 @@ std::string command_of(std::string const& source, std::string const& output, Dra
 
 } // namespace
 
-Drawn draw_files(std::string const& source, std::string const& output, DrawParams const& params, io::Existing existing,
-                 Run const& run) {
-    Order const order = order_of(output, params);
-    SceneRead read = read_scene({source, params.nodata}, params.network, run);
+DrawResult run_draw(DrawParams const& params, Run const& run) {
+    Order const order = order_of(params);
+    SceneRead read = read_scene(params, run);
     if (!params.title.empty()) {
         read.scene.title = params.title;
     }
@@ -408,20 +402,20 @@ Drawn draw_files(std::string const& source, std::string const& output, DrawParam
             there.push_back(task.name);
         }
     }
-    if (!there.empty() && existing == io::Existing::refuse) {
-        throw BadInput(fmt::format("pipeline.draw_files: {} already exists: name another or use --overwrite",
+    if (!there.empty() && params.existing == io::Existing::refuse) {
+        throw BadInput(fmt::format("pipeline.run_draw: {} already exists: name another or use --overwrite",
                                    (fs::path(order.folder) / there.front()).string()));
     }
     io::OutputFolder out(order.folder, io::Existing::add, there);
-    Drawn drawn{{}, std::move(read.notes)};
+    DrawResult drawn{{}, std::move(read.notes)};
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         run.at(static_cast<double>(i) / static_cast<double>(tasks.size()),
                tasks[i].kind ? name_of(*tasks[i].kind) : page_word);
         Look look = params.look;
         look.format = tasks[i].format;
-        io::write_text(out.path(tasks[i].name),
-                       tasks[i].kind ? draw_picture(*tasks[i].kind, read.scene, look, run).bytes
-                                     : scene_page(read.scene, drawn.notes, command_of(source, output, params), run));
+        io::write_text(out.path(tasks[i].name), tasks[i].kind
+                                                    ? draw_picture(*tasks[i].kind, read.scene, look, run).bytes
+                                                    : scene_page(read.scene, drawn.notes, command_of(params), run));
         drawn.files.push_back(order.folder == "." && !order.single.empty()
                                   ? tasks[i].name
                                   : (fs::path(order.folder) / tasks[i].name).string());

@@ -1,14 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/check_files.hpp>
+#include <thalweg/pipeline/commands/check.hpp>
 
 #include <algorithm>
-#include <cmath>
 #include <filesystem>
-#include <iterator>
 #include <limits>
 #include <unordered_map>
-#include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
@@ -35,12 +32,6 @@ struct RiverRasters {
     std::string drawn = {}; // cells into which rivers were drawn
     std::string lakes = {}; // cells of lakes
     bool waive = false;     // only drawn cells are honoured: patches replaced others
-};
-
-// A DEM.
-struct DemFile {
-    std::string path;
-    std::optional<double> nodata = {}; // as in io::ReadDemParams
 };
 
 /// By reach: the contributing area that the file gives for its lower end.
@@ -77,14 +68,14 @@ Mask cells_in(std::string const& raster, Grid const& grid) {
 // otherwise. Level parts of rivers count as lakes; nodes of the kind "sink" end their rivers. Throws BadInput when a
 // raster cannot be read, the network and the DEM have different CRS or only one has any, or no arc lies on the DEM; as
 // reaches_of_file for a network without directions; IoError.
-measure::Certificate certify_files(NetworkFile const& network, DemFile const& file, RiverRasters const& rasters = {},
-                                   Run const& run = {}) {
-    std::string const& dem = file.path;
+measure::Certificate certify_files(NetworkFile const& network, CheckParams const& params, RiverRasters const& rasters,
+                                   Run const& run) {
+    std::string const& dem = params.dem;
     Raster<float> const land =
-        io::read_stored_dem(dem, {.nodata = file.nodata}, run); // the unit does not change the flow
+        io::read_stored_dem(dem, {.nodata = params.nodata}, run); // the unit does not change the flow
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
         std::string const lines = network.crs.substr(0, 60);
-        throw BadInput(fmt::format("pipeline.certify_files: the network is in {}, {} in {}; reproject one of them "
+        throw BadInput(fmt::format("pipeline.run_check: the network is in {}, {} in {}; reproject one of them "
                                    "(ogr2ogr -t_srs, gdalwarp -t_srs {} {} OUT.tif)",
                                    lines, dem, land.grid().crs.substr(0, 60), lines, dem));
     }
@@ -110,7 +101,7 @@ namespace fs = std::filesystem;
 /// An output file, or the files of two shapefiles, created together.
 class CheckOutput {
 public:
-    CheckOutput(std::string const& path, char const* option, bool may_be_shapefile, CheckJob const& job)
+    CheckOutput(std::string const& path, char const* option, bool may_be_shapefile, CheckParams const& params)
         : folder_(fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : "."),
           stem_(fs::path(path).stem().string()) {
         std::string const ending = fs::path(path).extension().string();
@@ -126,10 +117,10 @@ public:
                 }
             }
         } else {
-            throw BadParameter(fmt::format("pipeline.check_files: {} {}: it must end in {}", option, path,
+            throw BadParameter(fmt::format("pipeline.run_check: {} {}: it must end in {}", option, path,
                                            may_be_shapefile ? ".gpkg or .shp" : ".gpkg"));
         }
-        refuse_present(option, job);
+        refuse_present(option, params);
     }
 
     bool is_shapefile() const { return names_.size() > 1; }
@@ -148,9 +139,9 @@ public:
     }
 
 private:
-    void refuse_present(char const* option, CheckJob const& job) {
+    void refuse_present(char const* option, CheckParams const& params) {
         std::error_code error;
-        fs::path const input = job.network;
+        fs::path const input = params.network;
         for (std::string const& name : names_) {
             fs::path const file = (fs::path(folder_) / name).lexically_normal();
             if (!fs::exists(file, error)) {
@@ -161,11 +152,11 @@ private:
                                   fs::equivalent(folder_, input.parent_path() / ".", error) &&
                                   stem_of(file) == stem_of(input);
             if (fs::equivalent(file, input, error) || in_input || of_input) {
-                throw BadParameter(fmt::format(
-                    "pipeline.check_files: {} {}: the input is not touched; name another file", option, file.string()));
+                throw BadParameter(fmt::format("pipeline.run_check: {} {}: the input is not touched; name another file",
+                                               option, file.string()));
             }
-            if (!job.overwrite) {
-                throw BadInput(fmt::format("pipeline.check_files: {} {}: it exists; --overwrite replaces it", option,
+            if (params.existing == io::Existing::refuse) {
+                throw BadInput(fmt::format("pipeline.run_check: {} {}: it exists; --overwrite replaces it", option,
                                            file.string()));
             }
             present_.push_back(name);
@@ -188,8 +179,8 @@ private:
     std::vector<std::string> present_ = {};
 };
 
-void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOutput const& output,
-                CheckedFiles& checked, Run const& run) {
+void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOutput const& output, CheckResult& checked,
+                Run const& run) {
     io::NetworkTables const tables{mended.network,
                                    mended.orders,
                                    mended.us_area_m2,
@@ -247,36 +238,36 @@ bool has_direction(measure::TopologyReport const& topology) {
 
 } // namespace
 
-bool CheckedFiles::ok() const {
+bool CheckResult::ok() const {
     return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
 }
 
-CheckedFiles check_files(CheckJob const& job, Run const& run) {
-    std::vector<CheckOutput> fix;
-    if (!job.fix.empty()) {
-        fix.emplace_back(job.fix, "--fix", true, job);
+CheckResult run_check(CheckParams const& params, Run const& run) {
+    std::optional<CheckOutput> fix;
+    if (!params.fix.empty()) {
+        fix.emplace(params.fix, "--fix", true, params);
     }
-    std::vector<CheckOutput> layer;
-    if (!job.findings.empty()) {
-        layer.emplace_back(job.findings, "--findings", false, job);
+    std::optional<CheckOutput> layer;
+    if (!params.findings.empty()) {
+        layer.emplace(params.findings, "--findings", false, params);
     }
-    io::ReadNetworkParams read = job.read;
-    read.any_lines = !job.fix.empty();
+    io::ReadNetworkParams read = params.read;
+    read.any_lines = !params.fix.empty();
     read.bridge = true;
-    NetworkFile const network = io::read_network(job.network, read, run);
-    CheckedFiles checked;
+    NetworkFile const network = io::read_network(params.network, read, run);
+    CheckResult checked;
     checked.arcs = static_cast<std::int64_t>(network.arcs.size());
     checked.nodes = static_cast<std::int64_t>(network.nodes.size());
     checked.schema = network.schema;
     checked.notes = network.findings;
 
-    measure::TopologyReport const topology = measure::check_topology(network, {job.near_m}, run);
+    measure::TopologyReport const topology = measure::check_topology(network, {params.near_m}, run);
     append(checked.checks, topology.checks);
     append(checked.findings, topology.findings);
 
-    if (!job.dem.empty() && has_direction(topology)) {
-        RiverRasters const rasters = rasters_beside(job.network);
-        checked.certificate = certify_files(network, {job.dem, job.nodata}, rasters, run);
+    if (!params.dem.empty() && has_direction(topology)) {
+        RiverRasters const rasters = rasters_beside(params.network);
+        checked.certificate = certify_files(network, params, rasters, run);
         if (checked.certificate->waived_cells > 0) {
             checked.notes.push_back({"not_honoured",
                                      0,
@@ -288,7 +279,7 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
         }
         append(checked.checks, checked.certificate->checks());
         append(checked.findings, checked.certificate->findings);
-    } else if (!job.dem.empty()) {
+    } else if (!params.dem.empty()) {
         checked.notes.push_back({"no_certificate",
                                  0,
                                  {},
@@ -297,25 +288,25 @@ CheckedFiles check_files(CheckJob const& job, Run const& run) {
                                  "no numbers"});
     }
 
-    for (CheckOutput const& output : fix) {
-        Raster<float> const dem = read_dem_in(job.dem, network.crs, "pipeline.check_files: --dem", job.nodata, run);
+    if (fix) {
+        Raster<float> const dem = read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.nodata, run);
         RepairedNetwork const mended =
-            repair_network(network, topology, {job.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
+            repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
         checked.mended = mended.mended;
         append(checked.notes, mended.doubts);
         if (mended.done) {
-            write_copy(mended, network, output, checked, run);
+            write_copy(mended, network, *fix, checked, run);
         }
     }
-    for (CheckOutput const& output : layer) {
-        append(checked.written, output.put([&](std::string const& path) {
+    if (layer) {
+        append(checked.written, layer->put([&](std::string const& path) {
             io::write_findings(checked.findings, network.crs, path, run);
         }));
     }
     return checked;
 }
 
-std::string as_json(CheckedFiles const& checked) {
+std::string as_json(CheckResult const& checked) {
     using nlohmann::ordered_json;
     ordered_json out{{"ok", checked.ok()},
                      {"arcs", checked.arcs},

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make_blend.hpp>
+#include <thalweg/pipeline/commands/blend.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -33,26 +33,30 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     }
     refuse_if<BadInput>(
         content.kind != io::FileContent::Kind::lines,
-        "pipeline.make_blend: {} holds points: cells to keep come from lines or a raster on the target's grid",
+        "pipeline.run_blend: {} holds points: cells to keep come from lines or a raster on the target's grid",
         content.path);
     RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
-    io::same_crs(rivers.crs, grid.crs, "pipeline.make_blend: " + content.path, "the target");
+    io::same_crs(rivers.crs, grid.crs, "pipeline.run_blend: " + content.path, "the target");
     Mask kept = cells_under(network::clip_lines(rivers, grid), grid, content.path);
     refuse_if<BadInput>(std::ranges::find(kept.values(), 1) == kept.values().end(),
-                        "pipeline.make_blend: no line of {} crosses the target, which reaches from ({:.3f}, {:.3f}) to "
+                        "pipeline.run_blend: no line of {} crosses the target, which reaches from ({:.3f}, {:.3f}) to "
                         "({:.3f}, {:.3f})",
                         content.path, grid.west, grid.south(), grid.east(), grid.north);
     return kept;
 }
 
-} // namespace
-
-MadeBlend make_blend(MakeBlendParams const& params, Run const& run) {
-    Raster<float> const target = io::read_dem(params.target, {.nodata = params.nodata}, run);
-    return blend_into(target, read_kept(params.keep, target.grid(), run), params, run);
+MadeBlend blend_dems(BlendParams const& params, Run const& run) {
+    refuse_if<BadParameter>(!params.source_crs.empty(),
+                            "pipeline.run_blend: --source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS "
+                            "by gdal_edit.py -a_srs");
+    MakeBlendParams const& patch = params.patch;
+    io::OutputFile file(params.output, params.existing);
+    Raster<float> const target = io::read_dem(patch.target, {.nodata = patch.nodata}, run);
+    MadeBlend made = blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
+    io::write_dem(made.pasted.dem, file.staging(), run);
+    file.commit();
+    return made;
 }
-
-namespace {
 
 struct MeshBox {
     Vec2 low;
@@ -76,21 +80,35 @@ MeshBox box_of(Tin const& tin) {
     return box;
 }
 
-void check(MakeBlendTinParams const& params) {
+void check_mesh_params(MakeBlendParams const& params) {
+    for (std::string const& path : {params.target, params.source.path}) {
+        refuse_if<BadParameter>(!io::holds_tin(path),
+                                "pipeline.run_blend: {} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg "
+                                "tin` makes a mesh of a DEM",
+                                path);
+    }
+    for (auto const& [name, given] :
+         {std::pair{"--window", params.window.has_value()}, std::pair{"--mask", !params.mask.path.empty()},
+          std::pair{"--keep", !params.keep.empty()}, std::pair{"--feather", params.feather_cells != 0.0},
+          std::pair{"--mixed", params.relief == blend::Relief::mixed},
+          std::pair{"--fill-holes", params.holes == blend::Holes::fill},
+          std::pair{"--nodata", params.nodata.has_value()}}) {
+        refuse_if<BadParameter>(given, "pipeline.run_blend: {} is for DEMs: a mesh is pasted whole, inside its outline",
+                                name);
+    }
     refuse_if<BadParameter>(!(params.scale > 0.0 && std::isfinite(params.scale)),
-                            "pipeline.make_blend_tin: a scale of {}; it must be greater than 0", params.scale);
-    refuse_if<BadParameter>(!std::isfinite(params.gain), "pipeline.make_blend_tin: a gain of {}; it must be finite",
+                            "pipeline.run_blend: a scale of {}; it must be greater than 0", params.scale);
+    refuse_if<BadParameter>(!std::isfinite(params.gain), "pipeline.run_blend: a gain of {}; it must be finite",
                             params.gain);
     refuse_if<BadParameter>(!(std::fabs(params.rotate_deg) <= 360.0),
-                            "pipeline.make_blend_tin: a rotation of {} degrees; it lies in [-360, 360]",
-                            params.rotate_deg);
+                            "pipeline.run_blend: a rotation of {} degrees; it lies in [-360, 360]", params.rotate_deg);
     if (params.at && !(std::isfinite(params.at->x) && std::isfinite(params.at->y))) {
         throw BadParameter(
-            fmt::format("pipeline.make_blend_tin: a place of ({}, {}) is not finite", params.at->x, params.at->y));
+            fmt::format("pipeline.run_blend: a place of ({}, {}) is not finite", params.at->x, params.at->y));
     }
 }
 
-void place_mesh(Tin& patch, MakeBlendTinParams const& params, Vec2 from, Vec2 to) {
+void place_mesh(Tin& patch, MakeBlendParams const& params, Vec2 from, Vec2 to) {
     bool const turns = params.rotate_deg != 0.0 || params.scale != 1.0;
     blend::LinearMap const map = blend::rotation({0.0, 0.0, 1.0}, params.rotate_deg, params.scale);
     for (Vec3& v : patch.vertices) {
@@ -107,25 +125,26 @@ void place_mesh(Tin& patch, MakeBlendTinParams const& params, Vec2 from, Vec2 to
     }
 }
 
-} // namespace
-
-MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run) {
-    check(params);
+BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
+    MakeBlendParams const& params = asked.patch;
+    check_mesh_params(params);
+    io::TinFormat const format = io::tin_format("", asked.output);
+    io::OutputFile file(asked.output, asked.existing);
     io::TinFile target = io::read_tin(params.target, run);
-    io::TinFile patch = io::read_tin(params.source, run);
+    io::TinFile patch = io::read_tin(params.source.path, run);
     for (std::string* const crs : {&target.crs, &patch.crs}) {
-        if (crs->empty() && !params.source_crs.empty()) {
-            *crs = io::projected_crs(params.source_crs);
+        if (crs->empty() && !asked.source_crs.empty()) {
+            *crs = io::projected_crs(asked.source_crs);
         }
     }
     refuse_if<BadInput>(
         !target.crs.empty() && !patch.crs.empty() &&
-            !io::same_crs(patch.crs, target.crs, "pipeline.make_blend_tin: " + params.source, params.target),
-        "pipeline.make_blend_tin: {} is in {}, {} in {}; write both meshes in one CRS (thalweg tin --crs)",
-        params.source, patch.crs, params.target, target.crs);
+            !io::same_crs(patch.crs, target.crs, "pipeline.run_blend: " + params.source.path, params.target),
+        "pipeline.run_blend: {} is in {}, {} in {}; write both meshes in one CRS (thalweg tin --crs)",
+        params.source.path, patch.crs, params.target, target.crs);
     MeshBox const around_target = box_of(target.tin);
     MeshBox const around_patch = box_of(patch.tin);
-    MadeBlendTin made;
+    BlendedTin made;
     made.at = around_patch.middle();
     if (params.at) {
         made.at = *params.at;
@@ -139,7 +158,18 @@ MadeBlendTin make_blend_tin(MakeBlendTinParams const& params, Run const& run) {
     run.at(0.0, "blend");
     made.fused = blend::fuse_tin(target.tin, patch.tin, run);
     made.crs = target.crs.empty() ? std::move(patch.crs) : std::move(target.crs);
+    io::write_tin(made.fused.tin, made.crs, file.staging(), format, HeightUnit::metre, run);
+    file.commit();
     return made;
+}
+
+} // namespace
+
+BlendResult run_blend(BlendParams const& params, Run const& run) {
+    if (io::holds_tin(params.patch.target) || io::holds_tin(params.patch.source.path)) {
+        return blend_meshes(params, run);
+    }
+    return blend_dems(params, run);
 }
 
 } // namespace thalweg::pipeline

@@ -1,0 +1,83 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/make.hpp>
+
+#include <algorithm>
+#include <filesystem>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/pipeline/plan/make_input.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+/// The recipe if no file is given: if keys of the cluster are set, a cluster; else rivers that suit the grid.
+Recipe recipe_without_file(std::vector<std::string> const& assignments) {
+    bool const of_cluster = std::ranges::any_of(assignments, [](std::string const& assignment) {
+        return assignment.starts_with("network.dla.") || assignment.starts_with("network.source=dla") ||
+               assignment.starts_with("network.source=\"dla");
+    });
+    if (of_cluster) {
+        return cluster_recipe();
+    }
+    Recipe asked = default_recipe();
+    for (std::string const& assignment : assignments) {
+        set_key(asked, assignment);
+    }
+    return default_recipe_on(asked.grid.width, asked.grid.height);
+}
+
+Recipe recipe_of(MakeParams const& params) {
+    static std::map<std::string, char const*> const keys{{"arc_id", "network.lines.id_field"},
+                                                         {"ds_arc", "network.lines.down_field"},
+                                                         {"key", "network.lines.rank_field"},
+                                                         {"type", "network.lines.type_field"}};
+    Recipe recipe = params.input.empty() ? recipe_without_file(params.set) : recipe_from(params.input);
+    for (std::string const& assignment : params.set) {
+        set_key(recipe, assignment);
+    }
+    for (auto const& [quantity, name] : params.fields) {
+        auto const key = keys.find(quantity);
+        refuse_if<BadParameter>(key == keys.end(),
+                                "--field {}={}: make reads arc_id, ds_arc, key (a rank that falls downstream) and type "
+                                "from fields that are named",
+                                quantity, name);
+        set_key(recipe, fmt::format("{}={}", key->second, name));
+    }
+    return recipe;
+}
+
+} // namespace
+
+Made run_make(MakeParams const& params, Run const& run) {
+    Recipe recipe = recipe_of(params);
+    UserFiles const files(recipe, run);
+    check_folder(params.output, params.existing);
+    Made made = make(recipe, run);
+    write_terrain(made, params.output, params.existing, run);
+    return made;
+}
+
+Forecast forecast_make(MakeParams const& params, Run const& run) {
+    Recipe recipe = recipe_of(params);
+    UserFiles const files(recipe, run);
+    return forecast(recipe, run);
+}
+
+Recipe recipe_for(std::string const& rivers, std::string const& source_crs, Run const& run) {
+    refuse_if<BadInput>(!is_utf8(std::filesystem::absolute(rivers).string()),
+                        "pipeline.recipe_for: the path of {} is not UTF-8, and recipes are: rename it", rivers);
+    Recipe recipe = rivers_recipe(rivers);
+    if (!source_crs.empty()) {
+        set_key(recipe, "network.lines.source_crs=" + source_crs);
+    }
+    return settled_recipe(recipe, run);
+}
+
+} // namespace thalweg::pipeline

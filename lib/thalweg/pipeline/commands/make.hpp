@@ -1,0 +1,46 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <map>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+namespace thalweg::pipeline {
+
+/// Options of run_make().
+struct MakeParams {
+    std::string input = {};        ///< a recipe or rivers, as for recipe_from(); "": a recipe that suits the keys
+    std::string output = "valley"; ///< a folder
+    io::Existing existing = io::Existing::refuse;
+    std::vector<std::string> set = {}; ///< KEY=VALUE: keys of the recipe, in order
+    /// names of the fields of rivers that hold arc_id, ds_arc, key (a rank that falls downstream) and type
+    std::map<std::string, std::string> fields = {};
+};
+
+/// Runs `thalweg make`: makes the terrain of a recipe or around rivers and writes the folder, completely or not at all.
+/// \param params recipe or rivers, and options
+/// \return the terrain
+/// \throws BadParameter for a key or field that is unknown
+/// \throws Error as recipe_from(), UserFiles, make() and write_terrain()
+Made run_make(MakeParams const& params, Run const& run = {});
+
+/// Runs `thalweg make --dry-run`: plans the same work, and writes nothing.
+/// \return the forecast
+/// \throws Error as run_make()
+Forecast forecast_make(MakeParams const& params, Run const& run = {});
+
+/// Runs `thalweg recipe --for`: settles the recipe that make uses for rivers.
+/// \param rivers as for rivers_recipe()
+/// \param source_crs of rivers whose file has no CRS; "": none
+/// \return as settled_recipe()
+/// \throws BadInput as settled_recipe(), and for a path that is not UTF-8
+Recipe recipe_for(std::string const& rivers, std::string const& source_crs = {}, Run const& run = {});
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,45 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
+#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
+
+namespace thalweg::pipeline {
+
+/// Options of run_stats().
+struct StatsParams {
+    std::string path = {};             ///< any raster of heights
+    std::optional<double> nodata = {}; ///< as in io::ReadDemParams
+    bool laws = false;                 ///< of the streams extracted from the DEM
+    bool relief = false;
+    bool recipe = false; ///< of other terrain with the same statistics; the DEM then keeps its own cells
+    std::int64_t support_cells = DemLawsParams{}.support_cells; ///< of the laws, as in DemLawsParams
+};
+
+/// What run_stats() returns.
+struct StatsResult {
+    Grid grid; ///< of the DEM that was measured
+    measure::Statistics statistics;
+    std::optional<DemLaws> laws = {};
+    std::optional<TerrainRelief> relief = {};
+    std::optional<DemRecipe> recipe = {};
+};
+
+/// Runs `thalweg stats`: reads a DEM and computes its statistics. A DEM in degrees, or in metres whose lengths are
+/// wrong by more than 1 % (Web Mercator), is warped to the UTM zone of its middle, on cells of the same size as its
+/// own; one whose cells are not square to squares; the run's log says so.
+/// \param params file and options
+/// \return the statistics, and what else is set
+/// \throws BadInput as io::read_dem, the statistics and recipe_of_dem, and for a geographic DEM in no UTM zone
+StatsResult run_stats(StatsParams const& params, Run const& run = {});
+
+} // namespace thalweg::pipeline
