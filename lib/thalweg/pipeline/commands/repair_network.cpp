@@ -261,7 +261,6 @@ RepairedLines repair_lines(NetworkFile const& file, measure::TopologyReport cons
 
 /// Of the finite vertices.
 double diagonal_of(NetworkFile const& file) {
-    constexpr double greatest_coordinate = 1e18; // beyond this, measure::check_topology rejects coordinates
     Vec2 low{greatest_coordinate, greatest_coordinate};
     Vec2 high{-greatest_coordinate, -greatest_coordinate};
     for (auto const& arc : file.arcs) {
