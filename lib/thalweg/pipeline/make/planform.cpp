@@ -10,6 +10,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
@@ -232,10 +233,14 @@ Planform make_planform(Plan const& plan, Run const& run) {
     Bent rivers =
         bent(plan, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
     Typed typed = type_rivers(std::move(rivers.network), *plan.recipe.network, run);
+    std::optional<ElevatedNetwork> file_heights;
+    if (source.file_heights) {
+        file_heights = network::keep_heights(typed.network, *source.file_heights);
+    }
     return {.grid = source.grid,
             .network = std::move(typed.network),
             .types = std::move(typed.types),
-            .file_heights = std::move(source.file_heights),
+            .file_heights = std::move(file_heights),
             .land = std::move(carried.land),
             .file = std::move(rivers.file),
             .statistics = std::move(statistics),

@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/rivers.hpp>
 
-#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -18,7 +17,7 @@ struct Elevated {
 Elevated elevated(Plan const& plan, Planform const& planform, Run const& run) {
     NetworkRecipe const& wanted = *plan.recipe.network;
     if (planform.file_heights) {
-        return {network::keep_heights(planform.network, *planform.file_heights)};
+        return {*planform.file_heights};
     }
     if (wanted.heights == Heights::rosgen) {
         return {network::set_heights_by_type(planform.network, planform.types, {wanted.rosgen_slope, plan.recipe.seed},
