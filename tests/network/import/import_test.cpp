@@ -271,6 +271,9 @@ TEST(AdoptDropsDuplicates, IdenticalReversedAndNear) {
     auto const near = import_lines(flats({{{0, 0}, {5, 1}, {9, 0}}, {{9, 0.1}, {5, 1.1}, {0, 0}}}), {.snap_m = 0.5});
     EXPECT_EQ(near.network.arc_count(), 1U);
     EXPECT_EQ(first(near, "duplicate").feature, 2);
+    RiverLines const beside = flats({{{0, 0}, {5, 0}, {9, 0}}, {{0, 0.5}, {5, 0.5}, {9, 0.5}}});
+    EXPECT_EQ(count(import_lines(beside, {.snap_m = 0.5}).repairs, "duplicate"), 1);
+    EXPECT_EQ(count(import_lines(beside, {.snap_m = 0.49}).repairs, "duplicate"), 0);
 }
 
 TEST(AdoptDropsDuplicates, APartThatOverlaps) {
