@@ -109,7 +109,7 @@ TEST(Rivers, EverySampleHoldsItsContract) {
 
 TEST(Rivers, OpenClGivesTheSameLand) {
     Workplace const place;
-    made(place, samples + "tokunaga.toml" + small, "cpu");
+    made(place, samples + "tokunaga.toml" + sized, "cpu");
     made(place, samples + "tokunaga.toml" + sized + "--device opencl", "opencl");
     EXPECT_LE(greatest_difference(place / "cpu/dem.tif", place / "opencl/dem.tif"), 1e-3);
     EXPECT_TRUE(file_bytes(place / "cpu/network.tif") == file_bytes(place / "opencl/network.tif"));
