@@ -12,7 +12,7 @@ namespace {
 using namespace thalweg;
 
 void BM_triangulate(benchmark::State& state) {
-    auto const points = test::points_by_chance(static_cast<std::size_t>(state.range(0)), 4096.0, 5);
+    auto const points = test::random_points(static_cast<std::size_t>(state.range(0)), 4096.0, 5);
     for (auto _ : state) {
         benchmark::DoNotOptimize(geometry::triangulate(points));
     }
@@ -20,8 +20,7 @@ void BM_triangulate(benchmark::State& state) {
 }
 
 void BM_rasterise_tin(benchmark::State& state) {
-    Tin const tin =
-        geometry::triangulate(test::points_by_chance(static_cast<std::size_t>(state.range(0)), 4096.0, 5)).tin;
+    Tin const tin = geometry::triangulate(test::random_points(static_cast<std::size_t>(state.range(0)), 4096.0, 5)).tin;
     Grid const grid{4096, 4096, 1.0, 0.0, 4096.0, ""};
     Run run;
     run.threads = static_cast<int>(state.range(1));

@@ -132,7 +132,8 @@ inline std::string geojson(std::string const& features) {
 }
 
 /// A feature in GeoJSON, with its coordinates and properties as they stand in the file.
-inline std::string feature(std::string const& type, std::string const& coordinates, std::string const& properties) {
+inline std::string feature(std::string const& type, std::string const& coordinates,
+                           std::string const& properties = "") {
     return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
            R"(","coordinates":)" + coordinates + "}}";
 }

@@ -18,7 +18,7 @@ namespace test {
 using namespace thalweg;
 
 /// Points at random in [0, side)²; with steps > 0 on a lattice of so many places a side, hence with twins.
-inline std::vector<Vec3> points_by_chance(std::size_t count, double side, std::uint64_t seed, int steps = 0) {
+inline std::vector<Vec3> random_points(std::size_t count, double side, std::uint64_t seed, int steps = 0) {
     std::vector<Vec3> points(count);
     for (std::uint64_t i = 0; auto& p : points) {
         double const u = unit(random_word(seed, 1, i));

@@ -12,6 +12,7 @@
 #include <gtest/gtest.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/draw/internal/map.hpp>
 
 #include "pictures.hpp"
 #include "small_land.hpp"
@@ -100,6 +101,12 @@ TEST(Map, RiversAreAsWideAsTheRootOfWhatTheyDrain) {
     forged.front() = std::numeric_limits<double>::infinity();
     EXPECT_EQ(drawn_by(forged), drawn_by({}));
     EXPECT_THROW(drawn_by({1.0}), BadInput);
+}
+
+TEST(Map, OrdersAndAreasHaveTheSameWidths) {
+    draw::RiverScale const scale{.highest_order = 4, .largest_area_m2 = 9e6};
+    EXPECT_EQ(draw::style_of_order(1, scale, 1.0).width_px, draw::style_of_area(0.0, scale, 1.0).width_px);
+    EXPECT_EQ(draw::style_of_order(4, scale, 1.0).width_px, draw::style_of_area(9e6, scale, 1.0).width_px);
 }
 
 TEST(Map, RidgesAreBrownLinesAndNoneLeaveNoTrace) {

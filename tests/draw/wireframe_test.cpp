@@ -211,6 +211,16 @@ TEST(Wireframe, OneHeightHolesAndNothingAtAll) {
     EXPECT_GT(drawn(Raster<float>(grid, none)).height, 0U);
 }
 
+TEST(Wireframe, AMarginWithoutDataChangesNothing) {
+    Raster<float> const land = hill(20, 14);
+    Raster<float> framed({26, 18, 30.0, land.grid().west - 90.0, land.grid().north + 60.0, "EPSG:32631"}, none);
+    for (std::int64_t i = 0; i < land.cells(); ++i) {
+        Cell const c = land.grid().at(i);
+        framed[Cell{c.col + 3, c.row + 2}] = land[i];
+    }
+    EXPECT_EQ(drawn(framed).rgb, drawn(land).rgb);
+}
+
 TEST(Wireframe, RefusesWhatDoesNotFit) {
     test::SmallLand const land = test::small_land();
     EXPECT_THROW(draw::wireframe({land.dem, &land.network, nullptr}), BadInput);

@@ -25,7 +25,6 @@ namespace {
 
 using namespace thalweg;
 using namespace thalweg::fractal;
-using test::message_of;
 using test::on_threads;
 using test::same_bits;
 
@@ -167,28 +166,24 @@ TEST(ExactMidpoint, IsTheSameOnAnyThreadsAndOtherForAnotherSeed) {
     }
 }
 
-std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
-    return message_of<BadParameter>([&] { midpoint(coarse, params); });
-}
-
 TEST(ExactMidpoint, RefusesWhatItCannotUse) {
     Raster<float> coarse(test::frame_below(2001, 1), 1.0F);
-    std::string const many = refusal(coarse, exactly(1, 0.5, 1.0));
+    std::string const many = land::refusal(coarse, exactly(1, 0.5, 1.0));
     EXPECT_TRUE(test::has(many, "2001 coarse cells have heights (detail.stencil = \"exact\" takes up to 2000)"));
     coarse[1000] = land::nan; // holes do not count
-    EXPECT_EQ(refusal(coarse, exactly(1, 0.5, 0.0)), "");
+    EXPECT_EQ(land::refusal(coarse, exactly(1, 0.5, 0.0)), "");
     Raster<float> const few = land::by_chance(4, 3, 1);
     MidpointParams params = exactly(2, 0.5, 1.0);
     params.noise = Noise::uniform;
-    EXPECT_TRUE(test::has(refusal(few, params), "normal noise"));
+    EXPECT_TRUE(test::has(land::refusal(few, params), "normal noise"));
     params = exactly(2, 0.5, 1.0);
     params.adaptation = Adaptation::local;
-    EXPECT_TRUE(test::has(refusal(few, params), "global adaptation"));
+    EXPECT_TRUE(test::has(land::refusal(few, params), "global adaptation"));
     params = exactly(15, 0.5, 1.0);
     params.width = 3; // of a part too the whole is made
     params.height = 3;
-    EXPECT_TRUE(test::has(refusal(few, params), "more than 2^31 cells"));
-    EXPECT_TRUE(test::has(refusal(few, exactly(2, 0.99, 1.0)), "H is 0.99"));
+    EXPECT_TRUE(test::has(land::refusal(few, params), "more than 2^31 cells"));
+    EXPECT_TRUE(test::has(land::refusal(few, exactly(2, 0.99, 1.0)), "H is 0.99"));
 }
 
 TEST(ExactMidpoint, WithoutSigmaIsTheKrigedSurface) {

@@ -6,12 +6,14 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <string>
 #include <vector>
 
 #include <support.hpp>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/fractal/midpoint.hpp>
 
 namespace land {
 
@@ -78,6 +80,11 @@ inline double differences(Raster<float> const& dem, std::int64_t lag) {
         }
     }
     return sum / count;
+}
+
+/// Why midpoint displacement refuses heights or parameters; "": it does not.
+inline std::string refusal(Raster<float> const& coarse, fractal::MidpointParams const& params) {
+    return test::message_of<BadParameter>([&] { fractal::midpoint(coarse, params); });
 }
 
 } // namespace land

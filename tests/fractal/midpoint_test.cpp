@@ -28,7 +28,6 @@ namespace {
 
 using namespace thalweg;
 using namespace thalweg::fractal;
-using test::message_of;
 using test::on_threads;
 using test::same_bits;
 
@@ -171,10 +170,6 @@ bool alike(Raster<float> const& dem, Raster<float> const& truth) {
         }
     }
     return true;
-}
-
-std::string refusal(Raster<float> const& coarse, MidpointParams const& params) {
-    return message_of<BadParameter>([&] { midpoint(coarse, params); });
 }
 
 // ---- The statistics of the surface.
@@ -344,21 +339,23 @@ TEST(Midpoint, CentresStayWhereTheyAre) {
 
 TEST(Midpoint, RefusesWhatItCannotUse) {
     Raster<float> coarse = land::by_chance(4, 3, 1);
-    EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, 1.2, 1.0)).find("H is 1.2; it must be between 0.05 and 0.95"),
-              std::string::npos);
-    EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, std::nan(""), 1.0)), "");
-    EXPECT_NE(refusal(coarse, with(2, Stencil::sixteen, 0.5, -1.0)).find("sigma is -1 m"), std::string::npos);
-    EXPECT_NE(refusal(coarse, with(31, Stencil::sixteen, 0.5, 1.0)).find("levels is 31; it must be between 0 and 30"),
-              std::string::npos);
-    EXPECT_NE(refusal(coarse, with(-1, Stencil::sixteen, 0.5, 1.0)), "");
-    EXPECT_NE(refusal(Raster<float>(test::frame_below(3000, 1)), with(30, Stencil::four, 0.5, 1.0)).find("2^40"),
+    EXPECT_NE(
+        land::refusal(coarse, with(2, Stencil::sixteen, 1.2, 1.0)).find("H is 1.2; it must be between 0.05 and 0.95"),
+        std::string::npos);
+    EXPECT_NE(land::refusal(coarse, with(2, Stencil::sixteen, std::nan(""), 1.0)), "");
+    EXPECT_NE(land::refusal(coarse, with(2, Stencil::sixteen, 0.5, -1.0)).find("sigma is -1 m"), std::string::npos);
+    EXPECT_NE(
+        land::refusal(coarse, with(31, Stencil::sixteen, 0.5, 1.0)).find("levels is 31; it must be between 0 and 30"),
+        std::string::npos);
+    EXPECT_NE(land::refusal(coarse, with(-1, Stencil::sixteen, 0.5, 1.0)), "");
+    EXPECT_NE(land::refusal(Raster<float>(test::frame_below(3000, 1)), with(30, Stencil::four, 0.5, 1.0)).find("2^40"),
               std::string::npos);
     MidpointParams params = with(2, Stencil::sixteen, 0.5, 1.0);
     params.width = 13; // just covered
     params.height = 10;
-    EXPECT_NE(refusal(coarse, params).find("at least 4 columns and 4 rows"), std::string::npos);
+    EXPECT_NE(land::refusal(coarse, params).find("at least 4 columns and 4 rows"), std::string::npos);
     params.height = -1;
-    EXPECT_NE(refusal(coarse, params), "");
+    EXPECT_NE(land::refusal(coarse, params), "");
     params.height = 0;
     coarse[5] = std::numeric_limits<float>::infinity();
     EXPECT_THROW(midpoint(coarse, params), BadInput);

@@ -36,8 +36,7 @@ TEST(NaturalNeighbours, TooLittleIsRefused) {
 TEST(NaturalNeighbours, PlanesStayPlanes) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30);
-        auto points =
-            test::points_by_chance(*rc::gen::inRange<std::size_t>(0, 60), 20.0, seed, *rc::gen::element(0, 20));
+        auto points = test::random_points(*rc::gen::inRange<std::size_t>(0, 60), 20.0, seed, *rc::gen::element(0, 20));
         points.insert(points.end(), {{0, 0, 0}, {20, 0, 0}, {20, 20, 0}, {0, 20, 0}});
         auto const plane = [](double x, double y) { return 100.0 + 2.0 * x - 3.0 * y; };
         for (Vec3& p : points) {
@@ -73,7 +72,7 @@ TEST(NaturalNeighbours, AreSibsonsAreas) {
 }
 
 TEST(NaturalNeighbours, StayWithinTheHeightsAndMeetThePoints) {
-    auto const points = test::points_by_chance(200, 32.0, 4, 32);
+    auto const points = test::random_points(200, 32.0, 4, 32);
     auto const dem = natural_neighbours(points, {32, 32, 1.0, -0.5, 31.5, ""}, {Outside::nearest});
     for (std::size_t i = 0; i < points.size(); ++i) {
         auto const twin =
@@ -86,7 +85,7 @@ TEST(NaturalNeighbours, StayWithinTheHeightsAndMeetThePoints) {
 }
 
 TEST(NaturalNeighbours, ThreadsChangeNoByte) {
-    auto const points = test::points_by_chance(3000, 90.0, 8, 60);
+    auto const points = test::random_points(3000, 90.0, 8, 60);
     Grid const grid{100, 110, 1.0, -5.0, 100.0, ""};
     thalweg::Run const one = on_threads(1);
     thalweg::Run const many = on_threads(6);

@@ -127,7 +127,7 @@ TEST(Triangulate, IsDelaunayInAnyOrderOfTheInput) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30);
         auto const count = *rc::gen::inRange<std::size_t>(3, 60);
-        auto points = test::points_by_chance(count, 8.0, seed, 8);
+        auto points = test::random_points(count, 8.0, seed, 8);
         points.push_back({0, 0, 1});
         points.push_back({8, 0, 1});
         points.push_back({8, 8, 1});
@@ -156,10 +156,10 @@ TEST(Triangulate, BreaklinesAreEdges) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30);
         int const steps = *rc::gen::element(0, 12);
-        auto const points = test::points_by_chance(30, 12.0, seed, steps);
+        auto const points = test::random_points(30, 12.0, seed, steps);
         std::vector<std::vector<Vec3>> lines;
         for (std::uint64_t l = 0; l < 5; ++l) {
-            lines.push_back(test::points_by_chance(4, 12.0, seed + l + 1, steps));
+            lines.push_back(test::random_points(4, 12.0, seed + l + 1, steps));
         }
         Triangulation const t = triangulate(points, lines);
         RC_ASSERT(test::is_lawful(t.tin));
@@ -189,7 +189,7 @@ TEST(Triangulate, StopsWhenAsked) {
     stop.request_stop();
     thalweg::Run run;
     run.stop = stop.get_token();
-    EXPECT_THROW(triangulate(test::points_by_chance(10, 1.0, 1), {}, run), Cancelled);
+    EXPECT_THROW(triangulate(test::random_points(10, 1.0, 1), {}, run), Cancelled);
 }
 
 TEST(SideOfLine, IsExact) {

@@ -144,6 +144,24 @@ TEST(Regress, HoldsTheMeanSlopeOfTheGrid) {
     }
 }
 
+TEST(Regress, OfMirroredPointsTheSurfaceIsMirrored) {
+    Grid const odd{9, 7, 1.0, 0.0, 7.0, ""}; // its middle column and row lie on the creases
+    RegressParams const params{.length_x = 3.0, .length_y = 2.0, .slope = SlopeMode::mean, .slope_rad = 0.5};
+    FeaturePoints const points = scatter(odd, {.count = 30, .mean_m = 5.0, .std_m = 2.0}).points;
+    Raster<float> const surface = regress(points, odd, params).surface;
+    for (bool const across : {false, true}) {
+        FeaturePoints mirrored = points;
+        for (Vec3& p : mirrored.points) {
+            p = across ? Vec3{p.x, 7.0 - p.y, p.z} : Vec3{9.0 - p.x, p.y, p.z};
+        }
+        Raster<float> const other = regress(mirrored, odd, params).surface;
+        for (std::int64_t i = 0; i < odd.cells(); ++i) {
+            Cell const c = odd.at(i);
+            EXPECT_NEAR(surface[c], (other[across ? Cell{c.col, 6 - c.row} : Cell{8 - c.col, c.row}]), 1e-4);
+        }
+    }
+}
+
 TEST(Regress, ASingleRowAndMoreThreads) {
     Grid const row{50, 1, 1.0, 0.0, 1.0, ""};
     FeaturePoints points;

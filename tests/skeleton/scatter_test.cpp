@@ -186,6 +186,15 @@ TEST(Scatter, ThePullEndsAtTheReachWithoutAStepWhereItIsContinuous) {
     }
     EXPECT_GT(within, 200);
     EXPECT_LT(near_reach, 50.0); // 368 m and more as printed
+    // The reach itself belongs to it.
+    auto const away_cells = [&](Vec3 const& p) { return distance({p.x, p.y}, top) / 300.0; };
+    auto const last = std::find_if(free.begin() + 1, free.end(), [&](Vec3 const& p) {
+        return away_cells(p) * 300.0 == distance({p.x, p.y}, top);
+    });
+    ASSERT_NE(last, free.end());
+    params.falloff = Falloff::literal;
+    params.reach_cells = away_cells(*last);
+    EXPECT_GT(scatter(ground, params).points.points[static_cast<std::size_t>(last - free.begin())].z, 300.0);
 }
 
 TEST(Scatter, ExtremesStandWhereAskedAndNothingPassesThem) {

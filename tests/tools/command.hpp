@@ -70,15 +70,3 @@ nlohmann::json report_of(std::filesystem::path const& folder);
 
 /// Every check of a report holds.
 void expect_checks_hold(nlohmann::json const& report, std::string const& words = "");
-
-/// A feature of GeoJSON.
-inline std::string feature(std::string const& type, std::string const& coordinates,
-                           std::string const& properties = "") {
-    return R"({"type":"Feature","properties":{)" + properties + R"(},"geometry":{"type":")" + type +
-           R"(","coordinates":)" + coordinates + "}}";
-}
-
-/// A line of GeoJSON through "[x,y],[x,y]".
-inline std::string line_feature(std::string const& vertices, std::string const& properties = "") {
-    return feature("LineString", "[" + vertices + "]", properties);
-}

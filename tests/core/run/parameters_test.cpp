@@ -9,6 +9,7 @@
 #include <type_traits>
 
 #include <gtest/gtest.h>
+#include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
 
@@ -21,13 +22,7 @@ namespace {
 constexpr double infinity = std::numeric_limits<double>::infinity();
 
 template <class Number> std::string refused(Number value, Range const& range, char const* unit = "") {
-    try {
-        require_in("core.range_test", "size", value, range, unit);
-    } catch (BadParameter const& error) {
-        EXPECT_STREQ(error.where(), "core.range_test");
-        return error.what();
-    }
-    return "";
+    return test::full_message_of<BadParameter>([&] { require_in("core.test", "size", value, range, unit); });
 }
 
 TEST(Range, NoRangeHasNaN) {
@@ -59,15 +54,16 @@ TEST(Range, BoundsBelongAsTheirNamesSay) {
 }
 
 TEST(Range, MessagesSayValueUnitAndRange) {
-    EXPECT_EQ(refused(0.0, Range::above(0), "m"), "size is 0 m; it must be greater than 0");
-    EXPECT_EQ(refused(-0.5, Range::at_least(0)), "size is -0.5; it must be at least 0");
+    EXPECT_EQ(refused(0.0, Range::above(0), "m"), "core.test: size is 0 m; it must be greater than 0");
+    EXPECT_EQ(refused(-0.5, Range::at_least(0)), "core.test: size is -0.5; it must be at least 0");
     EXPECT_EQ(refused(9001, Range::between(200, 8000), "pixels"),
-              "size is 9001 pixels; it must be between 200 and 8000");
-    EXPECT_EQ(refused(3.0, Range::inside(2, 3)), "size is 3; it must be greater than 2 and less than 3");
-    EXPECT_EQ(refused(0.0, Range{0, 1000, false, true}), "size is 0; it must be greater than 0 and at most 1000");
-    EXPECT_EQ(refused(std::nan(""), Range::finite()), "size is nan; it must be a finite number");
+              "core.test: size is 9001 pixels; it must be between 200 and 8000");
+    EXPECT_EQ(refused(3.0, Range::inside(2, 3)), "core.test: size is 3; it must be greater than 2 and less than 3");
+    EXPECT_EQ(refused(0.0, Range{0, 1000, false, true}),
+              "core.test: size is 0; it must be greater than 0 and at most 1000");
+    EXPECT_EQ(refused(std::nan(""), Range::finite()), "core.test: size is nan; it must be a finite number");
     EXPECT_EQ(refused(std::int64_t{9007199254740993}, Range::between(0, 1)),
-              "size is 9007199254740993; it must be between 0 and 1");
+              "core.test: size is 9007199254740993; it must be between 0 and 1");
     EXPECT_EQ(refused(0.5, Range::between(0, 1)), "");
 }
 

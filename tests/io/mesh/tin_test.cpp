@@ -40,7 +40,7 @@ using test::has;
 
 /// Coordinates of many digits, far from the origin.
 Tin awkward() {
-    auto points = test::points_by_chance(60, 1000.0, 9);
+    auto points = test::random_points(60, 1000.0, 9);
     for (Vec3& p : points) {
         p = {p.x + 300000.1, p.y + 5200000.0 / 3.0, p.z - 50.0};
     }

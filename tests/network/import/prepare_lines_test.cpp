@@ -239,6 +239,15 @@ TEST(FillHeights, FreeEndsRiseUpstreamAndFallDownstream) {
     EXPECT_EQ(heights(turned.lines, 3), (std::vector<double>{60, 70}));
 }
 
+TEST(FillHeights, OfHeightsThatMeetTheLowestCounts) {
+    std::vector<Vec3> const high{{0, 0, 100}, {100, 0, 90}};
+    std::vector<Vec3> const low{{0, 50, 95}, {100, 0, 80}};
+    std::vector<Vec3> const open{{100, 0, none}, {200, 0, none}};
+    for (auto const& drawn : {std::vector{high, low, open}, std::vector{low, high, open}}) {
+        EXPECT_EQ(heights(fill_heights(lines_of(drawn), 0.1).lines, 2), (std::vector<double>{80, 70}));
+    }
+}
+
 TEST(FillHeights, ARiverOfItsOwnBeginsAtTheNearestHeight) {
     auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}}, {{90, 200, none}, {90, 100, none}}}), 0.1);
     EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{100, 90}));

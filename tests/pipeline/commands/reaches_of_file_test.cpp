@@ -109,7 +109,7 @@ TEST(ReachesOfFile, WhatLeavesTheGridIsCut) {
 TEST(ReachesOfFile, RefusesCirclesAndLeavesOutWhatIsNowhere) {
     NetworkFile file = three_arcs();
     file.arcs[2].ds_arc = 30;
-    EXPECT_THROW(reaches_of_file(file, grid), BadInput);
+    EXPECT_TRUE(refused(file, "leads to no outlet"));
     file = three_arcs();
     file.arcs[1].line[0].y = std::numeric_limits<double>::quiet_NaN();
     EXPECT_EQ(reaches_of_file(file, grid).outside, 1);
@@ -118,6 +118,19 @@ TEST(ReachesOfFile, RefusesCirclesAndLeavesOutWhatIsNowhere) {
     file.arcs[1].line.clear();
     EXPECT_EQ(reaches_of_file(file, grid).outside, 1);
     EXPECT_EQ(reaches_of_file(file, grid).nowhere, 0);
+}
+
+TEST(StillCells, LieUnderLevelPartsOnTheGrid) {
+    NetworkFile file = three_arcs();
+    file.arcs[0].line[0].z = 1.0;  // falls
+    file.arcs[1].line[0].x = 10.5; // begins off the grid
+    Mask const still = pipeline::still_cells(file, grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        EXPECT_EQ(still[i] != 0, c.col == 5 && c.row >= 5 && c.row <= 9) << c.col << " " << c.row;
+    }
+    file.says.heights = false;
+    EXPECT_EQ(pipeline::still_cells(file, grid).cells(), 0);
 }
 
 } // namespace reaches_of_file_test

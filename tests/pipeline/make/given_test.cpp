@@ -123,7 +123,7 @@ TEST(GivenLength, HeadsNearTheEdgeAndLowerValleysAreKept) {
 TEST(GivenLength, OfAFeatureInSeveralPartsOnlyTheShortOneIsLeftOut) {
     Files files;
     std::string const parts = "[[[502000,5003000],[502000,5000010]],[[502000,5003000],[502000,5003010]]]";
-    files.write("rivers.geojson", test::geojson(test::feature("MultiLineString", parts, "")));
+    files.write("rivers.geojson", test::geojson(test::feature("MultiLineString", parts)));
     Made const t = test::made(recipe + path, files.folder());
     GivenLength const& given = *t.assessment.given;
     expect_balanced(given);

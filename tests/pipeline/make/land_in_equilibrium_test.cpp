@@ -267,7 +267,11 @@ TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsYieldThereUnlessTheyAreAskedF
     EXPECT_EQ(free.recipe.network->heights, Heights::automatic);
     EXPECT_TRUE(check_of(free, "walled_cells").ok) << check_of(free, "walled_cells").value;
     EXPECT_GT(free.terrain.equilibrium->max_lowered_m, 100.0);
-    Made const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files.folder());
+    std::string said;
+    thalweg::Run run;
+    run.log = [&said](std::string_view line) { said += line; };
+    Made const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files.folder(), run);
+    EXPECT_FALSE(test::has(said, "warning"));
     EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
     EXPECT_TRUE(check_of(gentle, "walled_cells").ok) << check_of(gentle, "walled_cells").value;
     EXPECT_FALSE(gentle.recipe.surface->equilibrium.mean_slope_deg) << "nobody asked for one";

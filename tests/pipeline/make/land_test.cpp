@@ -6,6 +6,7 @@
 #include <cmath>
 #include <filesystem>
 #include <fstream>
+#include <set>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -205,6 +206,17 @@ TEST(Land, TheSkeletonsTrianglesAloneChangeNothing) {
     Made const with = made(rivers + "[skeleton]\ntin = true\n[surface]\n");
     EXPECT_TRUE(with.terrain.tin);
     EXPECT_TRUE(test::same_bits(plain.terrain.surface->dem, with.terrain.surface->dem));
+}
+
+TEST(Land, ATurnedClusterIsFramedWhole) {
+    std::set<std::size_t> arcs;
+    for (char const* rotate : {"0", "33", "100", "-170", "-80"}) {
+        std::string const grown =
+            std::string("[network]\nprune = 6\nrotate = ") + rotate + "\n[network.dla]\nparticles = 3000\n";
+        Planform const turned = make_planform(resolve(read_recipe(grown, "test")));
+        arcs.insert(turned.network.arc_count());
+    }
+    EXPECT_EQ(arcs.size(), 1U);
 }
 
 TEST(Land, ThroughPoints) {

@@ -54,7 +54,7 @@ public:
 
 private:
     static std::string polygons(std::string const& parts) {
-        return geojson(test::feature("MultiPolygon", "[" + parts + "]", ""));
+        return geojson(test::feature("MultiPolygon", "[" + parts + "]"));
     }
 };
 

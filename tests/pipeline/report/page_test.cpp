@@ -394,6 +394,7 @@ TEST(PageLines, RefusesWhatIsNoLineHere) {
              {{{}}, ""},
              {{{corner}}, ""},
              {{{corner, {NAN, 4000000.0}}}, ""},
+             {{good, {corner, {corner.x + 0x1p29 * 0.0625 * grid.cell_m, corner.y}}}, "vertex 1 of line 2"},
              {{good, {corner, {1e300, 0.0}}}, "vertex 1 of line 2"}}) {
         EXPECT_TRUE(test::refused(
             "pipeline.page_lines", [&] { page_of(lines, grid); }, words));

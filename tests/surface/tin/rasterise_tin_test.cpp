@@ -112,7 +112,7 @@ TEST(RasteriseTin, IsPointInTriangle) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30);
         int const steps = *rc::gen::element(0, 10, 20);
-        auto points = test::points_by_chance(*rc::gen::inRange<std::size_t>(3, 40), 20.0, seed, steps);
+        auto points = test::random_points(*rc::gen::inRange<std::size_t>(3, 40), 20.0, seed, steps);
         points.push_back({3, 3, 5});
         points.push_back({4, 3, 5});
         points.push_back({3, 5, 7});
@@ -147,7 +147,7 @@ TEST(RasteriseTin, SliversLeaveNoGap) {
 TEST(RasteriseTin, OutsideTakesTheNearestHeight) {
     ASSERT_TRUE(rc::check([] {
         auto const seed = *rc::gen::inRange<std::uint64_t>(0, 1U << 30);
-        auto points = test::points_by_chance(12, 10.0, seed);
+        auto points = test::random_points(12, 10.0, seed);
         Tin tin = geometry::triangulate(points).tin;
         auto const dem = rasterise_tin(tin, {20, 20, 1.0, -5.0, 15.0, ""}, {Outside::nearest});
         auto const inside = rasterise_tin(tin, dem.grid());
@@ -176,7 +176,7 @@ TEST(RasteriseTin, OutsideTakesTheNearestHeight) {
 }
 
 TEST(RasteriseTin, ThreadsChangeNoByte) {
-    Tin const tin = geometry::triangulate(test::points_by_chance(20000, 500.0, 3, 400)).tin;
+    Tin const tin = geometry::triangulate(test::random_points(20000, 500.0, 3, 400)).tin;
     Grid const grid{520, 530, 1.0, -10.5, 510.5, ""};
     for (auto const outside : {Outside::no_data, Outside::nearest}) {
         thalweg::Run const one = on_threads(1);

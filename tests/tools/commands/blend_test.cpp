@@ -130,7 +130,7 @@ TEST(Blend, SourcesInAnotherCrsAreWarped) {
 TEST(Blend, MasksAndRiversSayWhatStays) {
     Workplace const place;
     write_lands(place);
-    place.write("mask.geojson", test::geojson(feature("Polygon", ring)));
+    place.write("mask.geojson", test::geojson(test::feature("Polygon", ring)));
     EXPECT_EQ(blend(place, "target.tif source.tif -o a.tif --mask mask.geojson")["cells"], 10 * 7);
     write(place, "mask.tif", test::raster_of(target_grid, [&](Cell c) {
               return c.col >= 25 && c.col < 35 && c.row >= 10 && c.row < 15 ? 1.0F : 0.0F;
@@ -139,7 +139,7 @@ TEST(Blend, MasksAndRiversSayWhatStays) {
     EXPECT_EQ(raster["cells"], 4 * 5);
     EXPECT_EQ(raster["outside"], 6 * 5);
     // A river through the patch, from beyond the target's edge.
-    place.write("river.geojson", test::geojson(line_feature("[400000,3999505],[700000,3999505]")));
+    place.write("river.geojson", test::geojson(test::line("[400000,3999505],[700000,3999505]")));
     EXPECT_EQ(blend(place, "target.tif source.tif -o c.tif --keep river.geojson")["kept"], 18);
     Raster<float> const before = read(place, "target.tif");
     Raster<float> const after = read(place, "c.tif");
@@ -187,8 +187,8 @@ TEST(Blend, BadInputIsRefused) {
     write(place, "narrow.tif", land(narrow, 1.0));
     write(place, "zeros.tif", Raster<float>(target_grid, 0.0F));
     place.write("points.csv", "x,y,z\n1,1,1\n");
-    place.write("away.geojson", test::geojson(feature("Polygon", "[[[1,1],[2,1],[2,2],[1,1]]]")));
-    place.write("dry.geojson", test::geojson(line_feature("[400000,1],[700000,1]")));
+    place.write("away.geojson", test::geojson(test::feature("Polygon", "[[[1,1],[2,1],[2,2],[1,1]]]")));
+    place.write("dry.geojson", test::geojson(test::line("[400000,1],[700000,1]")));
     expect_refused(place, "blend", {"", "target.tif", "target.tif source.tif"});
     expect_refused(place, "blend -o a.tif",
                    {"nowhere.tif source.tif", "target.tif nowhere.tif", "target.tif bare.tif", "bare.tif target.tif",

@@ -19,12 +19,12 @@ namespace fs = std::filesystem;
 namespace {
 
 /// Three rivers that meet, without heights; a fourth joins below. Drawn by hand, in no schema.
-std::string const lines = test::geojson(line_feature("[400,900],[500,500]", R"("nr":11,"into":14)") + "," +
-                                        line_feature("[500,900],[500,500]", R"("nr":12,"into":14)") + "," +
-                                        line_feature("[600,900],[500,500]", R"("nr":13,"into":14)") + "," +
-                                        line_feature("[500,500],[500,300]", R"("nr":14,"into":16)") + "," +
-                                        line_feature("[800,500],[500,300]", R"("nr":15,"into":16)") + "," +
-                                        line_feature("[500,300],[500,100]", R"("nr":16,"into":0)"));
+std::string const lines = test::geojson(test::line("[400,900],[500,500]", R"("nr":11,"into":14)") + "," +
+                                        test::line("[500,900],[500,500]", R"("nr":12,"into":14)") + "," +
+                                        test::line("[600,900],[500,500]", R"("nr":13,"into":14)") + "," +
+                                        test::line("[500,500],[500,300]", R"("nr":14,"into":16)") + "," +
+                                        test::line("[800,500],[500,300]", R"("nr":15,"into":16)") + "," +
+                                        test::line("[500,300],[500,100]", R"("nr":16,"into":0)"));
 
 std::string const read_lines = "rivers.geojson --field arc_id=nr --field ds_arc=into ";
 

@@ -95,7 +95,8 @@ TEST(Deform, RotatesAPartOfAMeshOutOfThePlane) {
         }
     }
     place.write("mesh.obj", obj);
-    place.write("region.geojson", test::geojson(feature("Polygon", "[[[15,15],[65,15],[65,65],[15,65],[15,15]]]")));
+    place.write("region.geojson",
+                test::geojson(test::feature("Polygon", "[[[15,15],[65,15],[65,65],[15,65],[15,15]]]")));
     auto const heights = [&](std::string const& name) { return io::read_tin((place / name).string()).tin.vertices; };
     expect_run(place, "deform mesh.obj -o turned.obj --mask region.geojson --rotate 40 --axis 1,0,0", 0);
     std::vector<Vec3> const before = heights("mesh.obj");

@@ -110,7 +110,7 @@ TEST(Draw, OfARasterWhatNeedsNoRivers) {
 TEST(Draw, RiversFromAnyLineFile) {
     Workplace const place;
     make_dem(place, "hill.tif");
-    place.write("rivers.geojson", test::geojson(line_feature("[500600,4999500],[500600,4990000]")));
+    place.write("rivers.geojson", test::geojson(test::line("[500600,4999500],[500600,4990000]")));
     expect_run(place, "draw hill.tif --network rivers.geojson -o out", 0);
     EXPECT_EQ(names_in(place / "out"), "hypsometry.png map.png profile.png sections.png wireframe.png");
     Tiff far = metres; // no river runs there

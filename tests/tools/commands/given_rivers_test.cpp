@@ -141,7 +141,7 @@ TEST(GivenRivers, WhatHoldsNoRiversIsRefused) {
     place.write("words.txt", "The quick brown fox\n");
     fs::create_directories(place / "folder");
     fs::copy_file(samples + "bigtujunga_srtm1.tif", place / "dem.tif");
-    place.write("point.geojson", test::geojson(line_feature("[500000,4000000],[500000,4000000]")));
+    place.write("point.geojson", test::geojson(test::line("[500000,4000000],[500000,4000000]")));
     expect_run(place, "make " + samples + "points.toml -q -o dots", 0); // a terrain without rivers
     expect_refused(place, "make -o out",
                    {"nothing.gpkg", "empty.gpkg", "words.txt", "folder", "dem.tif", "point.geojson", "dots"});
@@ -190,8 +190,8 @@ TEST(GivenRivers, CoarserCellsHaveGentlerSlopes) {
 
 TEST(GivenRivers, ATributaryThatDoesNotQuiteMeetItsRiverIsReported) {
     Workplace const place;
-    place.write("gap.geojson", test::geojson(line_feature("[500000,5005000],[505000,5004000],[510000,5005000]") + "," +
-                                             line_feature("[505000,5009000],[505000,5004070]")));
+    place.write("gap.geojson", test::geojson(test::line("[500000,5005000],[505000,5004000],[510000,5005000]") + "," +
+                                             test::line("[505000,5009000],[505000,5004070]")));
     Outcome const o = thalweg_run("make gap.geojson --set grid.cell=50 -o out", place.path());
     EXPECT_TRUE(test::has(o.err, "warning: ", "network.lines.snap=150"));
     Outcome const joined =
@@ -228,8 +228,8 @@ std::string scattered_strokes(int count, std::uint64_t seed) {
     std::string features;
     for (Stroke const& s : strokes) {
         features += (features.empty() ? "" : ",") +
-                    line_feature(fmt::format("[{},{}],[{},{}]", 500000.0 + s.a.x, 4988000.0 + s.a.y, 500000.0 + s.b.x,
-                                             4988000.0 + s.b.y));
+                    test::line(fmt::format("[{},{}],[{},{}]", 500000.0 + s.a.x, 4988000.0 + s.a.y, 500000.0 + s.b.x,
+                                           4988000.0 + s.b.y));
     }
     return test::geojson(features);
 }
@@ -253,9 +253,9 @@ TEST(GivenRivers, FieldsOfLinksCanBeNamed) {
     // Drawn from the mouth upward.
     place.write(
         "up.geojson",
-        test::geojson(line_feature("[500000,5000000],[500200,5002500],[500000,5005000]", R"("own":1,"next":0)") + "," +
-                      line_feature("[500000,5005000],[500300,5007500],[499000,5010000]", R"("own":2,"next":1)") + "," +
-                      line_feature("[500000,5005000],[502000,5007000],[504000,5009500]", R"("own":3,"next":1)")));
+        test::geojson(test::line("[500000,5000000],[500200,5002500],[500000,5005000]", R"("own":1,"next":0)") + "," +
+                      test::line("[500000,5005000],[500300,5007500],[499000,5010000]", R"("own":2,"next":1)") + "," +
+                      test::line("[500000,5005000],[502000,5007000],[504000,5009500]", R"("own":3,"next":1)")));
     json const report = made(place, "up.geojson", coarse + " --field arc_id=own --field ds_arc=next", "out");
     EXPECT_EQ(report["recipe"]["network"]["lines"]["down_field"], "next");
     EXPECT_NEAR(report["given"]["turned_m"].get<double>(), report["given"]["kept_m"].get<double>(), 1.0);

@@ -33,8 +33,8 @@ void write_plane(Workplace const& place) {
     place.write("dem.asc", "ncols 4\nnrows 3\nxllcorner 500000\nyllcorner 4000000\ncellsize 10\nNODATA_value -9999\n"
                            "-9999 28 26 24\n29 27 25 23\n28 26 24 22\n");
     place.write("rivers.geojson",
-                test::geojson(line_feature("[500005,4000005],[500025,4000005]", R"("line":7,"next":9)") + "," +
-                              line_feature("[500025,4000005],[500060,4000005]", R"("line":9,"next":0)")));
+                test::geojson(test::line("[500005,4000005],[500025,4000005]", R"("line":7,"next":9)") + "," +
+                              test::line("[500025,4000005],[500060,4000005]", R"("line":9,"next":0)")));
 }
 
 } // namespace

@@ -416,10 +416,10 @@ TEST(RiverFiles, WaysOfOpenStreetMap) {
 
 TEST(RiverFiles, WaysInSeveralPartsAreMended) {
     Workplace const place;
-    place.write("parts.geojson",
-                test::geojson(feature("MultiLineString", "[[[0,8000],[0,4000]],[[3000,8000],[2000,6000],[0,4000]]]",
-                                      R"("name":"a")") +
-                              "," + line_feature("[0,4000],[0,0]", R"("name":"b")")));
+    place.write("parts.geojson", test::geojson(test::feature("MultiLineString",
+                                                             "[[[0,8000],[0,4000]],[[3000,8000],[2000,6000],[0,4000]]]",
+                                                             R"("name":"a")") +
+                                               "," + test::line("[0,4000],[0,0]", R"("name":"b")")));
     made(place, "parts.geojson", 2, coarse);
     EXPECT_EQ(texts_of(place / "mended.gpkg", "arcs", "name"), (std::multiset<std::string>{"a", "a", "b"}));
 }
@@ -471,8 +471,8 @@ TEST(RiverFiles, NamesOfColumnsAndNull) {
 TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
     Workplace const place;
     place.write("defects.geojson",
-                test::geojson(R"({"type":"Feature","properties":{},"geometry":null},)" + line_feature("") + "," +
-                              line_feature("[5,5],[5,5]") + "," + line_feature("[0,8000],[3000,0]")));
+                test::geojson(R"({"type":"Feature","properties":{},"geometry":null},)" + test::line("") + "," +
+                              test::line("[5,5],[5,5]") + "," + test::line("[0,8000],[3000,0]")));
     expect_run(place, "make defects.geojson -o out" + coarse, 0);
     json const report = report_of(place / "out");
     std::set<std::int64_t> left_out;

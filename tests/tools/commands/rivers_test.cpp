@@ -24,7 +24,7 @@ using test::geojson;
 std::string const sized = " --set grid.width=160 --set grid.height=160 --set network.tokunaga.order=3 ";
 
 std::string stroke(std::string const& vertices, std::string const& properties = "\"rosgen\":\"B\"") {
-    return line_feature(vertices, properties);
+    return test::line(vertices, properties);
 }
 
 std::string const strokes_recipe =
@@ -109,7 +109,7 @@ TEST(Rivers, EverySampleHoldsItsContract) {
 
 TEST(Rivers, OpenClGivesTheSameLand) {
     Workplace const place;
-    made(place, samples + "tokunaga.toml" + small, "cpu");
+    made(place, samples + "tokunaga.toml" + sized, "cpu");
     made(place, samples + "tokunaga.toml" + sized + "--device opencl", "opencl");
     EXPECT_LE(greatest_difference(place / "cpu/dem.tif", place / "opencl/dem.tif"), 1e-3);
     EXPECT_TRUE(file_bytes(place / "cpu/network.tif") == file_bytes(place / "opencl/network.tif"));
@@ -142,7 +142,7 @@ TEST(Rivers, ANetworkFillsAPolygon) {
                                "\"region.geojson\"\n[surface]\n";
     place.write("r.toml", recipe);
     auto const region = [&](std::string const& features) { place.write("region.geojson", geojson(features)); };
-    region(feature("Polygon", "[" + ring + "]"));
+    region(test::feature("Polygon", "[" + ring + "]"));
     json const report = made(place, "r.toml");
     EXPECT_EQ(report["network"]["tokunaga"]["dropped"], 0);
     EXPECT_TRUE(fs::exists(place / "out/inputs/region/region.geojson"));
@@ -153,8 +153,9 @@ TEST(Rivers, ANetworkFillsAPolygon) {
                     "network.source=dla", "network.tokunaga.region=none.geojson"});
     std::string const hole = ",[[501000,4001000],[501500,4001000],[501500,4001500],[501000,4001000]]";
     std::string const bow = "[[[500000,4000000],[503000,4003000],[503000,4000000],[500000,4003000],[500000,4000000]]]";
-    for (std::string const& wrong : {feature("Polygon", "[" + ring + "]") + "," + feature("Polygon", "[" + ring + "]"),
-                                     feature("Polygon", "[" + ring + hole + "]"), feature("Polygon", bow)}) {
+    for (std::string const& wrong :
+         {test::feature("Polygon", "[" + ring + "]") + "," + test::feature("Polygon", "[" + ring + "]"),
+          test::feature("Polygon", "[" + ring + hole + "]"), test::feature("Polygon", bow)}) {
         region(wrong);
         expect_refused(place, "make r.toml -o no", {""});
     }
@@ -183,7 +184,7 @@ TEST(Rivers, PatchesLieOneOverTheOther) {
     EXPECT_GT(kept["patches"][0]["kept"], 0);
 
     auto const with_mask = [&](std::string const& coordinates) {
-        place.write("mask.geojson", geojson(feature("Polygon", "[" + coordinates + "]")));
+        place.write("mask.geojson", geojson(test::feature("Polygon", "[" + coordinates + "]")));
         place.write("mask.toml", land + patch + "at = [502400, 4997600]\nmask = \"mask.geojson\"\n");
     };
     with_mask("[[502200,4997500],[502600,4997500],[502600,4997700],[502200,4997500]]");

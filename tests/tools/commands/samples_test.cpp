@@ -205,9 +205,9 @@ namespace {
 
 /// Two rivers with heights that meet, in UTM zone 31: from the north-west and the north-east, leaving to the south.
 std::string const rivers_with_heights =
-    test::geojson(line_feature("[500000,5002000,90],[500700,5001300,70],[501000,5001000,50]") + "," +
-                  line_feature("[502000,5002000,95],[501000,5001000,50]") + "," +
-                  line_feature("[501000,5000000,10],[501000,5001000,50]"));
+    test::geojson(test::line("[500000,5002000,90],[500700,5001300,70],[501000,5001000,50]") + "," +
+                  test::line("[502000,5002000,95],[501000,5001000,50]") + "," +
+                  test::line("[501000,5000000,10],[501000,5001000,50]"));
 
 std::string lines_recipe(std::string const& grid, std::string const& surface) {
     return "[grid]\ncell = 20\n" + grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"r.geojson\"\n" +

@@ -104,7 +104,7 @@ TEST(Tin, BadInputIsRefused) {
     place.write("p.csv", points);
     place.write("line.csv", "0,0,1\n1,1,2\n2,2,3\n");
     place.write("nan.csv", "0,0,1\n1,0,nan\n0,1,2\n");
-    place.write("flat.geojson", test::geojson(line_feature("[1,1],[2,3]")));
+    place.write("flat.geojson", test::geojson(test::line("[1,1],[2,3]")));
     expect_refused(place, "tin", {"", "p.csv", "p.csv -o a.dxf", "p.csv -o none/a.2dm", "p.csv -o ."});
     expect_refused(place, "tin -o a.2dm",
                    {"nowhere.tif", "line.csv", "nan.csv", "flat.geojson", "p.csv --format dxf", "p.csv --error 3",

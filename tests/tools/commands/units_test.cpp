@@ -203,8 +203,8 @@ TEST(Units, RiversInSurveyFeetWithHeightsInSurveyFeet) {
     Workplace const place;
     // A main stem and a tributary near Oakland.
     place.write("m.geojson",
-                test::geojson(line_feature("[560000,4180000,300],[562000,4181000,200],[565000,4180500,100]") + "," +
-                              line_feature("[561500,4184000,400],[562000,4181000,200]")));
+                test::geojson(test::line("[560000,4180000,300],[562000,4181000,200],[565000,4180500,100]") + "," +
+                              test::line("[561500,4184000,400],[562000,4181000,200]")));
     place.shell("ogr2ogr -a_srs EPSG:32610 utm.gpkg m.geojson && ogr2ogr -t_srs EPSG:2227 plan.gpkg utm.gpkg && "
                 "ogr2ogr -a_srs EPSG:2227+6360 ft.gpkg plan.gpkg"); // GDAL leaves Z alone
     json const report = made(place, "ft.gpkg --set grid.cell=20", "out");

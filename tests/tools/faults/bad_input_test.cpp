@@ -104,19 +104,18 @@ TEST(BadInput, LineFiles) {
         std::string more = ""; ///< of the section network.lines
         std::string set = "";
     };
-    std::string const river = geojson(line_feature("[500000,5000000],[500300,5000000]"));
+    std::string const river = geojson(test::line("[500000,5000000],[500300,5000000]"));
     for (auto const& [file, more, set] : {
              Case{""},
              Case{geojson("")},
              Case{"{not json"},
-             Case{geojson(feature("Point", "[500000,5000000]"))},
+             Case{geojson(test::feature("Point", "[500000,5000000]"))},
              Case{river, "layer = \"streams\"\n"},
-             Case{
-                 geojson(line_feature("[500000,5000000,9],[500050,5000000,12],[500100,5000000,13],[500200,5000000,1]")),
-                 "orientation = \"as_drawn\"\n"},
-             Case{geojson(line_feature("[500000,5000000],[500100,5000000]") + "," +
-                          line_feature("[500100,5000000],[500100,5000100]") + "," +
-                          line_feature("[500100,5000100],[500000,5000000]"))},
+             Case{geojson(test::line("[500000,5000000,9],[500050,5000000,12],[500100,5000000,13],[500200,5000000,1]")),
+                  "orientation = \"as_drawn\"\n"},
+             Case{geojson(test::line("[500000,5000000],[500100,5000000]") + "," +
+                          test::line("[500100,5000000],[500100,5000100]") + "," +
+                          test::line("[500100,5000100],[500000,5000000]"))},
              Case{river, "", " --set grid.width=10 --set grid.height=10"},
              Case{river, "", " --set network.heights=file"},
              Case{river, "", " --set grid.crs=EPSG:4258"},

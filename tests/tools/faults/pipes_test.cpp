@@ -23,7 +23,7 @@ class Pipes : public MadeOnce {
 protected:
     static void SetUpTestSuite() {
         MadeOnce::SetUpTestSuite();
-        place().write("region.geojson", test::geojson(feature("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]")));
+        place().write("region.geojson", test::geojson(test::feature("Polygon", "[[[0,0],[9,0],[9,9],[0,0]]]")));
         place().write("mesh.obj", "v 0 0 0\nv 1 0 0\nv 0 1 0\nf 1 2 3\n");
         place().write("points.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
         fs::create_directory(place() / "folder");

@@ -369,8 +369,8 @@ std::string uphill(RiverLines const& file, Vec2 a, Vec2 b, double za, double zb)
     }
     bool const alike = fmt::format("{:.6g}", za) == fmt::format("{:.6g}", zb);
     auto const say = [&](double z) { return alike ? fmt::format("{}", z) : fmt::format("{:.6g}", z); };
-    return fmt::format("river {} in {} runs uphill between vertex {} ({} m) and {} ({} m). Reverse the line, or leave "
-                       "heights to [network] heights.",
+    return fmt::format("network.take_file_heights: river {} in {} runs uphill between vertex {} ({} m) and {} ({} m). "
+                       "Reverse the line, or leave heights to [network] heights.",
                        river->feature, file.name, upper + 1, say(za), lower + 1, say(zb));
 }
 

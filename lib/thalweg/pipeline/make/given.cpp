@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/vec.hpp>
-#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
@@ -174,7 +173,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
     GivenHeights given;
     given.tolerance_m = plan.recipe.network->heights_tolerance_m;
     double sum_m = 0.0;
-    ElevatedNetwork const asked = network::keep_heights(planform.network, *planform.file_heights);
+    ElevatedNetwork const& asked = *planform.file_heights;
     for (ArcId a = 0; a < asked.planform.arc_count(); ++a) {
         std::vector<Vec2> const& line = asked.planform.arc(a).line;
         std::vector<double> const& z = asked.arc_z[a];

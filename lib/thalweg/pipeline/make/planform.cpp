@@ -10,6 +10,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
@@ -93,9 +94,9 @@ struct Carried {
 
 /// Carries outlets inside the grid to where rivers may end, if the recipe wants it. Those at the sea reach it in any
 /// case; what lies beside a river is land. keeps_heights: the rivers have heights, so that none may fall into another.
-Carried with_outlets_carried(Plan const& plan, StreamNetwork const& network, Grid const& grid, Mask const& land,
-                             bool keeps_heights, Run const& run) {
-    Carried result{network, land, {}};
+Carried with_outlets_carried(Plan const& plan, StreamNetwork network, Grid const& grid, Mask land, bool keeps_heights,
+                             Run const& run) {
+    Carried result{std::move(network), std::move(land), {}};
     if (plan.recipe.network->source == Source::forest) {
         return result; // its outlets lie on its coast
     }
@@ -185,30 +186,28 @@ struct Pruned {
     std::vector<Finding> notes;
 };
 
-Pruned pruned(Plan const& plan, SourceRivers const& source, StageLog& stage_log, Run const& run) {
+Pruned pruned(Plan const& plan, StreamNetwork const& network, RiverFile file, double cell_m, StageLog& stage_log,
+              Run const& run) {
     NetworkRecipe const& rivers = *plan.recipe.network;
-    network::Pruned kept = stage_log.stage(
-        "prune", [&] { return prune(source.network, rivers, *rivers.prune_cells, source.grid.cell_m, run); });
+    network::Pruned kept =
+        stage_log.stage("prune", [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
     stage_log.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, kept.network.arc_count(), kept.arcs_before));
     std::vector<Finding> notes;
     if (rivers.source == Source::forest) { // its rivers end where the land does
-        notes = pruned_outlets(source.network, kept.network);
+        notes = pruned_outlets(network, kept.network);
     }
-    RiverFile file = source.file;
-    append(file.secondary, file.sources.missing(source.network, kept.network, LeftOut::pruned, "pruned"));
+    append(file.secondary, file.sources.missing(network, kept.network, LeftOut::pruned, "pruned"));
     file.imported = kept.network;
     return {std::move(kept.network), std::move(file), kept.arcs_before, std::move(notes)};
 }
 
-NetworkStatistics statistics_of(NetworkStatistics const& source, std::vector<Finding> conversions, Pruned const& kept,
-                                std::vector<Finding> carried) {
-    NetworkStatistics statistics = source;
+/// Without the notes on carried outlets.
+NetworkStatistics statistics_of(NetworkStatistics statistics, std::vector<Finding> conversions, Pruned const& kept) {
     statistics.arcs_traced = kept.arcs_before;
     statistics.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
     append(statistics.repairs, std::move(conversions));
     append(statistics.repairs, kept.notes);
-    append(statistics.repairs, std::move(carried));
     return statistics;
 }
 
@@ -221,21 +220,25 @@ Planform make_planform(Plan const& plan, Run const& run) {
     StageLog stage_log(run);
     SourceRivers source = rivers_of_source(plan, stage_log, run);
     std::vector<Finding> conversions = report_conversions(plan.recipe, source.grid, run);
-    Pruned kept = pruned(plan, source, stage_log, run);
-    Carried carried =
-        with_outlets_carried(plan, kept.network, source.grid, source.land, source.file_heights.has_value(), run);
+    Pruned kept = pruned(plan, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
+    NetworkStatistics statistics = statistics_of(std::move(source.statistics), std::move(conversions), kept);
+    Carried carried = with_outlets_carried(plan, std::move(kept.network), source.grid, std::move(source.land),
+                                           source.file_heights.has_value(), run);
+    append(statistics.repairs, std::move(carried.notes));
     refuse_if<BadParameter>(has_meanders(plan) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
-    NetworkStatistics statistics =
-        statistics_of(source.statistics, std::move(conversions), kept, std::move(carried.notes));
     Bent rivers =
         bent(plan, std::move(carried.network), std::move(kept.file), source.grid, carried.land, stage_log, run);
     Typed typed = type_rivers(std::move(rivers.network), *plan.recipe.network, run);
+    std::optional<ElevatedNetwork> file_heights;
+    if (source.file_heights) {
+        file_heights = network::keep_heights(typed.network, *source.file_heights);
+    }
     return {.grid = source.grid,
             .network = std::move(typed.network),
             .types = std::move(typed.types),
-            .file_heights = std::move(source.file_heights),
+            .file_heights = std::move(file_heights),
             .land = std::move(carried.land),
             .file = std::move(rivers.file),
             .statistics = std::move(statistics),

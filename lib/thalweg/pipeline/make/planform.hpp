@@ -52,7 +52,7 @@ struct Planform {
     Grid grid;
     StreamNetwork network;                       ///< arcs name their types where types has them
     network::RiverTypes types;                   ///< by arc; empty where the recipe asks for none
-    std::optional<ElevatedNetwork> file_heights; ///< of the imported lines, where the recipe takes the file's heights
+    std::optional<ElevatedNetwork> file_heights; ///< of the network, where the recipe takes the file's heights
     Mask land;                                   ///< 0: sea, which has no heights; without cells: no sea
     RiverFile file;                              ///< from which the rivers were imported
     NetworkStatistics statistics;

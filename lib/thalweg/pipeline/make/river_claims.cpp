@@ -250,7 +250,11 @@ FileReaches reaches_of_file(NetworkFile const& file, Grid const& grid) {
         leaves[reach] = leaves[reach] || !inside(arc.line, grid);
         result.reaches[reach].ds = place_in(places, arc.ds_arc);
     }
-    flow::steps_to_outlet(result.reaches); // throws if rivers form a cycle
+    try {
+        flow::steps_to_outlet(result.reaches);
+    } catch (BadInput const& cycle) {
+        throw BadInput(std::string("pipeline.reaches_of_file: ") + cycle.what());
+    }
     for (std::size_t i = 0; i < result.reaches.size(); ++i) {
         bool const none = result.reaches[i].lines.empty();
         result.outside += none ? 1 : 0;

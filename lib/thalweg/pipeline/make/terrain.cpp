@@ -411,13 +411,12 @@ flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNe
 Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run) {
     StageLog stage_log(run);
     RaisedRivers raised = raise_rivers(plan, planform, stage_log, run);
-    flow::ContributingAreas areas = flow::areas_nearest(planform.network, planform.grid, run);
     Terrain terrain;
     terrain.grid = planform.grid;
     terrain.land = planform.land;
     terrain.rivers = rivers_of(std::move(raised.network), planform.types);
     terrain.valley = std::move(raised.valley);
-    terrain.areas = std::move(areas);
+    terrain.areas = raised.areas ? std::move(*raised.areas) : flow::areas_nearest(planform.network, planform.grid, run);
     terrain.heights = raised.statistics;
     terrain.timings_s = stage_log.take();
     return terrain;

@@ -35,6 +35,17 @@ std::vector<Vec2> square(double side_m) {
     return {{0, 0}, {side_m, 0}, {side_m, side_m}, {0, side_m}};
 }
 
+/// A ring around (1e6, 5e6) with a corner at each of these distances [m].
+std::vector<Vec2> star(std::vector<double> const& radii) {
+    std::vector<Vec2> ring;
+    for (double const radius : radii) {
+        double const angle =
+            2.0 * 3.14159265358979 * static_cast<double>(ring.size()) / static_cast<double>(radii.size());
+        ring.push_back({1e6 + radius * std::cos(angle), 5e6 + radius * std::sin(angle)});
+    }
+    return ring;
+}
+
 EmbedParams in_square(double side_m) {
     return {.region = square(side_m), .mouth = {0.5 * side_m, 0.0}};
 }
@@ -307,18 +318,25 @@ TEST(EmbedTree, ATrunkSentOutsideStaysInside) {
         params.direction = direction;
         EXPECT_EQ(broken(tree, params, embed_tree(tree, params)), "") << direction.x << " " << direction.y;
     }
+    std::vector<Vec2> const pentagon = star(std::vector(5, 300.0));
+    for (Vec2 const corner : pentagon) { // mouths are rounded: some lie outside
+        EmbedParams const params{.region = pentagon, .mouth = corner, .direction = {corner.x - 1e6, corner.y - 5e6}};
+        auto const link = grow_tokunaga({.order = 1});
+        EXPECT_EQ(broken(link, params, embed_tree(link, params)), "") << corner.x << " " << corner.y;
+    }
 }
 
 TEST(EmbedTree, LawsHoldForAnyStar) {
     ASSERT_TRUE(rc::check("laws hold in a star-shaped region", [] {
-        int const corners = *rc::gen::inRange(4, 11);
+        std::vector<double> radii(*rc::gen::inRange<std::size_t>(4, 11));
         EmbedParams params{.seed = *rc::gen::arbitrary<std::uint64_t>()};
-        for (int k = 0; k < corners; ++k) {
-            double const angle = 2.0 * 3.14159265358979 * k / corners;
-            double const radius = *rc::gen::inRange(300, 1000);
-            params.region.push_back({1e6 + radius * std::cos(angle), 5e6 + radius * std::sin(angle)});
+        std::ranges::generate(radii, [] { return *rc::gen::inRange(300, 1000); });
+        params.region = star(radii);
+        params.mouth = params.region[*rc::gen::inRange<std::size_t>(0, radii.size())];
+        if (*rc::gen::arbitrary<bool>()) { // outward directions too
+            double const angle = 0.1 * *rc::gen::inRange(0, 63);
+            params.direction = {std::cos(angle), std::sin(angle)};
         }
-        params.mouth = params.region[static_cast<std::size_t>(*rc::gen::inRange(0, corners))];
         params.clearance = std::min(0.35, 0.01 * *rc::gen::inRange(5, 36));
         params.min_spacing_m = *rc::gen::inRange(0, 60);
         int const lambda = *rc::gen::inRange(1, 6);
@@ -330,11 +348,7 @@ TEST(EmbedTree, LawsHoldForAnyStar) {
 
 // Where spacing leaves no room for streams of low orders, links that lie between such share a piece of a line.
 TEST(EmbedTree, ACrowdedPentagonLosesItsLowestOrders) {
-    EmbedParams params{.seed = 1, .clearance = 0.05, .min_spacing_m = 27.0};
-    for (int k = 0; k < 5; ++k) {
-        double const angle = 2.0 * 3.14159265358979 * k / 5;
-        params.region.push_back({1e6 + 300.0 * std::cos(angle), 5e6 + 300.0 * std::sin(angle)});
-    }
+    EmbedParams params{.seed = 1, .region = star(std::vector(5, 300.0)), .clearance = 0.05, .min_spacing_m = 27.0};
     params.mouth = params.region[0];
     auto const tree = grow_tokunaga({.seed = 1, .generator = 5, .order = 3});
     auto const out = embed_tree(tree, params);

@@ -163,7 +163,7 @@ private:
     /// Whether the position of the link is prescribed: it then takes precedence over nearby links and the border.
     bool drawn(std::size_t i) const { return forest_.links[i].pinned && rounded(*forest_.links[i].pinned) == at_[i]; }
 
-    bool fits(std::size_t i) const { return clear(i) && bends_gently(i); }
+    bool fits(std::size_t i) const { return enters(i) && clear(i) && bends_gently(i); }
 
     /// Moves the node of a link to the nearest position with enough space; leaves it if there is none.
     bool fits_elsewhere(std::size_t i) {
@@ -194,11 +194,17 @@ private:
         return false;
     }
 
+    /// A link from a mouth runs inwards: the mouth is rounded and may lie slightly outside, where no wall is in the
+    /// way.
+    bool enters(std::size_t i) const {
+        ForestLink const& link = forest_.links[i];
+        return link.down >= 0 || link.pinned || forest_.inside(at_[i]);
+    }
+
     /// A link may begin on a wall at its tree's mouth, which is rounded and may lie slightly beside the wall.
     bool begins_on(std::size_t i, Segment const& wall) const {
         double const wide = usual_[forest_.links[i].tree];
-        return forest_.links[i].down < 0 && squared_distance(lower_end(i), wall) <= 1e-10 * wide * wide &&
-               (forest_.links[i].pinned.has_value() || forest_.inside(at_[i]));
+        return forest_.links[i].down < 0 && squared_distance(lower_end(i), wall) <= 1e-10 * wide * wide;
     }
 
     bool clear(std::size_t i) const {

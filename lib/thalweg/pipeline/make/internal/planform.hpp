@@ -18,7 +18,7 @@ namespace thalweg::pipeline {
 struct SourceRivers {
     StreamNetwork network;
     Grid grid;
-    std::optional<ElevatedNetwork> file_heights = {}; ///< as Planform
+    std::optional<ElevatedNetwork> file_heights = {}; ///< of the imported lines, where the recipe takes them
     Mask land = {};                                   ///< as Planform
     RiverFile file = {};
     NetworkStatistics statistics = {};

@@ -20,6 +20,7 @@ struct RaisedRivers {
     ElevatedNetwork network;
     Valley valley;
     HeightsStatistics statistics;
+    std::optional<flow::ContributingAreas> areas; ///< by the nearest river, where the heights follow from them
 };
 
 /// Assigns heights to rivers by the recipe, or those of their file.
