@@ -29,7 +29,7 @@ char const* name_of(pipeline::PatchPlace place) {
     return place == pipeline::PatchPlace::own ? "own" : place == pipeline::PatchPlace::middle ? "middle" : "given";
 }
 
-nlohmann::ordered_json json_of(pipeline::MadeBlend const& made, std::string const& file) {
+nlohmann::ordered_json json_of(pipeline::BlendedDem const& made, std::string const& file) {
     blend::Pasted const& pasted = made.pasted;
     return {{"file", file},
             {"place", name_of(made.place)},
@@ -50,7 +50,7 @@ char const* why_there(pipeline::PatchPlace place) {
                                                  : "";
 }
 
-std::string blend_in_words(pipeline::MadeBlend const& made, blend::Holes holes) {
+std::string blend_in_words(pipeline::BlendedDem const& made, blend::Holes holes) {
     blend::Pasted const& pasted = made.pasted;
     std::string words =
         fmt::format("{} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x,
@@ -117,7 +117,7 @@ int blend(BlendOptions& options, Session const& session) {
 
 Command add_blend(CLI::App& app, Session& session) {
     auto const options = std::make_shared<BlendOptions>();
-    pipeline::MakeBlendParams& params = options->params.patch;
+    pipeline::BlendIntoParams& params = options->params.patch;
     app.add_option("TARGET", params.target, "The DEM to paste into, or a mesh: .2dm, .obj or .off.")
         ->type_name("FILE")
         ->required();

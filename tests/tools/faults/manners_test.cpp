@@ -150,7 +150,7 @@ TEST(Manners, ATamperedFileIsFoundByReplay) {
 
 TEST(Manners, TheOpenClDeviceIsNamed) {
     Workplace const place;
-    Outcome const there = expect_run(place, small + "out --device opencl", 0);
+    Outcome const there = expect_run(place, small.substr(0, small.size() - 6) + "-o out --device opencl", 0);
     EXPECT_TRUE(test::has(("\n" + there.err), "\ndevice "));
     EXPECT_EQ(thalweg_run("replay out --verify", place.path()).code, 0) << "a device is no part of a recipe";
 }

@@ -45,14 +45,14 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     return kept;
 }
 
-MadeBlend blend_dems(BlendParams const& params, Run const& run) {
+BlendedDem blend_dems(BlendParams const& params, Run const& run) {
     refuse_if<BadParameter>(!params.source_crs.empty(),
                             "pipeline.run_blend: --source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS "
                             "by gdal_edit.py -a_srs");
-    MakeBlendParams const& patch = params.patch;
+    BlendIntoParams const& patch = params.patch;
     io::OutputFile file(params.output, params.existing);
     Raster<float> const target = io::read_dem(patch.target, {.nodata = patch.nodata}, run);
-    MadeBlend made = blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
+    BlendedDem made = blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
     io::write_dem(made.pasted.dem, file.staging(), run);
     file.commit();
     return made;
@@ -80,7 +80,7 @@ MeshBox box_of(Tin const& tin) {
     return box;
 }
 
-void check_mesh_params(MakeBlendParams const& params) {
+void check_mesh_params(BlendIntoParams const& params) {
     for (std::string const& path : {params.target, params.source.path}) {
         refuse_if<BadParameter>(!io::holds_tin(path),
                                 "pipeline.run_blend: {} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg "
@@ -108,7 +108,7 @@ void check_mesh_params(MakeBlendParams const& params) {
     }
 }
 
-void place_mesh(Tin& patch, MakeBlendParams const& params, Vec2 from, Vec2 to) {
+void place_mesh(Tin& patch, BlendIntoParams const& params, Vec2 from, Vec2 to) {
     bool const turns = params.rotate_deg != 0.0 || params.scale != 1.0;
     blend::LinearMap const map = blend::rotation({0.0, 0.0, 1.0}, params.rotate_deg, params.scale);
     for (Vec3& v : patch.vertices) {
@@ -126,7 +126,7 @@ void place_mesh(Tin& patch, MakeBlendParams const& params, Vec2 from, Vec2 to) {
 }
 
 BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
-    MakeBlendParams const& params = asked.patch;
+    BlendIntoParams const& params = asked.patch;
     check_mesh_params(params);
     io::TinFormat const format = io::tin_format("", asked.output);
     io::OutputFile file(asked.output, asked.existing);

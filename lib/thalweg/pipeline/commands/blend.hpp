@@ -18,7 +18,7 @@ struct BlendParams {
     /// Target and patch: two DEMs, or two meshes that io::read_tin reads. For meshes at is the position of the centre
     /// of the patch's box, rotate_deg is in [-360, 360] about that centre, and mask, window, keep, feather_cells,
     /// relief, holes and nodata stay at their defaults.
-    MakeBlendParams patch = {};
+    BlendIntoParams patch = {};
     std::string output = {}; ///< a new GeoTIFF; for meshes in any of io::tin_formats()
     io::Existing existing = io::Existing::refuse;
     std::string source_crs = {}; ///< of meshes without a CRS, projected, in metres; "": none
@@ -33,7 +33,7 @@ struct BlendedTin {
 };
 
 /// What run_blend() returns: a DEM or a mesh, as the target is.
-using BlendResult = std::variant<MadeBlend, BlendedTin>;
+using BlendResult = std::variant<BlendedDem, BlendedTin>;
 
 /// Runs `thalweg blend`: reads two DEMs or two meshes and writes the first with a patch of the second, completely or
 /// not at all. DEMs: blend_into; of lines to keep, the parts that cross the target count. Meshes: the patch is moved,

@@ -45,7 +45,7 @@ struct PastedSource {
 };
 
 /// The coordinates in which a source is placed on the target.
-Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& params, PastedSource& as) {
+Grid frame_for(Grid const& source, Grid const& target, BlendIntoParams const& params, PastedSource& as) {
     std::string const whose = "pipeline.blend_into: " + params.source.path;
     std::string const target_words = "the target " + params.target;
     bool const is_same = io::same_crs(source.crs, target.crs, whose, target_words);
@@ -69,7 +69,7 @@ Grid frame_for(Grid const& source, Grid const& target, MakeBlendParams const& pa
     return frame;
 }
 
-PastedSource read_source(MakeBlendParams const& params, Grid const& grid, Run const& run) {
+PastedSource read_source(BlendIntoParams const& params, Grid const& grid, Run const& run) {
     Raster<float> dem = io::read_dem(params.source, {.nodata = params.nodata}, run);
     PastedSource source;
     Grid const frame = frame_for(dem.grid(), grid, params, source);
@@ -111,7 +111,7 @@ Vec2 target_middle(Grid const& target, blend::SourceWindow const& w) {
 
 } // namespace
 
-MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run) {
+BlendedDem blend_into(Raster<float> const& target, Mask keep, BlendIntoParams const& params, Run const& run) {
     Grid const& grid = target.grid();
     refuse_if<BadInput>(params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees,
                         "pipeline.blend_into: {} is in degrees, so its cells are not square and a patch cannot be "
@@ -124,7 +124,7 @@ MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams con
     placing.gain = params.gain;
     placing.window = source.window;
     placing.part = read_part(params.mask, grid, run);
-    MadeBlend made;
+    BlendedDem made;
     made.is_warped = source.is_warped;
     if (params.at) {
         placing.at = params.at;

@@ -13,7 +13,7 @@
 namespace thalweg::pipeline {
 
 /// Options of blend_into().
-struct MakeBlendParams {
+struct BlendIntoParams {
     std::string target = {};     ///< a DEM
     io::Source source = {};      ///< a DEM, in any CRS and of any cell size
     std::optional<Vec2> at = {}; ///< [m] of the target: where the patch's middle comes to lie
@@ -37,7 +37,7 @@ enum class PatchPlace : std::uint8_t {
 };
 
 /// A blended DEM and its placement.
-struct MadeBlend {
+struct BlendedDem {
     blend::Pasted pasted;
     PatchPlace place = PatchPlace::given;
     Vec2 at;                  ///< [m] the patch's centre
@@ -53,6 +53,6 @@ struct MadeBlend {
 /// \param params target is its name in messages, keep is not read
 /// \return as the stages
 /// \throws BadInput as the stages and readers, and when a rotated patch is pasted into a target in degrees
-MadeBlend blend_into(Raster<float> const& target, Mask keep, MakeBlendParams const& params, Run const& run = {});
+BlendedDem blend_into(Raster<float> const& target, Mask keep, BlendIntoParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

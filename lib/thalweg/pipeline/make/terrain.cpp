@@ -329,8 +329,8 @@ UndrainedTerrain draw_alone(Plan const& plan, StageLog& stage_log, Run const& ru
             .remarks = {std::move(notes), std::move(alone.checks), {}}};
 }
 
-MakeBlendParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
-    MakeBlendParams params;
+BlendIntoParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
+    BlendIntoParams params;
     params.target = "the land";
     params.source = file_in(recipe, patch.source);
     params.mask = file_in(recipe, patch.mask);
@@ -362,7 +362,7 @@ Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamN
     Patched result{std::move(dem), std::move(valley), {}};
     for (PatchRecipe const& patch : plan.recipe.patches) {
         bool const keeps = patch.rivers == PatchRivers::keep && plan.recipe.network.has_value();
-        MadeBlend made = stage_log.stage("blend", [&] {
+        BlendedDem made = stage_log.stage("blend", [&] {
             return blend_into(result.dem, keeps ? river_mask(result.valley) : Mask{}, params_of(plan.recipe, patch),
                               run);
         });
