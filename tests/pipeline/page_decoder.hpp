@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cmath>
 #include <cstdint>
 #include <fstream>
 #include <iterator>
 #include <limits>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -49,6 +51,44 @@ inline std::vector<double> heights(std::vector<std::uint8_t> const& bytes, std::
         }
     }
     return z;
+}
+
+/// D8 directions, 1 to 8 clockwise from the east, 0: none; and lakes. z as heights() gives them.
+struct Water {
+    std::vector<int> direction;
+    std::vector<bool> lake;
+};
+
+inline Water water(std::vector<std::uint8_t> const& bytes, std::vector<double> const& z, std::int64_t width, double min,
+                   double max) {
+    EXPECT_EQ(bytes.size(), z.size());
+    std::vector<std::int64_t> q;
+    for (double const height : z) {
+        q.push_back(std::isnan(height) ? 0 : 1 + std::llround((height - min) / (max - min) * 65534.0));
+    }
+    auto const height = static_cast<std::int64_t>(q.size()) / width;
+    std::vector<std::pair<int, int>> const around{{1, 0}, {1, 1}, {0, 1}, {-1, 1}, {-1, 0}, {-1, -1}, {0, -1}, {1, -1}};
+    Water found;
+    for (std::int64_t i = 0; i < width * height; ++i) {
+        int steepest = 0;
+        double most = 0.0;
+        for (int way = 1; auto const& [dx, dy] : around) {
+            std::int64_t const col = i % width + dx;
+            std::int64_t const row = i / width + dy;
+            if (col >= 0 && row >= 0 && col < width && row < height) {
+                std::int64_t const there = q[row * width + col];
+                double const drop = there > 0 && there < q[i] ? static_cast<double>(q[i] - there) : 0.0;
+                if (double const square = drop * drop / (dx * dx + dy * dy); square > most) {
+                    most = square;
+                    steepest = way;
+                }
+            }
+            ++way;
+        }
+        found.direction.push_back((steepest + bytes[i] % 16) % 9);
+        found.lake.push_back(bytes[i] >= 16);
+    }
+    return found;
 }
 
 /// Vertices by line, in whole steps.
@@ -94,7 +134,8 @@ inline std::string part(std::string_view page, std::string const& marker) {
         }
         std::size_t const end = bare.find("@@", at + 2) + 2;
         std::string const name = bare.substr(at, end - at);
-        if (name != "@@TITLE@@" && name != "@@DATA@@" && name != "@@HEIGHTS@@" && name != "@@LINES@@") {
+        if (name != "@@TITLE@@" && name != "@@DATA@@" && name != "@@HEIGHTS@@" && name != "@@LINES@@" &&
+            name != "@@WATER@@") {
             in_page += at + 2 - in_bare;
             in_bare = at + 2;
             continue;

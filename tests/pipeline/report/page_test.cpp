@@ -138,7 +138,7 @@ Line turns_of(Line const& line, PageLines const& page, Grid const& frame) {
     return turns;
 }
 
-std::string const bare = "@@TITLE@@@@DATA@@@@HEIGHTS@@@@LINES@@";
+std::string const bare = "@@TITLE@@@@DATA@@@@HEIGHTS@@@@LINES@@@@WATER@@";
 
 } // namespace
 
@@ -147,7 +147,7 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     Grid const& grid = made.terrain.grid;
     ElevatedNetwork const& rivers = made.terrain.rivers.network;
     std::string const html = page(made, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"});
-    for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
+    for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@"}) {
         EXPECT_FALSE(test::has(html, marker));
     }
     json const data = data_of(html);
@@ -159,6 +159,14 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     double const half = (h["max"].get<double>() - h["min"].get<double>()) / 65534.0 / 2.0;
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         EXPECT_NEAR(z[static_cast<std::size_t>(i)], made.terrain.surface->dem[i], half + 1e-9);
+    }
+
+    auto const water =
+        page_decoder::water(unpacked(page_decoder::part(html, "@@WATER@@")), z, grid.width, h["min"], h["max"]);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        flow::Direction const d = made.terrain.drainage->direction[i];
+        EXPECT_EQ(water.direction[i], flow::goes_on(d) ? static_cast<int>(flow::index_of(d)) + 1 : 0) << i;
+        EXPECT_FALSE(water.lake[i]);
     }
 
     json const& arcs = data["rivers"]["arcs"];
@@ -239,7 +247,7 @@ TEST(Page, MetricsStandBesideTheirTargets) {
 
 TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
     Made terrain = small_terrain(Land::with);
-    json const profile = data_of(page(terrain))["profile"];
+    json const profile = data_of(page(terrain))["profiles"][0]["points"];
     ASSERT_GE(profile.size(), 2U);
     EXPECT_EQ(profile.back()[0], 0.0);
     for (std::size_t i = 1; i < profile.size(); ++i) {
@@ -264,7 +272,12 @@ TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
     two.terrain.rivers.orders = network::order(two.terrain.rivers.network.planform);
     two.terrain.areas.us_area_m2 = two.terrain.areas.ds_area_m2 = {2.0, 1.0, 1.0};
     two.terrain.areas.node_m2 = {0.0, 2.0, 0.0, 1.0, 0.0, 1.0};
-    EXPECT_EQ(data_of(page(two))["profile"], json::parse("[[100.0, 104.0], [0.0, 1.0]]"));
+    double const cells = std::floor(100.0 / two.terrain.grid.cell_m * 100.0 + 0.5) / 100.0;
+    json const profiles = data_of(page(two))["profiles"];
+    ASSERT_EQ(profiles.size(), 3U) << "of each basin one";
+    EXPECT_EQ(profiles[0]["points"], (json{{100.0, 104.0, cells, 0.0}, {0.0, 1.0, 0.0, 0.0}}));
+    EXPECT_EQ(profiles[1]["points"].front()[0], 100.0);
+    EXPECT_EQ(profiles[2]["points"].front()[0], 50.0);
 }
 
 TEST(Page, LongListsAreCut) {
@@ -293,7 +306,7 @@ TEST(Page, WithoutASurfaceTheRiversAlone) {
     EXPECT_TRUE(data["hypsometry"].is_null());
     EXPECT_EQ(page_decoder::part(html, "@@HEIGHTS@@"), "");
     EXPECT_FALSE(data["rivers"]["arcs"]["id"].empty());
-    EXPECT_FALSE(data["profile"].empty());
+    EXPECT_FALSE(data["profiles"].empty());
     EXPECT_EQ(data["notes"].size(), 1U);
     EXPECT_GT(row(data, "drainage density")["got"], 0.0);
 }
@@ -428,14 +441,15 @@ TEST(PageLines, EveryVertexWithinHalfAStepAndNoDrift) {
 }
 
 TEST(FillPage, EachPartWhereItsMarkerStands) {
-    PageParts const parts{"t", "d", "h", "l"};
-    EXPECT_EQ(fill_page(bare, parts), "tdhl");
-    EXPECT_EQ(fill_page("0@@LINES@@1@@HEIGHTS@@2@@DATA@@3@@TITLE@@4", parts), "0l1h2d3t4");
-    EXPECT_EQ(fill_page(bare, {"@@DATA@@", "@@TITLE@@$1\\1", "@@LINES@@", "@@"}), "@@DATA@@@@TITLE@@$1\\1@@LINES@@@@");
+    PageParts const parts{"t", "d", "h", "l", "w"};
+    EXPECT_EQ(fill_page(bare, parts), "tdhlw");
+    EXPECT_EQ(fill_page("0@@LINES@@1@@HEIGHTS@@2@@DATA@@3@@TITLE@@4@@WATER@@5", parts), "0l1h2d3t4w5");
+    EXPECT_EQ(fill_page(bare, {"@@DATA@@", "@@TITLE@@$1\\1", "@@LINES@@", "@@", "w"}),
+              "@@DATA@@@@TITLE@@$1\\1@@LINES@@@@w");
 }
 
 TEST(FillPage, AMissingOrSecondMarkerIsAnErrorOfTheBuild) {
-    for (std::string const marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@"}) {
+    for (std::string const marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@"}) {
         std::string missing = bare;
         missing.erase(missing.find(marker), marker.size());
         EXPECT_THROW(fill_page(missing, {}), std::logic_error) << marker;

@@ -145,6 +145,14 @@ std::string projected_crs(std::string const& text) {
     return name_of(reference);
 }
 
+std::string crs_in_words(std::string const& crs) {
+    if (crs.empty()) {
+        return "";
+    }
+    char const* const name = read_reference(crs).GetName();
+    return name == nullptr || std::string_view(name) == "unnamed" || std::string_view(name) == "unknown" ? "" : name;
+}
+
 std::string utm_zone(double longitude_deg, double latitude_deg) {
     // Written so that NaN is rejected.
     refuse_if<BadInput>(!(std::fabs(longitude_deg) <= 360.0 && latitude_deg >= -80.0 && latitude_deg <= 84.0),

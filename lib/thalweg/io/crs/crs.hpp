@@ -16,6 +16,11 @@ namespace thalweg::io {
 /// \throws BadInput when it is not a CRS, is geographic, or is not in metres
 std::string projected_crs(std::string const& text);
 
+/// Names a CRS in words.
+/// \param crs "EPSG:n" or WKT; "": none
+/// \return such as "WGS 84 / UTM zone 31N"; "" for none, or one without a name
+std::string crs_in_words(std::string const& crs);
+
 /// Finds the UTM zone (WGS 84) of a position; zones are 6 degrees wide everywhere.
 /// \param longitude_deg [degrees] longitude
 /// \param latitude_deg [degrees] latitude in [-80, 84]

@@ -18,6 +18,7 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
 
 namespace thalweg::pipeline {
@@ -163,8 +164,55 @@ std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run
     if (first) {
         return std::nullopt;
     }
-    page.bytes = coded(quantised(mean, page), page);
+    page.values = quantised(mean, page);
+    page.bytes = coded(page.values, page);
     return page;
+}
+
+namespace {
+
+/// The direction, counted from 1, in which the page's heights fall most steeply; 0: nowhere. Of equally steep ones the
+/// lowest. Drops are compared squared, twice along a side, so that integers decide.
+int steepest_on_page(PageHeights const& page, std::int64_t col, std::int64_t row) {
+    auto const value = [&](std::int64_t c, std::int64_t r) {
+        bool const inside = c >= 0 && r >= 0 && c < page.width && r < page.height;
+        return inside ? std::int64_t{page.values[static_cast<std::size_t>(r * page.width + c)]} : 0;
+    };
+    std::int64_t const here = value(col, row);
+    std::int64_t steepest = 0;
+    int best = 0;
+    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
+        std::int64_t const there = value(col + d8_steps[k].col, row + d8_steps[k].row);
+        std::int64_t const drop = there > 0 && there < here ? here - there : 0;
+        std::int64_t const steepness = drop * drop * (k % 2 == 0 ? 2 : 1);
+        if (steepness > steepest) {
+            steepest = steepness;
+            best = static_cast<int>(k) + 1;
+        }
+    }
+    return best;
+}
+
+} // namespace
+
+std::vector<std::uint8_t> page_water(flow::FlowField const& drainage, Mask const& lakes, PageHeights const& heights) {
+    std::vector<std::uint8_t> bytes;
+    if (heights.cells > 1) {
+        return bytes;
+    }
+    constexpr int ways = 9; // eight neighbours and none
+    constexpr int lake = 16;
+    bytes.reserve(static_cast<std::size_t>(drainage.grid().cells()));
+    for (std::int64_t row = 0; row < heights.height; ++row) {
+        for (std::int64_t col = 0; col < heights.width; ++col) {
+            flow::Direction const d = drainage.direction[Cell{col, row}];
+            int const taken = flow::goes_on(d) ? static_cast<int>(flow::index_of(d)) + 1 : 0;
+            int const residual = (taken - steepest_on_page(heights, col, row) + ways) % ways;
+            bool const in_lake = lakes.cells() > 0 && lakes[Cell{col, row}] != 0;
+            bytes.push_back(static_cast<std::uint8_t>(residual + (in_lake ? lake : 0)));
+        }
+    }
+    return bytes;
 }
 
 namespace {
@@ -261,10 +309,11 @@ std::size_t find_once(std::string_view page, std::string_view marker) {
 } // namespace
 
 std::string fill_page(std::string_view page, PageParts const& parts) {
-    std::array<Place, 4> places{{{0, "@@TITLE@@", &parts.title},
+    std::array<Place, 5> places{{{0, "@@TITLE@@", &parts.title},
                                  {0, "@@DATA@@", &parts.data},
                                  {0, "@@HEIGHTS@@", &parts.heights},
-                                 {0, "@@LINES@@", &parts.lines}}};
+                                 {0, "@@LINES@@", &parts.lines},
+                                 {0, "@@WATER@@", &parts.water}}};
     std::size_t size = page.size();
     for (Place& place : places) {
         place.at = find_once(page, place.marker);
@@ -329,9 +378,14 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     PageLines const lines = lines_of(made.terrain.rivers.network.planform, made.terrain.ridges, made.terrain.grid);
     PageParts parts;
     parts.title = html_text(as_utf8(title_of(made.recipe)));
-    parts.data = page_data(made, params, heights, lines);
+    parts.data = page_data(made, params, heights, lines, run);
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);
+    if (heights && made.terrain.drainage) {
+        std::vector<std::uint8_t> const water =
+            page_water(*made.terrain.drainage, lake_cells(made.terrain.channels), *heights);
+        parts.water = water.empty() ? "" : io::packed(water);
+    }
     return fill_page(page_template(), parts);
 }
 

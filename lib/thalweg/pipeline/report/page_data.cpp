@@ -3,14 +3,19 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <map>
 #include <numeric>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
@@ -125,20 +130,25 @@ double to_millimetres(double metres) {
 }
 
 /// At most this many of a list, evenly spaced, the first and last included.
-template <class T> std::vector<T> thinned(std::vector<T> const& all) {
-    if (all.size() <= most_points) {
+template <class T> std::vector<T> thinned(std::vector<T> const& all, std::size_t most = most_points) {
+    if (all.size() <= most) {
         return all;
     }
     std::vector<T> some;
-    for (std::size_t i = 0; i < most_points; ++i) {
-        some.push_back(all[i * (all.size() - 1) / (most_points - 1)]);
+    for (std::size_t i = 0; i < most; ++i) {
+        some.push_back(all[i * (all.size() - 1) / (most - 1)]);
     }
     return some;
 }
 
 ordered_json grid_object(Grid const& grid) {
-    return {{"width", grid.width}, {"height", grid.height}, {"cell_m", grid.cell_m},
-            {"west", grid.west},   {"north", grid.north},   {"crs", grid.crs}};
+    return {{"width", grid.width},
+            {"height", grid.height},
+            {"cell_m", grid.cell_m},
+            {"west", grid.west},
+            {"north", grid.north},
+            {"crs", grid.crs},
+            {"crs_name", io::crs_in_words(grid.crs)}};
 }
 
 /// Rows of name, value and unit, without missing ones.
@@ -220,37 +230,94 @@ ordered_json ridges_object(Made const& t, PageLines const& lines) {
     return {{"n", std::vector<std::int64_t>(first, lines.vertices.end())}};
 }
 
-/// A point of a profile: distance to the outlet and height, both in metres.
+/// A point of a profile.
 struct ProfilePoint {
     double to_outlet_m;
     double z;
+    Vec2 at;
 };
 
-/// The main stem from its source down.
-std::vector<ProfilePoint> main_stem(Rivers const& rivers) {
-    std::vector<ProfilePoint> upstream;
+/// A river from its source down.
+struct Stem {
+    std::int64_t basin;
+    std::vector<ProfilePoint> points;
+};
+
+Stem stem_along(Rivers const& rivers, std::vector<ArcId> const& arcs) {
+    Stem stem{arcs.empty() ? 0 : rivers.orders.arc_basin[arcs.front()], {}};
     StreamNetwork const& network = rivers.network.planform;
-    for (auto arc = rivers.orders.main_stem.rbegin(); arc != rivers.orders.main_stem.rend(); ++arc) {
+    for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
         std::vector<Vec2> const& line = network.arc(*arc).line;
         double to_outlet = rivers.orders.node_dist_out_m[network.to(*arc)];
         for (std::size_t i = line.size(); i-- > 0;) {
-            bool const shared = i + 1 == line.size() && !upstream.empty();
+            bool const shared = i + 1 == line.size() && !stem.points.empty();
             to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
             if (!shared) {
-                upstream.push_back({to_outlet, rivers.network.arc_z[*arc][i]});
+                stem.points.push_back({to_outlet, rivers.network.arc_z[*arc][i], line[i]});
             }
         }
     }
-    std::reverse(upstream.begin(), upstream.end());
-    return upstream;
+    std::reverse(stem.points.begin(), stem.points.end());
+    return stem;
 }
 
-ordered_json profile_array(std::vector<ProfilePoint> const& stem) {
+/// The main stem, then those of the other basins with the longest, each from its source down.
+std::vector<Stem> stems_of(Rivers const& rivers) {
+    constexpr std::size_t most_stems = 8;
+    std::vector<Stem> stems;
+    if (rivers.orders.main_stem.empty()) {
+        return stems;
+    }
+    stems.push_back(stem_along(rivers, rivers.orders.main_stem));
+    std::map<std::int64_t, std::vector<ArcId>> by_basin;
+    for (ArcId arc = 0; arc < rivers.network.planform.arc_count(); ++arc) {
+        if (rivers.orders.hack[arc] == 1 && rivers.orders.arc_basin[arc] != stems.front().basin) {
+            by_basin[rivers.orders.arc_basin[arc]].push_back(arc);
+        }
+    }
+    std::vector<Stem> others;
+    for (auto& [basin, arcs] : by_basin) {
+        std::ranges::sort(arcs, std::greater{},
+                          [&](ArcId arc) { return rivers.orders.node_dist_out_m[rivers.network.planform.to(arc)]; });
+        others.push_back(stem_along(rivers, arcs));
+    }
+    std::ranges::stable_sort(others, std::greater{}, [](Stem const& s) { return s.points.front().to_outlet_m; });
+    others.resize(std::min(others.size(), most_stems - 1));
+    std::ranges::move(others, std::back_inserter(stems));
+    return stems;
+}
+
+ordered_json profiles_array(std::vector<Stem> const& stems, Grid const& grid) {
+    auto const cells = [&](double metres) { return std::floor(metres / grid.cell_m * 100.0 + 0.5) / 100.0; };
     ordered_json out = ordered_json::array();
-    for (ProfilePoint const& p : thinned(stem)) {
-        out.push_back({to_millimetres(p.to_outlet_m), to_millimetres(p.z)});
+    for (Stem const& stem : stems) {
+        ordered_json points = ordered_json::array();
+        for (ProfilePoint const& p : thinned(stem.points, out.empty() ? most_points : most_points / 4)) {
+            points.push_back({to_millimetres(p.to_outlet_m), to_millimetres(p.z), cells(p.at.x - grid.west),
+                              cells(grid.north - p.at.y)});
+        }
+        out.push_back({{"basin", stem.basin}, {"points", points}});
     }
     return out;
+}
+
+ordered_json summits_array(Made const& t, Run const& run) {
+    constexpr std::size_t most_summits = 24;
+    ordered_json out = ordered_json::array();
+    if (t.terrain.surface) {
+        Grid const& grid = t.terrain.grid;
+        for (Summit const& s : summits(t.terrain.surface->dem, most_summits, run)) {
+            out.push_back(
+                {(s.at.x - grid.west) / grid.cell_m, (grid.north - s.at.y) / grid.cell_m, to_millimetres(s.z)});
+        }
+    }
+    return out;
+}
+
+ordered_json sea_object(Made const& t) {
+    std::optional<Sea> const sea = sea_of(t.terrain);
+    return sea && t.terrain.surface ? ordered_json{{"level", sea->level_m}, {"around", sea->is_around}}
+                                    : ordered_json(nullptr);
 }
 
 ordered_json curve_object(Made const& t) {
@@ -328,7 +395,7 @@ void add_land(Made const& t, Figures& figures) {
     figures.add("cells in pits", t.assessment.pits, "");
 }
 
-void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& figures) {
+void add_rivers(Made const& t, std::vector<Stem> const& stems, Figures& figures) {
     std::optional<NetworkRecipe> const& wanted = t.recipe.network;
     double const length = std::accumulate(t.terrain.rivers.network.planform.length_m().begin(),
                                           t.terrain.rivers.network.planform.length_m().end(), 0.0);
@@ -348,7 +415,8 @@ void add_rivers(Made const& t, std::vector<ProfilePoint> const& stem, Figures& f
     figures.add("length of all rivers", to_millimetres(length / 1000.0), "km");
     figures.add("drainage density", length / 1000.0 / (land * t.terrain.grid.cell_m * t.terrain.grid.cell_m / 1e6),
                 "km/km2");
-    if (!stem.empty() && stem.front().to_outlet_m > 0.0) {
+    if (!stems.empty() && stems.front().points.front().to_outlet_m > 0.0) {
+        std::vector<ProfilePoint> const& stem = stems.front().points;
         // Only along_stream sets a slope along the water; the other methods set one along a straight line.
         figures.add("slope of the main stem",
                     wanted && wanted->heights == Heights::along_stream ? std::optional(wanted->slope) : std::nullopt,
@@ -407,14 +475,14 @@ std::string without_tags(std::string const& json) {
 } // namespace
 
 std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
-                      PageLines const& lines) {
-    std::vector<ProfilePoint> const stem = main_stem(t.terrain.rivers);
+                      PageLines const& lines, Run const& run) {
+    std::vector<Stem> const stems = stems_of(t.terrain.rivers);
     Figures figures;
     if (t.assessment.statistics) {
         add_land(t, figures);
     }
     if (t.recipe.network || !t.terrain.rivers.network.planform.arcs().empty()) {
-        add_rivers(t, stem, figures);
+        add_rivers(t, stems, figures);
     }
     ordered_json const data{{"version", version()},
                             {"title", title_of(t.recipe)},
@@ -429,7 +497,9 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                               {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
                               {"arcs", arcs_object(t, lines)}}},
                             {"ridges", ridges_object(t, lines)},
-                            {"profile", profile_array(stem)},
+                            {"sea", sea_object(t)},
+                            {"summits", summits_array(t, run)},
+                            {"profiles", profiles_array(stems, t.terrain.grid)},
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},
                             {"laws", ordered_json::parse(page_laws(t.assessment.laws))},

@@ -11,6 +11,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 
@@ -31,13 +32,14 @@ std::string page(Made const& made, PageParams const& params = {}, Run const& run
 
 /// Heights in the format of the report page (web/README.md).
 struct PageHeights {
-    std::int64_t width = 0;          ///< [values]
-    std::int64_t height = 0;         ///< [values]
-    std::int64_t cells = 1;          ///< [cells] a value is the mean of a square of cells x cells
-    double min = 0.0;                ///< [m] of the values
-    double max = 0.0;                ///< [m] of the values
-    std::int64_t nodata = 0;         ///< values without a height
-    std::vector<std::uint8_t> bytes; ///< predictors, low bytes, high bytes
+    std::int64_t width = 0;            ///< [values]
+    std::int64_t height = 0;           ///< [values]
+    std::int64_t cells = 1;            ///< [cells] a value is the mean of a square of cells x cells
+    double min = 0.0;                  ///< [m] of the values
+    double max = 0.0;                  ///< [m] of the values
+    std::int64_t nodata = 0;           ///< values without a height
+    std::vector<std::uint16_t> values; ///< row-major from the north-west, 0: no data
+    std::vector<std::uint8_t> bytes;   ///< predictors, low bytes, high bytes
 };
 
 /// Chooses the side [cells] of the squares that the page shows as one value each: the smallest with which no side of
@@ -49,6 +51,14 @@ std::int64_t page_cells(Grid const& grid);
 /// \return values within (max - min) / 131068 of the means, exactly min if all are equal; nothing: no cell has a height
 /// \throws BadInput for an infinite height
 std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run = {});
+
+/// Encodes D8 directions and lakes for the report page (web/README.md): most values are 0, where water takes the
+/// steepest way down the page's heights.
+/// \param drainage of the DEM
+/// \param lakes cells of lakes, without cells: none
+/// \param heights of the same DEM
+/// \return one value a cell; empty: the page shows means of squares
+std::vector<std::uint8_t> page_water(flow::FlowField const& drainage, Mask const& lakes, PageHeights const& heights);
 
 /// Lines in the format of the report page (web/README.md).
 struct PageLines {
@@ -72,10 +82,11 @@ struct PageParts {
     std::string data;    ///< for @@DATA@@
     std::string heights; ///< for @@HEIGHTS@@
     std::string lines;   ///< for @@LINES@@
+    std::string water;   ///< for @@WATER@@
 };
 
 /// Replaces the markers of a page. Text in a part that looks like a marker stays.
-/// \throws std::logic_error when the page does not have each of the four markers exactly once: it was built wrongly
+/// \throws std::logic_error when the page does not have each of its markers exactly once: it was built wrongly
 std::string fill_page(std::string_view page, PageParts const& parts);
 
 /// Makes the JSON object of the report page (web/README.md): lengths and heights to the millimetre, null for values
@@ -83,7 +94,7 @@ std::string fill_page(std::string_view page, PageParts const& parts);
 /// \param heights,lines as on the page; lines are the arcs by number, then the ridges
 /// \return one line of JSON without '<'
 std::string page_data(Made const& made, PageParams const& params, std::optional<PageHeights> const& heights,
-                      PageLines const& lines);
+                      PageLines const& lines, Run const& run = {});
 
 /// Makes the report page of a scene: any DEM, with or without rivers, measured and routed.
 /// \param scene with a DEM

@@ -1,0 +1,48 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/landmarks.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <thalweg/measure/peaks/orometry.hpp>
+
+namespace thalweg::pipeline {
+
+std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run) {
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (float const z : dem.values()) {
+        if (!std::isnan(z)) {
+            low = std::min(low, static_cast<double>(z));
+            high = std::max(high, static_cast<double>(z));
+        }
+    }
+    if (!(high > low)) {
+        return {};
+    }
+    std::vector<measure::Peak> peaks = measure::prominent_peaks(dem, (high - low) / 20.0, run);
+    std::stable_sort(peaks.begin(), peaks.end(),
+                     [](auto const& a, auto const& b) { return a.prominence_m > b.prominence_m; });
+    Grid const& grid = dem.grid();
+    double const apart = static_cast<double>(std::max(grid.width, grid.height)) * grid.cell_m / 16.0;
+    std::vector<Summit> chosen;
+    for (measure::Peak const& peak : peaks) {
+        Vec2 const at = grid.centre(grid.at(peak.cell));
+        if (chosen.size() < most &&
+            std::ranges::none_of(chosen, [&](Summit const& s) { return distance(s.at, at) < apart; })) {
+            chosen.push_back({at, peak.height_m});
+        }
+    }
+    return chosen;
+}
+
+std::optional<Sea> sea_of(Terrain const& terrain) {
+    using surface::Edge;
+    bool const is_island = terrain.equilibrium && terrain.equilibrium->edge == Edge::coast;
+    bool const is_mainland = terrain.equilibrium && terrain.equilibrium->edge == Edge::mainland;
+    return is_island || is_mainland || terrain.land.cells() > 0 ? std::optional(Sea{0.0, is_island}) : std::nullopt;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,38 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstddef>
+#include <optional>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/pipeline/make/terrain.hpp>
+
+namespace thalweg::pipeline {
+
+/// A summit to name on a map.
+struct Summit {
+    Vec2 at; ///< centre of its cell
+    double z = 0.0;
+};
+
+/// Chooses the summits that a map names: those whose prominence is a twentieth of the relief or more, none nearer than
+/// a sixteenth of the longer side to a more prominent one.
+/// \param dem [m] NaN: no data
+/// \param most number of summits at most
+/// \return the most prominent first, the highest of all at the front
+std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run = {});
+
+/// The sea: cells of a terrain without data.
+struct Sea {
+    double level_m = 0.0;
+    bool is_around = false; ///< it reaches beyond the grid
+};
+
+/// \return the sea of a terrain; nothing: cells without data are not the sea
+std::optional<Sea> sea_of(Terrain const& terrain);
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,56 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/landmarks.hpp>
+
+#include <cmath>
+#include <limits>
+#include <utility>
+
+#include <gtest/gtest.h>
+
+namespace thalweg::pipeline {
+namespace {
+
+/// Cones of given heights on a plain.
+Raster<float> cones(std::vector<std::pair<Cell, double>> const& tops) {
+    Raster<float> dem(Grid{160, 80, 10.0, 1000.0, 2000.0, ""});
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const here = dem.grid().at(i);
+        for (auto const& [top, height] : tops) {
+            double const away =
+                std::hypot(static_cast<double>(here.col - top.col), static_cast<double>(here.row - top.row));
+            dem[i] = std::max(dem[i], static_cast<float>(height - 10.0 * away));
+        }
+    }
+    return dem;
+}
+
+} // namespace
+
+TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
+    // The third stands too near to the second, the fourth is not prominent enough.
+    Raster<float> dem = cones({{{40, 40}, 200.0}, {{120, 40}, 300.0}, {{126, 40}, 280.0}, {{80, 70}, 8.0}});
+    dem[Cell{0, 0}] = std::numeric_limits<float>::quiet_NaN();
+    std::vector<Summit> const found = summits(dem, 10);
+    ASSERT_EQ(found.size(), 2U);
+    EXPECT_EQ(found[0].at, dem.grid().centre({120, 40}));
+    EXPECT_EQ(found[0].z, 300.0);
+    EXPECT_EQ(found[1].at, dem.grid().centre({40, 40}));
+    EXPECT_EQ(summits(dem, 1).size(), 1U);
+    EXPECT_TRUE(summits(Raster<float>(dem.grid(), 5.0F), 10).empty());
+}
+
+TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
+    Terrain terrain;
+    EXPECT_FALSE(sea_of(terrain).has_value());
+    terrain.land = Mask(Grid{3, 3, 1.0, 0.0, 3.0, ""}, 1);
+    ASSERT_TRUE(sea_of(terrain).has_value());
+    EXPECT_FALSE(sea_of(terrain)->is_around);
+    terrain.land = Mask{};
+    terrain.equilibrium.emplace();
+    EXPECT_FALSE(sea_of(terrain).has_value());
+    terrain.equilibrium->edge = surface::Edge::coast;
+    EXPECT_TRUE(sea_of(terrain)->is_around);
+}
+
+} // namespace thalweg::pipeline
