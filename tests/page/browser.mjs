@@ -36,6 +36,7 @@ export async function open(browser, file, { query = '', ...context } = {}) {
 export function look(page) {
   return page.evaluate(async () => {
     await new Promise((done) => requestAnimationFrame(() => requestAnimationFrame(done)));
+    await window.__thalweg.still?.();
     const shown = document.querySelector('#view canvas');
     const copy = new OffscreenCanvas(shown.width, shown.height).getContext('2d');
     copy.drawImage(shown, 0, 0);

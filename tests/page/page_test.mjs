@@ -74,13 +74,83 @@ describe('samples/dla.toml with WebGL', () => {
     assert.ok(shown.rivers > 1500);
   });
 
-  test('picks the middle of the grid in the middle of the view, in 3-D and on the map', async () => {
+  test('picks the places that it shows, in 3-D and on the map', async () => {
     for (const way of ['3-D', 'map']) {
-      const at = await pickCentre(seen.page);
-      assert.ok(Math.hypot(at.col - 511.5, at.row - 511.5) <= 2, `${way}: ${JSON.stringify(at)}`);
-      assert.equal(typeof at.z, 'number');
+      const off = await seen.page.evaluate(() => {
+        const { project, pick } = window.__thalweg;
+        const off = [];
+        for (let y = 60; y < 1024; y += 101) {
+          for (let x = 60; x < 1024; x += 101) {
+            const at = project(x + 0.5, y + 0.5);
+            const found = at && pick(at.x, at.y);
+            if (found) off.push(Math.hypot(found.col - x, found.row - y), typeof found.z === 'number' ? 0 : Infinity);
+          }
+        }
+        return off;
+      });
+      console.log(`# ${way}: ${off.length / 2} places, off by up to ${Math.max(...off)} cells`);
+      assert.ok(off.length > 80);
+      assert.ok(off.every((d) => d <= 8)); // what stands a little before a place may hide it
+      assert.ok(off.filter((d) => d <= 1.5).length >= 0.9 * off.length);
       await seen.page.click('#bmap');
     }
+  });
+
+  test('names summits and outlets, with room between them', async () => {
+    for (const way of ['3-D', 'map']) {
+      const labels = await seen.page.evaluate(async () => (await window.__thalweg.still(), window.__thalweg.labels()));
+      console.log(`# ${way}: ${labels.map(({ text }) => text).join(', ')}`);
+      assert.ok(labels.length > 6);
+      assert.ok(labels.some(({ text }) => /km²$/.test(text)));
+      assert.ok(labels.some(({ text }) => /^[\d.]+ k?m$/.test(text)), 'a scale bar');
+      labels.forEach((a, i) => labels.slice(i + 1).forEach((b) =>
+        assert.ok(a.x1 <= b.x0 || b.x1 <= a.x0 || a.y1 <= b.y0 || b.y1 <= a.y0, `${a.text} covers ${b.text}`)));
+      await seen.page.click('#bmap');
+    }
+  });
+
+  test('colours the land by each measure, with its legend', async () => {
+    const { page } = seen;
+    const modes = await page.$$eval('#colour option', (all) => all.map((o) => o.value));
+    assert.deepEqual(modes, ['height', 'slope', 'aspect', 'area', 'basins', 'strahler', 'hack', 'forms', 'difference', 'none']);
+    const hashes = new Set();
+    for (const mode of modes.filter((m) => m !== 'difference')) {
+      await page.selectOption('#colour', mode);
+      hashes.add((await look(page)).hash);
+      assert.notEqual(await page.textContent('#legend'), '');
+    }
+    assert.equal(hashes.size, modes.length - 1);
+    // The areas that the page reckons from its ways of water are those of area_d8.
+    const most = await page.evaluate(() => window.__thalweg.water.areas.reduce((a, b) => Math.max(a, b)));
+    const stated = await page.evaluate(() => Math.max(...JSON.parse(document.getElementById('data').textContent).rivers.arcs.ds_area));
+    assert.ok(most * 900 >= 0.999 * stated, `${most * 900} ${stated}`);
+    const other = await page.evaluate(() => window.__thalweg.heights().length);
+    assert.equal(other, 1024 * 1024);
+    await page.setInputFiles('#other', pageOf('dla'));
+    await page.waitForFunction(() => document.getElementById('colour').value === 'difference');
+    assert.match(await page.textContent('#legend'), /this less the other/);
+    await page.setInputFiles('#other', pageOf('small'));
+    await page.waitForFunction(() => !document.getElementById('message').hidden);
+    assert.match(await page.textContent('#message'), /another grid/);
+    await page.evaluate(() => (document.getElementById('message').hidden = true));
+    await page.selectOption('#colour', 'height');
+  });
+
+  test('comes back when the graphics device was lost', async () => {
+    const fresh = await open(gl, pageOf('dla'));
+    const first = await look(fresh.page);
+    await fresh.page.evaluate(async () => {
+      const lose = document.querySelector('#view canvas').getContext('webgl2').getExtension('WEBGL_lose_context');
+      lose.loseContext();
+      await new Promise((done) => setTimeout(done, 300));
+      if (document.getElementById('message').hidden) throw new Error('nothing is said');
+      lose.restoreContext();
+      await new Promise((done) => setTimeout(done, 500));
+    });
+    const again = await look(fresh.page);
+    assert.ok(await fresh.page.isHidden('#message'));
+    assert.ok(again.colours > 0.9 * first.colours && again.rivers > 0.9 * first.rivers, JSON.stringify([first, again]));
+    await fresh.page.close();
   });
 
   test('keeps fewer links and draws less river as L rises from 20 to 160', async () => {
@@ -162,7 +232,7 @@ describe('samples/dla.toml with WebGL', () => {
       last = hash;
     }
     await page.keyboard.press('p');
-    assert.match(await page.textContent('#point'), /cell 51\d, 51\d · \d+\.\d m/);
+    assert.match(await page.textContent('#point'), /cell \d+, \d+ · \d+\.\d m.*slope \d.*drains .* km² · .* km to the outlet/s);
     await page.focus('#L');
     await page.keyboard.press('ArrowRight');
     assert.match(await page.textContent('#Lout'), /^21 cells/);
@@ -178,7 +248,7 @@ describe('samples/dla.toml with WebGL', () => {
       assert.notEqual(hash, last, id);
       last = hash;
     }
-    for (const id of ['show-rivers', 'show-contours', 'show-tint', 'show-rivers']) {
+    for (const id of ['show-rivers', 'show-contours', 'show-rivers']) {
       await page.click(`#${id}`);
       const { hash } = await look(page);
       assert.notEqual(hash, last, id);
@@ -202,7 +272,7 @@ describe('samples/dla.toml with WebGL', () => {
       return null;
     });
     assert.ok(at);
-    const box = await page.locator('#view canvas').boundingBox();
+    const box = await page.locator('#view canvas').first().boundingBox();
     await page.mouse.move(box.x + at[0], box.y + at[1]);
     assert.match(await page.textContent('#point'), new RegExp(`arc ${at[2]}: order`));
     const before_ = (await look(page)).hash;
@@ -236,6 +306,49 @@ describe('samples/dla.toml with WebGL', () => {
       assert.deepEqual(complaints, []);
       const wide = await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth);
       assert.ok(wide <= 0, `${wide} px too wide`);
+      await page.close();
+    }
+  });
+});
+
+describe('an island', () => {
+  test('lies in water where its mask says sea, in 3-D, on the map and without WebGL', async () => {
+    make('island', path.join(sources, 'samples/island.toml'), '--set', 'grid.width=300', '--set', 'grid.height=300', '--set', 'network.prune=20');
+    for (const browser of [gl, flat]) {
+      const { page, complaints } = await open(browser, pageOf('island'));
+      for (const way of browser === gl ? ['3-D', 'map'] : ['plain']) {
+        await look(page);
+        const { sea, land, wrong } = await page.evaluate(() => {
+          const { project, heights } = window.__thalweg;
+          const shown = document.querySelector('#view canvas');
+          const copy = new OffscreenCanvas(shown.width, shown.height).getContext('2d');
+          copy.drawImage(shown, 0, 0);
+          const scale = shown.width / shown.clientWidth;
+          const { data } = copy.getImageData(0, 0, shown.width, shown.height);
+          const z = heights();
+          const found = { sea: 0, land: 0, wrong: 0 };
+          for (let r = 6; r < 294; r += 6) {
+            for (let c = 6; c < 294; c += 6) {
+              const known = [-4, 0, 4].flatMap((dy) => [-4, 0, 4].map((dx) => !Number.isNaN(z[(r + dy) * 300 + c + dx])));
+              if (known.some((k) => k !== known[0])) continue; // the shore
+              const at = project(c + 0.5, r + 0.5);
+              if (!at) continue;
+              const k = 4 * (Math.round(at.y * scale) * shown.width + Math.round(at.x * scale));
+              const [red, blue] = [data[k], data[k + 2]];
+              const wet = blue - red > 12;
+              if (known[0]) found.land += 1;
+              else found.sea += 1;
+              if (known[0] ? wet && blue - red < 60 : !wet) found.wrong += 1; // rivers are bluer than the sea
+            }
+          }
+          return found;
+        });
+        console.log(`# ${way}: ${sea} places at sea, ${land} on land, ${wrong} of another colour`);
+        assert.ok(sea > 300 && land > 300);
+        assert.ok(wrong <= 0.03 * (sea + land));
+        if (browser === gl && way === '3-D') await page.click('#bmap');
+      }
+      assert.deepEqual(complaints, []);
       await page.close();
     }
   });

@@ -4,8 +4,9 @@
 import { unpackHeights } from './unpack.js';
 
 export class Land {
-  constructor(grid, about, base64) {
+  constructor(grid, about, base64, sea) {
     this.grid = grid;
+    this.sea = sea;
     if (about === null) { // rivers without a surface lie on level ground
       this.level = true;
       this.cells = Math.max(grid.width, grid.height) / 64;
@@ -24,7 +25,7 @@ export class Land {
     this.min = about.min;
     this.max = about.max;
     this.holes = about.nodata;
-    const q = unpackHeights(base64, about.width, about.height);
+    const q = (this.q = unpackHeights(base64, about.width, about.height));
     const scale = (about.max - about.min) / 65534;
     this.z = new Float32Array(q.length);
     this.has = about.nodata > 0 ? new Uint8Array(q.length) : null;
@@ -32,7 +33,8 @@ export class Land {
       this.z[i] = q[i] === 0 ? about.min : about.min + (q[i] - 1) * scale;
       if (this.has) this.has[i] = q[i] === 0 ? 0 : 255;
     }
-    if (this.has) this.#fillHoles();
+    if (this.has && sea) this.z.forEach((_, i) => this.has[i] || (this.z[i] = sea.level));
+    else if (this.has) this.#fillHoles();
   }
 
   /** Gives holes the heights beside them, so that the land does not fall into them: they are not drawn. */
@@ -87,6 +89,10 @@ export class Land {
 
   /** Of every slope [m/m], the one that nine in ten do not exceed. */
   steepness() {
+    return (this.steepest ??= this.#steepness());
+  }
+
+  #steepness() {
     if (this.level || this.width < 2 || this.height < 2) return 0;
     const slopes = [];
     const side = this.cells * this.grid.cell_m;

@@ -5,18 +5,24 @@ import './style.css';
 import { Land } from './land.js';
 import { ArcFinder, Rivers } from './rivers.js';
 import { number } from './chart.js';
-import { css, riverStyle, tints } from './colours.js';
-import { fillReport, metres, summary } from './report.js';
+import { css, modes, orderColours, riverStyle } from './colours.js';
+import { slopes } from './light.js';
+import { fillPanel, metres, summary } from './panel.js';
 import { probe, View3d } from './view3d.js';
 import { View2d } from './view2d.js';
+import { Water } from './water.js';
 
 const $ = (id) => document.getElementById(id);
 const state = (window.__thalweg = { ready: false, mode: null, error: null, kept: 0, pick: () => null });
 
 function fail(error) {
   state.error = String(error?.message ?? error);
-  $('message').textContent = `This page cannot be shown: ${state.error}`;
-  $('message').hidden = false;
+  tellAll(`This page cannot be shown: ${state.error}`);
+}
+
+function tellAll(words) {
+  $('message').textContent = words;
+  $('message').hidden = words === '';
 }
 
 /** Values that a slider walks through: 1, 2, 5, 10, … or a list. */
@@ -44,61 +50,97 @@ function contourSteps(span, asked) {
   return steps.sort((a, b) => a - b);
 }
 
-/** Exaggeration under which the land stands out: about an eighth as high as it is wide. */
+const lifts = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 7, 10, 15, 20, 30, 50, 100, 200, 500, 1000];
+
+/** Exaggeration under which the land stands as it does from a hill: about a ninth as high as it is wide. */
 function goodExaggeration(land) {
   const extent = Math.max(land.grid.width, land.grid.height) * land.grid.cell_m;
-  const wanted = land.max > land.min ? (0.13 * extent) / (land.max - land.min) : 1;
+  const wanted = land.max > land.min ? (0.11 * extent) / (land.max - land.min) : 1;
   return lifts.reduce((best, v) => (Math.abs(Math.log(v / wanted)) < Math.abs(Math.log(best / wanted)) ? v : best), 1);
 }
-const lifts = [0.2, 0.5, 1, 1.5, 2, 3, 4, 5, 7, 10, 15, 20, 30, 50, 100, 200, 500, 1000];
+
+/** What stands beside summits and where rivers leave. */
+function namesOf(data, rivers, land) {
+  const names = data.summits.map(([x, y, z]) => ({ x, y, text: metres(z, land), kind: 'summit' }));
+  const ends = [];
+  rivers.downstream.forEach((d, k) => d < 0 && ends.push(k));
+  const area = rivers.arcs.ds_area;
+  ends.sort((a, b) => area[b] - area[a]);
+  const outlets = ends.slice(0, 6).filter((k) => area[k] > 0).map((k) => {
+    const line = rivers.lines[k];
+    return { x: line.at(-2), y: line.at(-1), text: `${number(area[k] / 1e6, 3)} km²`, kind: 'outlet' };
+  });
+  // The highest summit first, then the two kinds in turn.
+  return Array.from({ length: Math.max(names.length, outlets.length) }, (_, i) => [names[i], outlets[i]]).flat().filter(Boolean);
+}
 
 function start() {
   const data = JSON.parse($('data').textContent);
   document.title = data.title;
   $('title').textContent = data.title;
-  const land = new Land(data.grid, data.heights, $('heights').textContent);
+  const land = new Land(data.grid, data.heights, $('heights').textContent, data.sea);
   const rivers = new Rivers(data.rivers, data.ridges, $('lines').textContent);
+  const water = new Water(land, $('water').textContent);
   $('summary').textContent = summary(data, rivers);
-  fillReport($('sections'), data);
   $('foot').textContent = `thalweg ${data.version}` + (data.recipe ? `, seed ${data.seed}` : '');
 
   const asked = new URLSearchParams(location.search);
-  const gl = probe();
+  const gl = probe(asked.get('aa') !== '0');
+  const { lakes } = water;
+  const { sea } = data;
   let view = null;
   if (gl && Math.max(land.width, land.height) <= gl.largest) {
     const segments = Math.round(Number(asked.get('seg')));
     try {
-      view = new View3d($('view'), land, rivers, { antialias: asked.get('aa') !== '0', segments: segments >= 1 ? Math.min(segments, 2047) : undefined }, gl);
+      view = new View3d($('view'), land, rivers, { segments: segments >= 1 ? Math.min(segments, 2047) : undefined, lakes, sea }, gl);
     } catch (error) {
       console.info(`no 3-D view: ${error.message}`);
       $('view').replaceChildren();
     }
   }
-  view ??= new View2d($('view'), land, rivers);
+  view ??= new View2d($('view'), land, rivers, { lakes, sea });
   document.documentElement.dataset.mode = view.mode;
   const finder = new ArcFinder(rivers, data.grid);
+  const names = namesOf(data, rivers, land);
+  const panel = fillPanel({ verdict: $('verdict'), ledger: $('ledger'), sections: $('sections') }, data, {
+    flyTo: (x, y) => view.fly(x, y),
+    point: (x, y) => {
+      view.marks = [[x, y]];
+      view.redraw();
+    },
+    unpoint: () => {
+      view.marks = [];
+      view.redraw();
+    },
+  });
 
-  // Under slopes too gentle to be seen the shade is deepened, as on the printed map.
+  // Under slopes too gentle to be seen the shade of the map is deepened, as on the printed one.
   const depth = Math.min(12, Math.max(1, 0.5 / Math.max(1e-6, land.steepness())));
-  const how = { azimuth: 315, altitude: 45, tint: true, ridges: true, shadeGain: depth };
-  how.exaggeration = slider('exaggeration', lifts, goodExaggeration(land), (v) => number(v), (v) => update({ exaggeration: v }));
+  const how = { azimuth: 315, altitude: 40, shadeGain: depth };
+  how.exaggeration = slider('exaggeration', lifts, goodExaggeration(land), (v) => `× ${number(v)}`, (v) => update({ exaggeration: v }));
   let interval = slider('contour', contourSteps(land.max - land.min, data.contour_m), data.contour_m,
     (v) => (v > 0 ? `${number(v)} m` : 'none'), (v) => update({}, (interval = v)));
   slider('sun', Array.from({ length: 72 }, (_, i) => 5 * i), 315, (v) => `${v}° (${'N NE E SE S SW W NW N'.split(' ')[Math.round(v / 45)]})`, (v) => update({ azimuth: v }));
-  slider('altitude', Array.from({ length: 16 }, (_, i) => 10 + 5 * i), 45, (v) => `${v}°`, (v) => update({ altitude: v }));
+  slider('altitude', Array.from({ length: 17 }, (_, i) => 5 + 5 * i), 40, (v) => `${v}°`, (v) => update({ altitude: v }));
   function update(change) {
     Object.assign(how, change);
-    view.look({ ...how, contour: $('show-contours').checked ? interval : 0, tint: $('show-tint').checked, ridges: $('show-ridges').checked });
+    view.look({ ...how, contour: $('show-contours').checked ? interval : 0 });
   }
-  for (const id of ['show-contours', 'show-tint', 'show-ridges']) $(id).addEventListener('change', () => update({}));
-  $('show-rivers').addEventListener('change', () => prune());
+  $('show-contours').addEventListener('change', () => update({}));
+  for (const id of ['show-rivers', 'show-ridges']) $(id).addEventListener('change', () => drawLines());
+  $('show-labels').addEventListener('change', () => {
+    view.names = $('show-labels').checked ? names : [];
+    view.redraw();
+  });
+  view.names = names;
   $('field-L').hidden = rivers.count === 0;
   $('show-rivers').parentElement.hidden = rivers.count === 0;
   $('label-ridges').hidden = rivers.ridges.length === 0;
-  if (land.level) for (const id of ['exaggeration', 'contour', 'sun', 'altitude', 'show-contours', 'show-tint']) $(id).disabled = true;
+  if (land.level) for (const id of ['exaggeration', 'contour', 'sun', 'altitude', 'show-contours', 'colour']) $(id).disabled = true;
   $('exaggeration').disabled ||= view.mode === '2d';
 
   let orders = new Int32Array(rivers.count);
+  let highest = 0;
   const L = $('L');
   const least = Math.floor(data.rivers.prune);
   // Beyond 160 cells there is always room on the slider; past the longest stream nothing changes any more.
@@ -107,43 +149,142 @@ function start() {
     const length = Number(L.value) <= least ? data.rivers.prune : Number(L.value);
     const now = rivers.kept(length);
     orders = now.orders;
-    const highest = Math.max(0, ...orders);
+    highest = Math.max(0, ...orders);
     state.kept = now.kept;
-    const metres = length * data.grid.cell_m;
-    $('Lout').textContent = `${number(length)} cells (${metres >= 2000 ? `${number(metres / 1000, 3)} km` : `${number(metres, 3)} m`})`;
+    const along = length * data.grid.cell_m;
+    $('Lout').textContent = `${number(length)} cells (${along >= 2000 ? `${number(along / 1000, 3)} km` : `${number(along, 3)} m`})`;
     L.setAttribute('aria-valuetext', $('Lout').textContent);
     $('kept').textContent = `${number(now.kept)} of ${number(rivers.count)} links kept, to order ${highest}`;
-    legend(highest, land);
-    view.showRivers($('show-rivers').checked ? orders : new Int32Array(rivers.count), highest);
-    mark(pinned);
+    drawLines();
+    legend();
   }
   L.addEventListener('input', prune);
 
+  let mode = 'height';
+  let painted = null;
+  let other = null; // heights of another report
   let pinned = -1;
-  function mark(arc) {
-    const shown = arc >= 0 && orders[arc] > 0 ? arc : -1;
-    view.mark(shown >= 0 ? rivers.path(shown).map((k) => rivers.lines[k]) : []);
-    return shown;
+  /** Rivers by the orders that the slider leaves, or in the colours of an order. */
+  function drawLines() {
+    const by = modes[mode].lines;
+    const styles = Array.from({ length: by === 'hack' ? orderColours.length : highest }, (_, i) => {
+      const style = riverStyle(by === 'hack' ? orderColours.length - i : i + 1, by === 'hack' ? orderColours.length : highest);
+      return by ? { ...style, share: Math.min(i, orderColours.length - 1) } : style;
+    });
+    const shown = $('show-rivers').checked ? (by === 'hack' ? orders.map((o, k) => (o > 0 ? rivers.arcs.hack[k] : 0)) : orders) : new Int32Array(rivers.count);
+    const marked = pinned >= 0 && orders[pinned] > 0 ? rivers.path(pinned).map((k) => rivers.lines[k]) : [];
+    view.showLines({ orders: shown, styles, ridges: $('show-ridges').checked, marked, byClass: Boolean(by), colours: orderColours });
   }
+  function colour(name) {
+    mode = name;
+    painted = modes[name].make({ land, water, other, slope: view.ground?.slope ?? slopes(land), metres: (z) => metres(z, land) });
+    view.paint(painted);
+    drawLines();
+    legend();
+  }
+  const select = $('colour');
+  for (const [name, { label, needs }] of Object.entries(modes)) {
+    const can = { water: water.known, rivers: rivers.count > 0, other: !land.level }[needs] ?? true;
+    if (can) select.append(Object.assign(document.createElement('option'), { value: name, textContent: label }));
+  }
+  select.addEventListener('change', () => {
+    if (select.value === 'difference') $('other').click();
+    else colour(select.value);
+    if (select.value === 'difference') select.value = mode;
+  });
+  $('other').addEventListener('change', async () => {
+    const [file] = $('other').files;
+    $('other').value = '';
+    if (!file) return;
+    try {
+      other = heightsOf(await file.text(), land);
+      tellAll('');
+      select.value = 'difference';
+      colour('difference');
+    } catch (error) {
+      tellAll(`${file.name}: ${error.message}`);
+    }
+  });
+
+  function legend() {
+    const box = $('legend');
+    box.replaceChildren();
+    const by = modes[mode].lines;
+    const entries = [];
+    if (rivers.count && highest) {
+      const most = by === 'hack' ? Math.min(orderColours.length, Math.max(...rivers.arcs.hack)) : highest;
+      const row = Object.assign(document.createElement('div'), { className: 'orders' });
+      row.append(by === 'hack' ? 'Hack order ' : 'Strahler order ');
+      for (let order = 1; order <= most; ++order) {
+        const { width, colour: blue } = riverStyle(by === 'hack' ? most - order + 1 : order, most);
+        const item = document.createElement('span');
+        const line = Object.assign(document.createElement('i'), { className: 'river' });
+        line.style.height = `${Math.max(2, width)}px`;
+        line.style.background = css(by ? orderColours[Math.min(order, orderColours.length) - 1] : blue);
+        item.append(line, String(order));
+        row.append(item);
+      }
+      entries.push(row);
+    }
+    const shown = painted?.legend;
+    if (shown?.ramp && land.max > land.min && !land.level) {
+      const ramp = Object.assign(document.createElement('div'), { className: 'ramp' });
+      const bar = document.createElement('i');
+      bar.style.background = `linear-gradient(to right, ${shown.ramp.map(css).join(', ')})`;
+      ramp.append(shown.from, bar, shown.to);
+      entries.push(ramp);
+    }
+    if (shown?.entries) {
+      const row = Object.assign(document.createElement('div'), { className: 'classes' });
+      for (const [name, c] of shown.entries) {
+        const item = document.createElement('span');
+        const square = document.createElement('i');
+        square.style.background = css(c);
+        item.append(square, name);
+        row.append(item);
+      }
+      entries.push(row);
+    }
+    box.replaceChildren(...entries);
+  }
+
   function pick(px, py) {
     const at = view.under(px, py);
     if (!at) return null;
     const { grid } = data;
     const arc = finder.nearest(at.x, at.y, Math.max(1.5, 7 * view.cellsPerPixel), orders);
+    const col = Math.min(Math.floor(at.x), grid.width - 1);
+    const row = Math.min(Math.floor(at.y), grid.height - 1);
     return {
-      col: Math.min(Math.floor(at.x), grid.width - 1), row: Math.min(Math.floor(at.y), grid.height - 1),
+      col, row, px: at.x, py: at.y,
       x: grid.west + at.x * grid.cell_m, y: grid.north - at.y * grid.cell_m,
       z: land.known(Math.min(at.x, grid.width - 1e-6), Math.min(at.y, grid.height - 1e-6)) ? land.heightAt(at.x, at.y) : null,
       arc: arc < 0 ? null : Object.fromEntries(Object.entries(rivers.arcs).filter(([key]) => key !== 'n').map(([key, column]) => [key, column[arc]])),
       number: arc,
     };
   }
-  function tell(found) {
+  /** Slope, aspect, drained area and distance to the outlet of a cell, for a place that was asked for by a click. */
+  function more(found) {
+    if (found.z === null) return [];
+    const { east, south } = view.ground?.slope ?? slopes(land);
+    const i = Math.min(Math.floor(found.row / land.cells), land.height - 1) * land.width + Math.min(Math.floor(found.col / land.cells), land.width - 1);
+    const steep = (Math.atan(Math.hypot(east[i], south[i])) * 180) / Math.PI;
+    const facing = ((Math.atan2(-east[i], south[i]) * 180) / Math.PI + 360) % 360;
+    const words = [`slope ${steep.toFixed(1)}°` + (steep > 0.05 ? ` facing ${'N NE E SE S SW W NW N'.split(' ')[Math.round(facing / 45)]}` : '')];
+    if (water.known) {
+      const cell = data.grid.cell_m;
+      words.push(`drains ${number((water.areas[i] * cell * cell) / 1e6, 3)} km²`, `${number((water.distances[i] * cell) / 1000, 3)} km to the outlet`);
+    }
+    return [words.join(' · ')];
+  }
+  function tell(found, all) {
     if (!found) {
       $('point').textContent = '';
       return;
     }
-    const lines = [`${found.x.toFixed(1)}, ${found.y.toFixed(1)} · cell ${found.col}, ${found.row}` + (found.z === null ? '' : ` · ${found.z.toFixed(1)} m`)];
+    const lines = [`${found.x.toFixed(1)}, ${found.y.toFixed(1)} · cell ${found.col}, ${found.row}` +
+      (found.z !== null ? ` · ${found.z.toFixed(1)} m` : sea && land.has ? ' · sea' : '')];
+    if (all) lines.push(...more(found));
     if (found.arc) {
       const a = found.arc;
       lines.push(`arc ${a.id}: order ${a.strahler} (Shreve ${a.shreve}, Hack ${a.hack}), ${number(a.length)} m, ${number(a.z_up)} → ${number(a.z_down)} m, drains ${number(a.ds_area / 1e6)} km²`,
@@ -151,19 +292,36 @@ function start() {
     }
     $('point').replaceChildren(...lines.map((text) => Object.assign(document.createElement('div'), { textContent: text })));
   }
+  function ask(px, py) {
+    const found = pick(px, py);
+    pinned = found?.number ?? -1;
+    drawLines();
+    tell(found, true);
+  }
   $('point').removeAttribute('aria-live'); // hovering would never let a reader speak: see the key P
   let pressed = null;
+  let moved = null;
   view.canvas.addEventListener('pointermove', (event) => {
-    if (event.buttons === 0) tell(pick(event.offsetX, event.offsetY));
+    if (event.buttons !== 0 || moved) return;
+    const { offsetX, offsetY } = event;
+    moved = requestAnimationFrame(() => {
+      moved = null;
+      const found = pick(offsetX, offsetY);
+      tell(found);
+      if (found && found.number >= 0) panel.hover(found.px, found.py, found.number);
+      else panel.hover(null, null, -1);
+    });
   });
-  view.canvas.addEventListener('pointerleave', () => tell(null));
+  view.canvas.addEventListener('pointerleave', () => {
+    if (moved) cancelAnimationFrame(moved);
+    moved = null;
+    tell(null);
+    panel.hover(null, null, -1);
+  });
   view.canvas.addEventListener('pointerdown', (event) => (pressed = [event.offsetX, event.offsetY]));
   view.canvas.addEventListener('pointerup', (event) => {
     if (!pressed || Math.hypot(event.offsetX - pressed[0], event.offsetY - pressed[1]) > 4) return;
-    const found = pick(event.offsetX, event.offsetY);
-    pinned = found?.number ?? -1;
-    mark(pinned);
-    tell(found);
+    ask(event.offsetX, event.offsetY);
   });
 
   view.canvas.tabIndex = 0;
@@ -180,10 +338,7 @@ function start() {
     else if (event.key === '0') $('bhome').click();
     else if (event.key === 'p' || event.key === 'P') {
       $('point').setAttribute('aria-live', 'polite');
-      const found = pick(view.canvas.clientWidth / 2, view.canvas.clientHeight / 2);
-      pinned = found?.number ?? -1;
-      mark(pinned);
-      tell(found);
+      ask(view.canvas.clientWidth / 2, view.canvas.clientHeight / 2);
     } else return;
     event.preventDefault();
   });
@@ -195,9 +350,20 @@ function start() {
   });
   if (view.mode === '2d') $('bmap').disabled = true;
   $('bhome').addEventListener('click', () => (view.onmap && view.mode !== '2d' ? view.map(true) : view.home()));
+  $('bpanel').addEventListener('click', () => {
+    const off = document.documentElement.dataset.panel !== 'off';
+    document.documentElement.dataset.panel = off ? 'off' : 'on';
+    $('bpanel').setAttribute('aria-pressed', String(!off));
+  });
   $('bpicture').addEventListener('click', () => {
     view.draw();
-    view.canvas.toBlob((blob) => {
+    const whole = document.createElement('canvas');
+    whole.width = view.canvas.width;
+    whole.height = view.canvas.height;
+    const pen = whole.getContext('2d');
+    pen.drawImage(view.canvas, 0, 0);
+    pen.drawImage(view.labels.canvas, 0, 0, whole.width, whole.height);
+    whole.toBlob((blob) => {
       const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: `${data.title.replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '') || 'thalweg'}.png` });
       link.click();
       setTimeout(() => URL.revokeObjectURL(link.href), 10000);
@@ -206,19 +372,27 @@ function start() {
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const theme = (name) => {
     document.documentElement.dataset.theme = name;
-    view.background(name === 'dark' ? [24, 27, 31] : [236, 236, 232]);
+    view.theme(name);
   };
   dark.addEventListener('change', () => theme(dark.matches ? 'dark' : 'light'));
   $('btheme').addEventListener('click', () => theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
 
   view.ondraw = (turn) => ($('north').style.transform = `rotate(${turn}rad)`);
-  view.onlost = () => fail('the graphics device was lost; load the page again');
+  // Labels keep out from under what lies over the view.
+  view.keepOut = () => {
+    const frame = $('view').getBoundingClientRect();
+    return ['ways', 'north', 'point'].map((id) => $(id).getBoundingClientRect()).filter((b) => b.width > 0)
+      .map((b) => ({ x0: b.left - frame.left - 2, x1: b.right - frame.left + 2, y0: b.top - frame.top - 2, y1: b.bottom - frame.top + 2 }));
+  };
+  view.onlost = () => tellAll('The graphics device was lost; the view returns when the browser gives it back.');
+  view.onfound = () => tellAll('');
   theme(dark.matches ? 'dark' : 'light');
   update({});
-  view.home();
+  painted = modes[land.level ? 'none' : 'height'].make({ land, metres: (z) => metres(z, land) });
+  view.paint(painted);
   prune();
+  view.home();
   new ResizeObserver(() => view.resize()).observe($('view'));
-  view.draw();
   Object.assign(state, {
     mode: view.mode,
     pick,
@@ -226,30 +400,27 @@ function start() {
     heights: () => Float32Array.from(land.z, (z, i) => (land.has && !land.has[i] ? NaN : z)),
     /** Strahler orders of the arcs as pruned now, 0 for those that are gone. */
     orders: () => Array.from(orders),
+    /** What is written over the view: {text, x0, y0, x1, y1} [pixels]. */
+    labels: () => view.labels.boxes,
+    /** A place [cells] on the view [pixels], or null. */
+    project: (x, y) => view.project(x, y),
+    /** When the view rests. */
+    still: () => view.still?.(),
+    water,
     ready: true,
   });
 }
 
-function legend(highest, land) {
-  const box = $('legend');
-  box.replaceChildren();
-  for (let order = 1; order <= highest; ++order) {
-    const { width, colour } = riverStyle(order, highest);
-    const item = document.createElement('span');
-    const line = Object.assign(document.createElement('i'), { className: 'river' });
-    line.style.height = `${width}px`;
-    line.style.background = css(colour);
-    item.append(line, String(order));
-    box.append(item);
-  }
-  if (highest) box.prepend('Order ');
-  if (!land.level && land.max > land.min) {
-    const ramp = Object.assign(document.createElement('div'), { className: 'ramp' });
-    const bar = document.createElement('i');
-    bar.style.background = `linear-gradient(to right, ${tints.map(css).join(', ')})`;
-    ramp.append(metres(land.min, land), bar, `${metres(land.max, land)} m`);
-    box.append(ramp);
-  }
+/** Heights of another report page as they lie on this one's raster. Throws when it is none, or of another grid. */
+function heightsOf(html, land) {
+  const page = new DOMParser().parseFromString(html, 'text/html');
+  const text = (id) => page.getElementById(id)?.textContent;
+  if (!text('data')) throw new Error('this is not a report page of thalweg');
+  const data = JSON.parse(text('data'));
+  const there = new Land(data.grid, data.heights, text('heights') ?? '', data.sea ?? null);
+  const same = ['width', 'height', 'cell_m', 'west', 'north'].every((key) => data.grid[key] === land.grid[key]) && there.width === land.width;
+  if (!same || there.level) throw new Error('it shows another grid: a difference needs the same cells');
+  return there.z;
 }
 
 window.addEventListener('error', (event) => fail(event.error ?? event.message));

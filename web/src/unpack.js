@@ -3,7 +3,7 @@
 // The two packed blocks of the page; README.md says how they are written.
 import { unzlibSync } from 'fflate';
 
-function bytesOf(base64) {
+export function bytesOf(base64) {
   const text = atob(base64.trim());
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);

@@ -1,20 +1,33 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The map without WebGL: shaded and tinted land, contours and rivers on a plain canvas.
-import { css, markColour, ridgeColour, riverStyle, tint } from './colours.js';
+import { colourOf, css, markColour, orderColours, ridgeColour } from './colours.js';
+import { contourPlaces, Labels } from './labels.js';
+import { distanceInside } from './light.js';
 
 export class View2d {
   mode = '2d';
   onmap = true;
+  names = [];
+  places = [];
 
-  constructor(parent, land, rivers) {
+  constructor(parent, land, rivers, { lakes, sea } = {}) {
     this.parent = parent;
     this.land = land;
     this.rivers = rivers;
     this.canvas = document.createElement('canvas');
     parent.append(this.canvas);
+    this.labels = new Labels(parent);
+    const { width, height } = land;
+    this.shores = [];
+    if (sea && land.has) {
+      const wet = land.has.map((h) => (h ? 0 : 1));
+      this.shores.push({ wet, away: distanceInside(wet, width, height, 64), deep: 11, shallow: [168, 205, 214], bed: [92, 134, 172] });
+    }
+    if (lakes) this.shores.push({ wet: lakes, away: distanceInside(lakes, width, height, 64), deep: 4, shallow: [150, 194, 214], bed: [96, 148, 184] });
     this.groups = [];
-    this.marks = [];
+    this.marked = [];
+    this.marks = []; // places [cells] shown by a ring
     this.zoom = 1;
     this.centre = [land.grid.width / 2, land.grid.height / 2];
     this.paper = [255, 255, 255];
@@ -77,20 +90,27 @@ export class View2d {
   }
 
   look(how) {
-    const relief = JSON.stringify([how.azimuth, how.altitude, how.tint, how.shadeGain]);
+    const relief = JSON.stringify([how.azimuth, how.altitude, how.shadeGain]);
     if (relief !== this.relief) {
       this.relief = relief;
-      this.#shade(how);
+      this.how = how;
+      if (this.painted) this.#shade(how);
     }
     if (how.contour !== this.contour) {
       this.contour = how.contour;
       this.#trace(how.contour);
+      this.places = contourPlaces(this.land, 5 * how.contour, 40);
     }
-    this.showsRidges = how.ridges;
     this.redraw();
   }
 
-  #shade({ azimuth, altitude, tint: tinted, shadeGain }) {
+  paint(painted) {
+    this.painted = painted;
+    if (this.how) this.#shade(this.how);
+    this.redraw();
+  }
+
+  #shade({ azimuth, altitude, shadeGain }) {
     const { land } = this;
     const { width, height, z } = land;
     const picture = new ImageData(width, height);
@@ -98,8 +118,7 @@ export class View2d {
     const h = (altitude * Math.PI) / 180;
     const sun = [Math.sin(a) * Math.cos(h), Math.cos(a) * Math.cos(h), Math.sin(h)];
     const scale = shadeGain / (2 * land.cells * land.grid.cell_m);
-    const span = land.max - land.min;
-    const ramp = Array.from({ length: 257 }, (_, i) => tint(i / 256));
+    const { values, palette } = this.painted;
     for (let r = 0, i = 0; r < height; ++r) {
       const up = r > 0 ? width : 0;
       const down = r + 1 < height ? width : 0;
@@ -111,12 +130,21 @@ export class View2d {
         const dx = (z[c + 1 < width ? i + 1 : i] - z[c > 0 ? i - 1 : i]) * scale;
         const dy = (z[i + down] - z[i - up]) * scale;
         const light = (-dx * sun[0] + dy * sun[1] + sun[2]) / Math.hypot(dx, dy, 1) - sun[2];
-        const ground = tinted ? ramp[span > 0 ? Math.round((256 * (z[i] - land.min)) / span) : 102] : [222, 219, 209];
+        const at = colourOf(this.painted, (values ?? z)[i]);
+        const ground = palette.subarray(at, at + 3);
         const share = light < 0 ? Math.min(1, -light / Math.max(sun[2], 0.2)) : 0.55 * Math.min(1, light / Math.max(1 - sun[2], 0.2));
         for (let k = 0; k < 3; ++k) {
           const end = light < 0 ? ground[k] * [0.26, 0.29, 0.4][k] : [255, 255, 245][k];
           picture.data[4 * i + k] = ground[k] + (end - ground[k]) * share;
         }
+        picture.data[4 * i + 3] = 255;
+      }
+    }
+    for (const { wet, away, deep, shallow, bed } of this.shores) {
+      for (let i = 0; i < wet.length; ++i) {
+        if (!wet[i]) continue;
+        const share = 1 - Math.exp(-away[i] / deep);
+        for (let k = 0; k < 3; ++k) picture.data[4 * i + k] = shallow[k] + (bed[k] - shallow[k]) * share;
         picture.data[4 * i + 3] = 255;
       }
     }
@@ -161,20 +189,28 @@ export class View2d {
     }
   }
 
-  showRivers(orders, highest) {
-    this.groups = Array.from({ length: highest }, (_, i) => ({ lines: [], ...riverStyle(i + 1, highest) }));
-    orders.forEach((order, k) => order > 0 && this.groups[order - 1].lines.push(this.rivers.lines[k]));
+  showLines({ orders, styles, ridges, marked, byClass, colours = orderColours }) {
+    this.groups = styles.map(({ width, colour, share }) => ({ lines: [], width, colour: byClass ? colours[share] : colour }));
+    orders.forEach((order, k) => order > 0 && this.groups[Math.min(order, styles.length) - 1].lines.push(this.rivers.lines[k]));
+    this.marked = marked;
+    this.showsRidges = ridges;
     this.redraw();
   }
 
-  mark(lines) {
-    this.marks = lines;
+  theme(name) {
+    this.paper = name === 'dark' ? [38, 44, 52] : [226, 232, 236];
+    this.labels.dark = false;
     this.redraw();
   }
 
-  background(colour) {
-    this.paper = colour;
+  fly(x, y) {
+    this.centre = [x, y];
+    this.zoom = Math.max(this.zoom, 4);
     this.redraw();
+  }
+
+  project(x, y) {
+    return { x: this.parent.clientWidth / 2 + (x - this.centre[0]) / this.cellsPerPixel, y: this.parent.clientHeight / 2 + (y - this.centre[1]) / this.cellsPerPixel };
   }
 
   redraw() {
@@ -224,8 +260,21 @@ export class View2d {
     };
     if (this.showsRidges) stroke(this.rivers.ridges, 1.2, ridgeColour);
     for (const { lines, width, colour } of this.groups) stroke(lines, width + 0.3, colour);
-    stroke(this.marks, 2.4, markColour);
+    stroke(this.marked, 2.4, markColour);
+    this.#write();
     this.ondraw?.(0);
+  }
+
+  #write() {
+    const labels = this.names.map(({ x, y, text, kind }) => ({ text, kind, ...this.project(x, y) }));
+    if (this.contour > 0) {
+      for (const { x, y, z, dx, dy } of this.places) {
+        const turn = Math.atan(dy / (dx || 1e-9));
+        labels.push({ text: String(Math.round(z * 1000) / 1000), kind: 'contour', angle: turn, ...this.project(x, y) });
+      }
+    }
+    const marks = this.marks.map(([x, y]) => this.project(x, y)).map(({ x, y }) => [x, y]);
+    this.labels.draw(labels, this.cellsPerPixel * this.land.grid.cell_m, marks, this.ratio, this.keepOut?.() ?? []);
   }
 
   under(px, py) {

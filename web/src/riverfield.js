@@ -1,0 +1,71 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Lines as the ground's shader draws them: for each value of the land the nearest segment, so that lines lie on the land at
+// every zoom, as wide as their water, and join where they meet.
+
+export const reach = 5; // [values] around a line in which it is known
+const columns = 1024; // of the tables of segments
+
+export class LineField {
+  constructor(land) {
+    this.land = land;
+    this.width = land.width;
+    this.height = land.height;
+    this.nearest = new Float32Array(this.width * this.height); // number of a segment, from 1
+    this.away = new Float32Array(this.width * this.height);
+  }
+
+  /** groups: [{lines, half [values], pixels, share: [0, 1] of the colour, kind: 0 river, 1 ridge, 2 mark}], the later on top. */
+  build(groups) {
+    const { land, width, height, nearest, away } = this;
+    nearest.fill(0);
+    away.fill(Infinity);
+    let count = 0;
+    for (const { lines } of groups) for (const line of lines) count += Math.max(0, line.length / 2 - 1);
+    this.rows = Math.max(1, Math.ceil(count / columns));
+    this.segments = new Float32Array(4 * columns * this.rows);
+    this.styles = new Float32Array(4 * columns * this.rows);
+    let number = 0;
+    for (const { lines, half, pixels, share, kind } of groups) {
+      lines.forEach((line, l) => {
+        const wide = typeof half === 'function' ? half(l) : half;
+        for (let i = 2; i < line.length; i += 2) {
+          const ax = line[i - 2] / land.cells - 0.5;
+          const ay = line[i - 1] / land.cells - 0.5;
+          const bx = line[i] / land.cells - 0.5;
+          const by = line[i + 1] / land.cells - 0.5;
+          this.segments.set([ax, ay, bx, by], 4 * number);
+          this.styles.set([Math.min(wide, reach - 1), pixels, share, kind], 4 * number);
+          ++number;
+          const dx = bx - ax;
+          const dy = by - ay;
+          const square = dx * dx + dy * dy;
+          const c1 = Math.min(width - 1, Math.ceil(Math.max(ax, bx) + reach));
+          const r1 = Math.min(height - 1, Math.ceil(Math.max(ay, by) + reach));
+          for (let r = Math.max(0, Math.floor(Math.min(ay, by) - reach)); r <= r1; ++r) {
+            for (let c = Math.max(0, Math.floor(Math.min(ax, bx) - reach)); c <= c1; ++c) {
+              const along = square > 0 ? Math.min(1, Math.max(0, ((c - ax) * dx + (r - ay) * dy) / square)) : 0;
+              const ex = c - ax - along * dx;
+              const ey = r - ay - along * dy;
+              const d = ex * ex + ey * ey - 0.05 * kind;
+              const k = r * width + c;
+              if (d < away[k] && d <= reach * reach) {
+                away[k] = d;
+                nearest[k] = number;
+              }
+            }
+          }
+        }
+      });
+    }
+  }
+
+  static get columns() {
+    return columns;
+  }
+}
+
+/** Width of a river's water [m] from the area that it drains [m²]: bankfull width of Bieger et al. 2015. */
+export function riverWidth(area) {
+  return area > 0 ? 2.7 * (area / 1e6) ** 0.352 : 0;
+}
