@@ -31,7 +31,7 @@ vec3 water(float shore, vec3 at, float lake) {
   float far = shore * (0.7 + 0.6 * noise(at.xz / unit * 0.11));
   float depth = lake > 0.5 ? 1.0 - exp(-shore / 4.0) : 0.55 * (1.0 - exp(-far / 3.5)) + 0.45 * (1.0 - exp(-far / 26.0));
   vec3 c = mix(shallow, deep, depth);
-  if (onMap > 0.5) return mix(c, vec3(1.0), 0.22);
+  if (onMap > 0.5) return linear(mix(vec3(0.74, 0.86, 0.91), vec3(0.49, 0.67, 0.80), depth));
   c *= mix(1.0, 0.55, dark);
   vec3 look = normalize(cameraPosition - at);
   vec2 p = at.xz * 260.0;
@@ -61,7 +61,7 @@ in vec2 place;
 in vec3 at;
 out vec4 colour;
 uniform sampler2D heights, surf, cover, shadow, values, palette, nearest, segments, styles;
-uniform vec2 size;
+uniform vec2 size, fine;
 uniform float holes, sea, low, high, gain, contour, index, dpr, byClass, withLines, lineByClass, level;
 uniform vec3 sun, lineColours[8];
 
@@ -79,8 +79,11 @@ float heightAt(vec2 p) {
 
 // The lines about a place: their colour, and how much of the pixel they cover.
 vec4 linesAt(vec2 across, vec2 down) {
-  ivec2 corner = ivec2(floor(place)), last = ivec2(size) - 1;
-  if (texelFetch(nearest, clamp(ivec2(place + 0.5), ivec2(0), last), 0).r == 0.0) return vec4(0.0);
+  vec2 finer = fine / size, place_ = (place + 0.5) * finer - 0.5;
+  across *= finer;
+  down *= finer;
+  ivec2 corner = ivec2(floor(place_)), last = ivec2(fine) - 1;
+  if (texelFetch(nearest, clamp(ivec2(place_ + 0.5), ivec2(0), last), 0).r == 0.0) return vec4(0.0);
   float covered = 0.0, best = -1.0;
   vec3 c = vec3(0.0);
   for (int k = 0; k < 4; ++k) {
@@ -88,7 +91,7 @@ vec4 linesAt(vec2 across, vec2 down) {
     if (number == 0) continue;
     ivec2 row = ivec2((number - 1) % ${LineField.columns}, (number - 1) / ${LineField.columns});
     vec4 s = texelFetch(segments, row, 0), style = texelFetch(styles, row, 0);
-    vec2 along = s.zw - s.xy, off = place - s.xy;
+    vec2 along = s.zw - s.xy, off = place_ - s.xy;
     off -= along * clamp(dot(off, along) / max(dot(along, along), 1e-12), 0.0, 1.0);
     float away = length(off);
     vec2 normal = away > 1e-6 ? off / away : vec2(1.0, 0.0);
@@ -317,7 +320,7 @@ export class Ground {
     this.halfX = (width * this.unit) / 2;
     this.halfZ = (height * this.unit) / 2;
     this.perMetre = this.unit / land.grid.cell_m;
-    this.field = new LineField(land);
+    this.field = new LineField(land.grid);
     // As many stitches as asked along the longer side, never more than values.
     const most = Math.max(land.width, land.height);
     this.columns = Math.max(1, Math.min(land.width, Math.round((segments * land.width) / most)));
@@ -386,7 +389,7 @@ export class Ground {
       ...this.air,
       heights: { value: heights }, values: { value: heights }, surf: { value: null }, cover: { value: this.#cover() },
       shadow: { value: texture(new Uint8Array([255]), 1, 1, RedFormat, UnsignedByteType, LinearFilter) },
-      palette: { value: null }, size: { value: new Vector2(width, height) },
+      palette: { value: null }, size: { value: new Vector2(width, height) }, fine: { value: new Vector2(this.field.width, this.field.height) },
       nearest: { value: texture(new Float32Array(1), 1, 1, RedFormat, FloatType, NearestFilter) },
       segments: { value: texture(one, 1, 1, RGBAFormat, FloatType, NearestFilter) },
       styles: { value: texture(one, 1, 1, RGBAFormat, FloatType, NearestFilter) },

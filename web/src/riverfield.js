@@ -1,23 +1,25 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// Lines as the ground's shader draws them: for each value of the land the nearest segment, so that lines lie on the land at
+// Lines as the ground's shader draws them: for each place of a raster the nearest segment, so that lines lie on the land at
 // every zoom, as wide as their water, and join where they meet.
 
-export const reach = 5; // [values] around a line in which it is known
+export const reach = 5; // [places] around a line in which it is known
+const usual = 1024; // places along the longer side; of large grids one a cell, to twice as many
 const columns = 1024; // of the tables of segments
 
 export class LineField {
-  constructor(land) {
-    this.land = land;
-    this.width = land.width;
-    this.height = land.height;
+  constructor({ width, height }) {
+    const longer = Math.max(width, height);
+    this.cells = longer <= usual ? longer / usual : Math.max(1, longer / (2 * usual));
+    this.width = Math.max(1, Math.round(width / this.cells));
+    this.height = Math.max(1, Math.round(height / this.cells));
     this.nearest = new Float32Array(this.width * this.height); // number of a segment, from 1
     this.away = new Float32Array(this.width * this.height);
   }
 
-  /** groups: [{lines, half [values], pixels, share: [0, 1] of the colour, kind: 0 river, 1 ridge, 2 mark}], the later on top. */
+  /** groups: [{lines, half [places], pixels, share: [0, 1] of the colour, kind: 0 river, 1 ridge, 2 mark}], the later on top. */
   build(groups) {
-    const { land, width, height, nearest, away } = this;
+    const { cells, width, height, nearest, away } = this;
     nearest.fill(0);
     away.fill(Infinity);
     let count = 0;
@@ -29,11 +31,9 @@ export class LineField {
     for (const { lines, half, pixels, share, kind } of groups) {
       lines.forEach((line, l) => {
         const wide = typeof half === 'function' ? half(l) : half;
-        for (let i = 2; i < line.length; i += 2) {
-          const ax = line[i - 2] / land.cells - 0.5;
-          const ay = line[i - 1] / land.cells - 0.5;
-          const bx = line[i] / land.cells - 0.5;
-          const by = line[i + 1] / land.cells - 0.5;
+        const points = spaced(line, cells);
+        for (let i = 2; i < points.length; i += 2) {
+          const [ax, ay, bx, by] = points.slice(i - 2, i + 2);
           this.segments.set([ax, ay, bx, by], 4 * number);
           this.styles.set([Math.min(wide, reach - 1), pixels, share, kind], 4 * number);
           ++number;
@@ -63,6 +63,20 @@ export class LineField {
   static get columns() {
     return columns;
   }
+}
+
+/** A line in places, no segment shorter than one: of shorter ones some would be nearest to no place, and missing. */
+function spaced(line, cells) {
+  const points = [line[0] / cells - 0.5, line[1] / cells - 0.5];
+  for (let i = 2; i < line.length; i += 2) {
+    const x = line[i] / cells - 0.5;
+    const y = line[i + 1] / cells - 0.5;
+    const near = (x - points.at(-2)) ** 2 + (y - points.at(-1)) ** 2 < 1;
+    if (near && i + 2 < line.length) continue;
+    if (near && points.length > 2) points.splice(-2);
+    points.push(x, y);
+  }
+  return points;
 }
 
 /** Width of a river's water [m] from the area that it drains [m²]: bankfull width of Bieger et al. 2015. */

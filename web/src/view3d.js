@@ -220,7 +220,7 @@ export class View3d {
 
   /** orders: by arc, 0: not shown. styles: by order {width, share}; ridges: whether to draw them; marked: lines to mark. */
   showLines({ orders, styles, ridges, marked, byClass, colours }) {
-    const { rivers, land } = this;
+    const { rivers, land, ground } = this;
     const groups = styles.map(({ width, share }) => ({ lines: [], arcs: [], pixels: width, share, kind: 0 }));
     orders.forEach((order, k) => {
       if (order <= 0) return;
@@ -228,7 +228,7 @@ export class View3d {
       group.lines.push(rivers.lines[k]);
       group.arcs.push(k);
     });
-    const side = 2 * land.cells * land.grid.cell_m;
+    const side = 2 * ground.field.cells * land.grid.cell_m;
     for (const group of groups) group.half = (l) => riverWidth((rivers.arcs.us_area[group.arcs[l]] + rivers.arcs.ds_area[group.arcs[l]]) / 2) / side;
     if (ridges && rivers.ridges.length) groups.unshift({ lines: rivers.ridges, half: 0, pixels: 1.3, share: 0, kind: 1 });
     groups.push({ lines: marked, half: 0, pixels: 3.2, share: 1, kind: 2 });
