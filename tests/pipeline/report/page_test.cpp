@@ -297,6 +297,41 @@ TEST(Page, LongListsAreCut) {
     EXPECT_EQ(data["repairs"]["count"], 0);
 }
 
+TEST(Page, FindingsOfEveryKindAreShownWithTheirPlaces) {
+    Made made = small_terrain(Land::with);
+    Grid const& grid = made.terrain.grid;
+    made.assessment.findings.assign(60, {"depression", 0, grid.centre({3, 4}), 1.0, "one of many"});
+    made.assessment.findings.push_back({"crossing", 7, {}, 0.0, "nowhere"});
+    made.assessment.findings.push_back({"crossing", 8, {grid.west - 1.0, grid.north}, 0.0, "beyond the grid"});
+    made.assessment.findings.push_back({"crossing", 9, {std::nan(""), grid.north}, 0.0, "no number"});
+    json const shown = data_of(page(made))["findings"]["shown"];
+    ASSERT_EQ(shown.size(), 50U);
+    EXPECT_EQ(shown[0], (json{{"kind", "depression"}, {"text", "one of many"}, {"at", {3.5, 4.5}}}));
+    EXPECT_EQ(shown[1], (json{{"kind", "crossing"}, {"text", "nowhere"}, {"at", nullptr}}));
+    EXPECT_EQ(shown[3], (json{{"kind", "crossing"}, {"text", "beyond the grid"}, {"at", nullptr}}));
+    EXPECT_EQ(shown[5], (json{{"kind", "crossing"}, {"text", "no number"}, {"at", nullptr}}));
+    EXPECT_EQ(shown[49]["kind"], "depression");
+}
+
+TEST(Page, TheLedgerOfGivenRiversBalances) {
+    Made made = small_terrain(Land::with);
+    EXPECT_TRUE(data_of(page(made))["given"].empty());
+    GivenLength given;
+    given.read_m = 10'000.0;
+    given.closed_m = 500.0;
+    given.kept_m = 8'000.0;
+    given.left_out_m[static_cast<std::size_t>(LeftOut::duplicate)] = 1'500.0;
+    given.left_out_m[static_cast<std::size_t>(LeftOut::coast)] = 1'000.0;
+    given.turned_m = 300.0;
+    made.assessment.given = given;
+    EXPECT_EQ(data_of(page(made))["given"], (json{{"read", 10.0, "km"},
+                                                  {"left out: coastlines", 1.0, "km"},
+                                                  {"left out: duplicates", 1.5, "km"},
+                                                  {"in the network", 8.0, "km"},
+                                                  {"added where ends were joined", 0.5, "km"},
+                                                  {"reversed", 0.3, "km"}}));
+}
+
 TEST(Page, WithoutASurfaceTheRiversAlone) {
     Made const terrain = small_terrain(Land::without);
     std::string const html = page(terrain, {});
@@ -326,7 +361,7 @@ TEST(Page, NoTextLeavesItsPlace) {
     json const data = data_of(html);
     EXPECT_EQ(data["title"], hostile + "\xEF\xBF\xBD\xEF\xBF\xBD");
     EXPECT_EQ(data["recipe"], hostile);
-    EXPECT_EQ(data["findings"]["shown"].back(), hostile);
+    EXPECT_EQ(data["findings"]["shown"].back()["text"], hostile);
     EXPECT_TRUE(data["checks"].back()["value"].is_null());
 }
 

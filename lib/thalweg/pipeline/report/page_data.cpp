@@ -165,6 +165,7 @@ ordered_json given_array(std::optional<GivenLength> const& given, std::optional<
             add(fmt::format("left out: {}", words_of(static_cast<LeftOut>(i))), given->left_out_m[i], 1000.0, "km");
         }
         add("in the network", given->kept_m, 1000.0, "km");
+        add("added where ends were joined", given->closed_m, 1000.0, "km");
         add("in artificial channels", given->connector_m, 1000.0, "km");
         add("reversed", given->turned_m, 1000.0, "km");
         add("outlets extended by", given->carried_m, 1000.0, "km");
@@ -424,12 +425,30 @@ void add_rivers(Made const& t, std::vector<Stem> const& stems, Figures& figures)
     }
 }
 
-ordered_json shown(std::vector<Finding> const& findings) {
-    ordered_json texts = ordered_json::array();
-    for (std::size_t i = 0; i < std::min(findings.size(), most_shown); ++i) {
-        texts.push_back(findings[i].text);
+/// Cells from the north-west corner; nothing: no place, or beyond the grid.
+ordered_json place_of(Finding const& f, Grid const& grid) {
+    double const x = (f.where.x - grid.west) / grid.cell_m;
+    double const y = (grid.north - f.where.y) / grid.cell_m;
+    bool const inside = x >= 0.0 && y >= 0.0 && x <= static_cast<double>(grid.width) && // false for NaN
+                        y <= static_cast<double>(grid.height);
+    return f.where == Vec2{} || !inside ? ordered_json(nullptr) : ordered_json{x, y};
+}
+
+/// At most so many findings that of every kind some are among them: of each the first, then of each the second...
+ordered_json shown(std::vector<Finding> const& findings, Grid const& grid) {
+    std::map<std::string, std::size_t> told;
+    std::vector<std::pair<std::size_t, Finding const*>> ranked;
+    ranked.reserve(findings.size());
+    for (Finding const& f : findings) {
+        ranked.emplace_back(told[f.kind]++, &f);
     }
-    return {{"count", findings.size()}, {"shown", texts}};
+    std::ranges::stable_sort(ranked, std::less{}, [](auto const& one) { return one.first; });
+    ranked.resize(std::min(ranked.size(), most_shown));
+    ordered_json list = ordered_json::array();
+    for (auto const& [rank, f] : ranked) {
+        list.push_back({{"kind", f->kind}, {"text", f->text}, {"at", place_of(*f, grid)}});
+    }
+    return {{"count", findings.size()}, {"shown", list}};
 }
 
 ordered_json timings_array(Made const& t) {
@@ -509,8 +528,8 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                             {"given", given_array(t.assessment.given, t.assessment.given_areas)},
                             {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
                             {"timings", timings_array(t)},
-                            {"repairs", shown(repairs_of(t))},
-                            {"findings", shown(t.assessment.findings)},
+                            {"repairs", shown(repairs_of(t), t.terrain.grid)},
+                            {"findings", shown(t.assessment.findings, t.terrain.grid)},
                             {"notes", notes_array(t, heights, params.notes)}};
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
