@@ -1,10 +1,18 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// What the written part of the page is made of.
+// What the panel is made of.
 
 export function make(tag, properties = {}, ...children) {
   const e = Object.assign(document.createElement(tag), properties);
-  e.append(...children.filter((child) => child !== null && child !== undefined && child !== ''));
+  e.append(...children.filter((child) => child || child === 0));
+  return e;
+}
+
+/** An element of SVG: its attributes, then text or elements in it. */
+export function draw(name, attributes = {}, ...children) {
+  const e = document.createElementNS('http://www.w3.org/2000/svg', name);
+  for (const [key, value] of Object.entries(attributes)) e.setAttribute(key, value);
+  e.append(...children);
   return e;
 }
 
@@ -13,12 +21,61 @@ export function section(title, ...children) {
   return body.length ? make('section', {}, make('h2', { textContent: title }), ...body) : null;
 }
 
-/** rows: [[cell, …], …]; the first cell of a row names it; cells after it are numbers unless they are nodes. */
+/** What opens on demand; null if there is nothing to open. */
+export function fold(head, ...children) {
+  const body = children.filter(Boolean);
+  return body.length ? make('details', {}, make('summary', {}, head), ...body) : null;
+}
+
+/** rows: [[cell, …], …]; the first cell of a row names it; all are text or nodes. */
 export function table(heads, rows, label) {
-  const head = make('tr', {}, ...heads.map((text, i) => make('th', { scope: 'col', textContent: text, className: i ? 'n' : '' })));
-  const body = rows.map(([name, ...cells]) => make('tr', {}, make('th', { scope: 'row', textContent: name }),
-    ...cells.map((cell) => (cell instanceof Node ? make('td', { className: 'n' }, cell) : make('td', { className: 'n', textContent: cell })))));
+  const head = make('tr', {}, ...heads.map((text, i) => make(text ? 'th' : 'td', { className: i ? 'n' : '', textContent: text })));
+  for (const th of head.querySelectorAll('th')) th.scope = 'col';
+  const body = rows.map(([name, ...cells]) => make('tr', {}, make('th', { scope: 'row' }, name), ...cells.map((cell) => make('td', { className: 'n' }, cell))));
   const t = make('table', {}, make('thead', {}, head), make('tbody', {}, ...body));
   t.setAttribute('aria-label', label);
   return t;
+}
+
+/** A sign that stands for words. */
+export function sign(text, words, className) {
+  const mark = make('span', { className, textContent: text, title: words });
+  mark.setAttribute('role', 'img');
+  mark.setAttribute('aria-label', words);
+  return mark;
+}
+
+/** Which mark is whose: [[name, mark], …]. */
+export function legend(marks) {
+  return make('p', { className: 'marks' }, ...marks.map(([name, mark]) => make('span', {}, draw('svg', { class: 'mark', viewBox: '-6 -6 12 12', 'aria-hidden': 'true' }, mark), name)));
+}
+
+/** The marks of series, no two of the same form: a filled circle, a ring, a diamond. */
+export function symbol(k, x = 0, y = 0) {
+  if (k < 2) return draw('circle', { class: `s${k}`, cx: x, cy: y, r: k ? 3.4 : 4 });
+  return draw('path', { class: `s${k}`, d: `M${x} ${y - 4.6}l4.6 4.6-4.6 4.6-4.6-4.6Z` });
+}
+
+/** The marks of what values are compared with. */
+export function rung(k) {
+  return draw('path', { class: `rung s${k}`, d: k > 1 ? 'M0-6V6M-2.5-6h5M-2.5 6h5' : 'M0-6V6' });
+}
+
+export function copyable(text, label) {
+  const button = make('button', { type: 'button', textContent: 'Copy' });
+  button.setAttribute('aria-label', `Copy ${label}`);
+  const box = make('pre', { textContent: text, tabIndex: 0 });
+  box.setAttribute('aria-label', label);
+  box.setAttribute('role', 'region');
+  button.addEventListener('click', async () => {
+    try {
+      await navigator.clipboard.writeText(text);
+      button.textContent = 'Copied';
+    } catch { // a page from a file may not write to the clipboard
+      getSelection().selectAllChildren(box);
+      button.textContent = 'Selected';
+    }
+    setTimeout(() => (button.textContent = 'Copy'), 1500);
+  });
+  return make('div', { className: 'copy' }, button, box);
 }
