@@ -52,10 +52,10 @@ function contourSteps(span, asked) {
 
 const lifts = [1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 7, 10, 15, 20, 30, 50, 100, 200, 500, 1000];
 
-/** Exaggeration under which the land stands as it does from a hill: about a ninth as high as it is wide. */
+/** Exaggeration under which the land stands as it does from a hill: about a tenth as high as it is wide. */
 function goodExaggeration(land) {
   const extent = Math.max(land.grid.width, land.grid.height) * land.grid.cell_m;
-  const wanted = land.max > land.min ? (0.11 * extent) / (land.max - land.min) : 1;
+  const wanted = land.max > land.min ? (0.1 * extent) / (land.max - land.min) : 1;
   return lifts.reduce((best, v) => (Math.abs(Math.log(v / wanted)) < Math.abs(Math.log(best / wanted)) ? v : best), 1);
 }
 
