@@ -49,6 +49,31 @@ TEST(Profile, ShowsTheMainStemInEveryFormat) {
     EXPECT_TRUE(draw::profile(land.network, land.orders).bytes == svg);
 }
 
+TEST(Profile, OtherBasinsLeaveNoTrace) {
+    test::SmallLand land = test::small_land();
+    std::string const alone = draw::profile(land.network, land.orders).bytes;
+    StreamNetwork const& plan = land.network.planform;
+    NetworkDraft more;
+    more.nodes.assign(plan.nodes().begin(), plan.nodes().end());
+    for (ArcId arc = 0; arc < plan.arc_count(); ++arc) {
+        more.add_arc(plan.from(arc), plan.to(arc));
+    }
+    more.add_arc(more.add_node({500435, 4499725}), more.add_node({500435, 4499525}));
+    land.network.planform = std::move(more);
+    land.network.node_z.insert(land.network.node_z.end(), {900, 0});
+    land.network.arc_z.push_back({900, 0});
+    land.orders = network::order(land.network.planform);
+    EXPECT_TRUE(draw::profile(land.network, land.orders).bytes == alone);
+}
+
+TEST(Profile, AMainStemOfAnotherNetworkIsRefused) {
+    test::SmallLand land = test::small_land();
+    land.orders.main_stem.push_back(7);
+    EXPECT_THROW(draw::profile(land.network, land.orders), BadInput);
+    land.orders.main_stem.clear();
+    EXPECT_TRUE(test::is_xml(draw::profile(land.network, land.orders).bytes));
+}
+
 TEST(Curve, OfNothingOfOneAndOfNoRise) {
     EXPECT_TRUE(test::is_xml(draw::curve({}).bytes));
     EXPECT_TRUE(test::is_xml(draw::curve({0.1}).bytes));

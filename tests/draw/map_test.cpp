@@ -72,6 +72,12 @@ TEST(Map, RefusesWhatDoesNotFit) {
         EXPECT_THROW(drawn(land.dem, params), BadParameter) << width;
     }
     MapSheet sheet{land.dem, land.hillshade, nullptr, nullptr, {}};
+    sheet.spot_heights = {{{500000, 4500000}, NAN}};
+    EXPECT_THROW(draw::map(sheet), BadInput);
+    sheet.spot_heights = {};
+    sheet.lakes = &other;
+    EXPECT_THROW(draw::map(sheet), BadInput);
+    sheet.lakes = nullptr;
     sheet.contours.emplace_back(1.0, std::vector<Vec2>{{NAN, 0.0}, {1.0, 1.0}});
     EXPECT_THROW(draw::map(sheet), BadInput);
 }
@@ -135,6 +141,56 @@ TEST(Map, RidgesAreBrownLinesAndNoneLeaveNoTrace) {
 
     ridges.lines[0].line[1].x = NAN;
     EXPECT_THROW(draw::map(sheet), BadInput);
+}
+
+namespace {
+
+bool is_water(test::Pixels const& pixels, std::size_t x, std::size_t y) {
+    return pixels.at(x, y, 2) > pixels.at(x, y, 0) + 20 && pixels.at(x, y, 2) > 200;
+}
+
+} // namespace
+
+// The eastern half has no heights: sea where the sheet says so, else grey. In the western half lies a lake.
+TEST(Map, SeaAndLakesAreWater) {
+    Grid const grid{40, 40, 10.0, 0.0, 400.0, ""};
+    Raster<float> dem = test::slopes(grid);
+    Mask lakes(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        dem[i] = c.col < 20 ? dem[i] : none;
+        lakes[i] = c.col >= 5 && c.col < 12 && c.row >= 10 && c.row < 30 ? 1 : 0;
+    }
+    Raster<std::uint8_t> const hillshade = test::shade(dem);
+    MapSheet sheet{dem, hillshade, nullptr, nullptr, {}};
+    test::Pixels const dry = test::decode(draw::map(sheet).bytes);
+    std::size_t const middle = dry.height / 2;
+    EXPECT_FALSE(is_water(dry, 1050, middle));
+    EXPECT_EQ(dry.at(1050, middle, 0), dry.at(1050, middle, 2)); // grey
+    EXPECT_FALSE(is_water(dry, 330, middle));
+    sheet.lakes = &lakes;
+    for (bool const is_around : {false, true}) {
+        sheet.sea = draw::Sea{is_around};
+        test::Pixels const wet = test::decode(draw::map(sheet).bytes);
+        EXPECT_EQ(wet.height, dry.height);
+        EXPECT_TRUE(is_water(wet, 330, middle));
+        EXPECT_FALSE(is_water(wet, 580, middle)); // between lake and sea
+        for (std::size_t const x : {720U, 800U, 1050U, 1350U}) {
+            EXPECT_TRUE(is_water(wet, x, middle)) << x;
+        }
+        EXPECT_GT(wet.at(720, middle, 0), wet.at(1300, middle, 0)); // paler at the shore
+    }
+}
+
+TEST(Map, ASeaWithoutHolesOrLandIsDrawn) {
+    Grid const grid{9, 7, 30.0, 0.0, 210.0, ""};
+    for (float const z : {12.0F, none}) {
+        Raster<float> const dem(grid, z);
+        Raster<std::uint8_t> const hillshade = test::shade(dem);
+        MapSheet sheet{dem, hillshade, nullptr, nullptr, {}};
+        sheet.sea = draw::Sea{true};
+        EXPECT_GT(test::decode(draw::map(sheet).bytes).height, 0U);
+    }
 }
 
 TEST(Map, EveryFormatIsWhatItSays) {

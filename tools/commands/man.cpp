@@ -105,7 +105,7 @@ Rows const made{
     {"contours.gpkg", "Contour lines."},
     {"catchments.gpkg", "Catchments of arcs and basins, as polygons."},
     {"area_d8.tif, area_dinf.tif", "Contributing areas by cell, if the recipe asks for them."},
-    {"map.png, profile.svg, curve.svg", "A map, long profiles of the streams, the increment curve."},
+    {"map.png, profile.svg, curve.svg", "A map, the long profile of the main stem, the increment curve."},
     {"wireframe.svg, sections.svg", "A wireframe seen up the valley, and cross-sections."},
     {"report.html", "Terrain, rivers, diagrams and statistics on one page for any browser; it needs no internet."},
     {"report.json", "Statistics, timings, checks and repairs."},

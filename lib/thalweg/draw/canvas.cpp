@@ -156,7 +156,8 @@ std::string utf8(char32_t point) {
 constexpr std::array<char const*, 2> families = {"DejaVu Sans", "Noto Sans CJK SC"};
 
 void select_family(cairo_t* sheet, std::size_t family, TextStyle const& style) {
-    cairo_select_font_face(sheet, families[family], CAIRO_FONT_SLANT_NORMAL,
+    cairo_select_font_face(sheet, families[family],
+                           style.slant == Slant::italic ? CAIRO_FONT_SLANT_ITALIC : CAIRO_FONT_SLANT_NORMAL,
                            style.weight == Weight::bold ? CAIRO_FONT_WEIGHT_BOLD : CAIRO_FONT_WEIGHT_NORMAL);
     cairo_set_font_size(sheet, style.size);
 }
@@ -409,6 +410,21 @@ void draw_text_within(Cairo* sheet, Vec2 at, std::string_view text, TextStyle st
     draw_text(sheet, at, cut + "…", style, anchor);
 }
 
+std::vector<std::string> lines_within(std::vector<std::string> const& texts, TextStyle const& style, double room) {
+    std::vector<std::string> lines;
+    paint(1.0, 1.0, Format::png, [&](Cairo* sheet) {
+        for (std::string const& text : texts) {
+            std::string const longer = lines.empty() ? text : lines.back() + " · " + text;
+            if (lines.empty() || text_width(sheet, longer, style) > room) {
+                lines.push_back(text);
+            } else {
+                lines.back() = longer;
+            }
+        }
+    });
+    return lines;
+}
+
 double round_down(double value) {
     double const power = power_below(value);
     return value >= 5.0 * power ? 5.0 * power : value >= 2.0 * power ? 2.0 * power : power;
@@ -444,21 +460,43 @@ Ticks ticks_between(double low, double high, int most) {
     return ticks;
 }
 
-std::string number(double value, int decimals) {
-    if (std::fabs(value) >= 1e9) {
-        return fmt::format("{:.4g}", value);
-    }
+namespace {
+
+/// With a thin space between thousands if there are more than this many digits.
+std::string grouped(double value, int decimals, std::size_t ungrouped) {
     std::string const digits = fmt::format("{:.{}f}", std::fabs(value), decimals);
     std::size_t const whole = std::min(digits.find('.'), digits.size());
     std::string out;
     for (std::size_t i = 0; i < digits.size(); ++i) {
-        if (i > 0 && i < whole && whole > 4 && (whole - i) % 3 == 0) {
+        if (i > 0 && i < whole && whole > ungrouped && (whole - i) % 3 == 0) {
             out += "\u2009";
         }
         out += digits[i];
     }
     bool const zero = digits.find_first_not_of("0.") == std::string::npos;
     return value < 0.0 && !zero ? "\u2212" + out : out;
+}
+
+} // namespace
+
+std::string number(double value, int decimals) {
+    return std::fabs(value) >= 1e9 ? fmt::format("{:.4g}", value) : grouped(value, decimals, 4);
+}
+
+std::string figures(double value, int digits) {
+    double const size = std::fabs(value); // halves are rounded up, as browsers do
+    if (!std::isfinite(value) || size >= 1e9) {
+        return fmt::format("{:.4g}", value);
+    }
+    int const before = size > 0.0 ? static_cast<int>(std::floor(std::log10(size))) : 0;
+    int const decimals = std::clamp(digits - 1 - before, 0, 6);
+    double const power = std::pow(10.0, decimals);
+    std::string out = grouped(std::copysign(std::floor(size * power + 0.5) / power, value), decimals, 3);
+    if (out.find('.') != std::string::npos) {
+        out.erase(out.find_last_not_of('0') + 1);
+        out.erase(out.find_last_not_of('.') + 1);
+    }
+    return out;
 }
 
 void settle_scales(Plot& plot) {

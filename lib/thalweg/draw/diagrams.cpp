@@ -94,61 +94,152 @@ constexpr Colour tributary{0.42, 0.58, 0.74, 0.75};
 constexpr Colour stem{0.05, 0.28, 0.58};
 
 /// One arc: distance from the outlet [m] and height [m], downstream.
-struct Reach {
-    std::vector<Vec2> points;
-    int hack = 1;
+using Reach = std::vector<Vec2>;
+
+/// The mouth of a tributary on the main stem.
+struct Confluence {
+    Vec2 at; ///< as in a Reach
+    int order = 1;
 };
 
-std::vector<Reach> reaches_of(ElevatedNetwork const& network, NetworkOrders const& orders) {
+/// The main stem and what flows into it.
+struct Course {
+    Reach stem; ///< from the outlet up; empty: none
+    std::vector<Reach> tributaries;
+    std::vector<Confluence> confluences;
+};
+
+void require_profile(ElevatedNetwork const& network, NetworkOrders const& orders) {
     std::size_t const arcs = network.planform.arc_count();
     refuse_if<BadInput>(
         network.arc_z.size() != arcs || orders.hack.size() != arcs || orders.arc_basin.size() != arcs ||
-            orders.node_dist_out_m.size() != network.planform.node_count(),
+            orders.strahler.size() != arcs || orders.node_dist_out_m.size() != network.planform.node_count() ||
+            std::any_of(orders.main_stem.begin(), orders.main_stem.end(), [arcs](ArcId arc) { return arc >= arcs; }),
         "draw.profile: heights or orders are not those of the network of {} arcs; set heights and orders again", arcs);
-    std::vector<Reach> reaches;
-    std::size_t number_of_arc = 0;
-    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
-        std::size_t const k = number_of_arc++;
-        std::vector<Vec2> const& line = network.planform.arc(arc).line;
-        std::vector<double> const& z = network.arc_z[k];
-        refuse_if<BadInput>(z.size() != line.size(),
-                            "draw.profile: arc {} has {} vertices and {} heights; set heights again", k + 1,
-                            line.size(), z.size());
-        if (orders.arc_basin[k] < 1 || line.empty()) {
-            continue;
-        }
-        Reach reach{std::vector<Vec2>(line.size()), orders.hack[k]};
-        double to_outlet = orders.node_dist_out_m[network.planform.to(arc)];
-        for (std::size_t i = line.size(); i-- > 0;) {
-            to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
-            refuse_if<BadInput>(!std::isfinite(to_outlet) || !std::isfinite(z[i]),
-                                "draw.profile: arc {}, vertex {}: place or height is not a number; mend the network",
-                                k + 1, i);
-            reach.points[i] = {to_outlet, z[i]};
-        }
-        reaches.push_back(std::move(reach));
-    }
-    // Main stems last, on top of the others.
-    std::stable_sort(reaches.begin(), reaches.end(), [](Reach const& a, Reach const& b) { return a.hack > b.hack; });
-    return reaches;
 }
 
-Plot scales_of(std::vector<Reach> const& reaches, Box box) {
-    if (reaches.empty()) {
+Reach reach_of(ElevatedNetwork const& network, NetworkOrders const& orders, ArcId arc) {
+    std::vector<Vec2> const& line = network.planform.arc(arc).line;
+    std::vector<double> const& z = network.arc_z[arc];
+    refuse_if<BadInput>(z.size() != line.size(),
+                        "draw.profile: arc {} has {} vertices and {} heights; set heights again", arc + 1, line.size(),
+                        z.size());
+    if (orders.arc_basin[arc] < 1) { // it reaches no outlet
+        return {};
+    }
+    Reach reach(line.size());
+    double to_outlet = orders.node_dist_out_m[network.planform.to(arc)];
+    for (std::size_t i = line.size(); i-- > 0;) {
+        to_outlet += i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0;
+        refuse_if<BadInput>(!std::isfinite(to_outlet) || !std::isfinite(z[i]),
+                            "draw.profile: arc {}, vertex {}: place or height is not a number; mend the network",
+                            arc + 1, i);
+        reach[i] = {to_outlet, z[i]};
+    }
+    return reach;
+}
+
+/// The main stem of all basins, the streams of its basin and their mouths on it.
+Course course_of(ElevatedNetwork const& network, NetworkOrders const& orders) {
+    require_profile(network, orders);
+    Course course;
+    std::vector<Reach> reaches;
+    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
+        reaches.push_back(reach_of(network, orders, arc)); // all of them, to find what is wrong
+    }
+    if (orders.main_stem.empty()) {
+        return course;
+    }
+    std::vector<bool> on_stem(reaches.size());
+    for (auto arc = orders.main_stem.rbegin(); arc != orders.main_stem.rend(); ++arc) {
+        on_stem[*arc] = true;
+        course.stem.insert(course.stem.end(), reaches[*arc].rbegin(), reaches[*arc].rend());
+    }
+    for (ArcId arc = 0; arc < reaches.size(); ++arc) {
+        if (!on_stem[arc] && !reaches[arc].empty() &&
+            orders.arc_basin[arc] == orders.arc_basin[orders.main_stem.back()]) {
+            course.tributaries.push_back(reaches[arc]);
+        }
+    }
+    for (ArcId const arc : orders.main_stem) {
+        int highest = 0;
+        for (ArcId const other : network.planform.in(network.planform.to(arc))) {
+            highest = on_stem[other] ? highest : std::max(highest, orders.strahler[other]);
+        }
+        if (highest > 0 && !reaches[arc].empty()) {
+            course.confluences.push_back({reaches[arc].back(), highest});
+        }
+    }
+    std::stable_sort(course.confluences.begin(), course.confluences.end(),
+                     [](Confluence const& a, Confluence const& b) { return a.order > b.order; });
+    return course;
+}
+
+Plot scales_of(Course const& course, Box box) {
+    if (course.stem.empty()) {
         return {box, 0.0, 1.0, 0.0, 1.0};
     }
-    Vec2 const first = reaches.front().points.front();
-    Plot plot{box, 0.0, first.x, first.y, first.y};
-    for (Reach const& reach : reaches) {
-        for (Vec2 const p : reach.points) {
+    Plot plot{box, 0.0, course.stem.front().x, course.stem.front().y, course.stem.front().y};
+    auto const widen = [&plot](Reach const& reach) {
+        for (Vec2 const p : reach) {
             plot.x_high = std::max(plot.x_high, p.x);
             plot.y_low = std::min(plot.y_low, p.y);
             plot.y_high = std::max(plot.y_high, p.y);
         }
-    }
+    };
+    widen(course.stem);
+    std::for_each(course.tributaries.begin(), course.tributaries.end(), widen);
     settle_scales(plot);
     plot.x_low = 0.0;
     return plot;
+}
+
+std::vector<Vec2> on_plot(Reach const& reach, Plot const& plot) {
+    std::vector<Vec2> line(reach.size());
+    std::transform(reach.begin(), reach.end(), line.begin(), [&](Vec2 p) { return plot.at(p.x, p.y); });
+    return line;
+}
+
+/// Ticks below the main stem, or above it near the axis, longer for higher orders, with the orders where there is room.
+void draw_confluences(Cairo* sheet, Course const& course, Plot const& plot, double unit) {
+    TextStyle const small{0.85 * unit, stem, Weight::normal, 0.15 * unit};
+    std::vector<double> taken;
+    for (Confluence const& confluence : course.confluences) {
+        Vec2 const at = plot.at(confluence.at.x, confluence.at.y);
+        double const length = unit * (0.4 + 0.3 * confluence.order);
+        bool const below = at.y + length + 1.4 * unit < plot.box.bottom();
+        Vec2 const end{at.x, at.y + (below ? length : -length)};
+        draw_line(sheet, at, end, unit * (0.04 + 0.03 * confluence.order), stem);
+        bool const free = std::none_of(taken.begin(), taken.end(),
+                                       [&](double other) { return std::fabs(other - at.x) < 0.85 * unit; });
+        if (free) {
+            draw_text(sheet, {end.x, end.y + (below ? 0.9 : -0.3) * unit}, fmt::format("{}", confluence.order), small,
+                      Anchor::middle);
+            taken.push_back(at.x);
+        }
+    }
+}
+
+/// Draws the key from its right end.
+/// \return width [px]
+double draw_key_of_profile(Cairo* sheet, Vec2 right, double unit) {
+    TextStyle const small{unit, faint_ink};
+    double x = right.x;
+    for (char const* const name : {"confluences by order", "tributaries", "main stem"}) {
+        draw_text(sheet, {x, right.y}, name, small, Anchor::end);
+        x -= text_width(sheet, name, small) + 0.6 * unit;
+        bool const is_tick = name[0] == 'c';
+        bool const is_stem = name[0] == 'm';
+        Vec2 const end{x, right.y - (is_tick ? 0.8 : 0.35) * unit};
+        Vec2 const begin = is_tick ? Vec2{x, right.y + 0.1 * unit} : Vec2{x - 2.2 * unit, end.y};
+        draw_line(sheet, begin, end,
+                  unit * (is_stem   ? 0.19
+                          : is_tick ? 0.1
+                                    : 0.08),
+                  is_tick || is_stem ? stem : tributary);
+        x = begin.x - 1.4 * unit;
+    }
+    return right.x - x;
 }
 
 } // namespace
@@ -156,53 +247,40 @@ Plot scales_of(std::vector<Reach> const& reaches, Box box) {
 Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, ProfileParams const& params) {
     require_in("draw.profile", "width_px", params.width_px, Range::between(200, 8000), "pixels");
     require_in("draw.profile", "height_px", params.height_px, Range::between(200, 8000), "pixels");
-    std::vector<Reach> const reaches = reaches_of(network, orders);
+    Course const course = course_of(network, orders);
     double const width = params.width_px;
     double const height = params.height_px;
     double const unit = 14.0 * std::max(0.5, std::min(width / 1000.0, height / 560.0));
-    Box const box{6.0 * unit, 4.2 * unit, width - 8.0 * unit, height - 8.8 * unit};
+    double const top = params.title.empty() ? 4.2 * unit : 5.8 * unit;
+    Box const box{6.0 * unit, top, width - 8.0 * unit, height - top - 4.6 * unit};
 
     return paint(width, height, params.format, [&](Cairo* sheet) {
-        Plot plot = scales_of(reaches, box);
+        Plot const plot = scales_of(course, box);
         bool const in_km = plot.x_high >= 2000.0;
         Plot axes = plot;
         axes.x_high = in_km ? plot.x_high / 1000.0 : plot.x_high;
-        TextStyle const title{1.35 * unit, ink, Weight::bold};
-        TextStyle const small{unit, faint_ink};
-        double legend_width = reaches.empty() ? 0.0 : unit;
-        for (char const* name : {"main stem", "tributaries"}) {
-            legend_width += reaches.empty() ? 0.0 : text_width(sheet, name, small) + 4.2 * unit;
-        }
-        draw_text_within(sheet, {box.x, 2.2 * unit},
-                         params.title.empty() ? "Long profiles" : params.title + ": long profiles", title,
-                         box.width - legend_width);
+        Vec2 const words{box.x, box.y - 2.0 * unit};
+        draw_text_within(sheet, {words.x, 2.2 * unit}, params.title, {1.35 * unit, ink, Weight::bold}, box.width);
+        double const key = course.stem.empty() ? 0.0 : draw_key_of_profile(sheet, {box.right(), words.y}, unit);
+        draw_text_within(sheet, words, "Long profile: main stem, from the outlet up to its farthest source",
+                         {1.05 * unit, ink}, box.width - key);
         draw_axes(sheet, axes, in_km ? "distance from the outlet [km]" : "distance from the outlet [m]", "height [m]",
                   unit);
-        if (reaches.empty()) {
+        if (course.stem.empty()) {
             draw_text(sheet, {box.x + 0.5 * box.width, box.y + 0.5 * box.height}, "no streams", {unit, faint_ink},
                       Anchor::middle);
             return;
         }
         cairo_set_line_cap(sheet, CAIRO_LINE_CAP_ROUND);
-        for (Reach const& reach : reaches) {
-            std::vector<Vec2> line(reach.points.size());
-            std::transform(reach.points.begin(), reach.points.end(), line.begin(),
-                           [&](Vec2 p) { return plot.at(p.x, p.y); });
-            trace_line(sheet, line, 0.0);
-            set_colour(sheet, reach.hack == 1 ? stem : tributary);
-            cairo_set_line_width(sheet, unit * (reach.hack == 1 ? 0.19 : reach.hack == 2 ? 0.09 : 0.06));
+        set_colour(sheet, tributary);
+        cairo_set_line_width(sheet, 0.08 * unit);
+        for (Reach const& reach : course.tributaries) {
+            trace_line(sheet, on_plot(reach, plot), 0.0);
             cairo_stroke(sheet);
         }
+        draw_ground(sheet, on_plot(course.stem, plot), box.bottom(), fill, stem, 0.19 * unit);
         cairo_set_line_cap(sheet, CAIRO_LINE_CAP_BUTT);
-        double x = box.right();
-        for (bool const main : {false, true}) {
-            std::string const name = main ? "main stem" : "tributaries";
-            draw_text(sheet, {x, 2.2 * unit}, name, small, Anchor::end);
-            x -= text_width(sheet, name, small) + 0.6 * unit;
-            draw_line(sheet, {x - 2.2 * unit, 1.85 * unit}, {x, 1.85 * unit}, unit * (main ? 0.19 : 0.08),
-                      main ? stem : tributary);
-            x -= 3.6 * unit;
-        }
+        draw_confluences(sheet, course, plot, unit);
     });
 }
 

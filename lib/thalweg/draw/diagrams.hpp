@@ -33,9 +33,9 @@ struct ProfileParams {
     std::string title; ///< "" for none
 };
 
-/// Draws long profiles: height against distance along the water from the outlet, of every arc, with main stems (Hack 1)
-/// emphasised.
-/// \param network arcs that reach no outlet are left out; without any, empty axes that say so
+/// Draws the long profile of the main stem: height against distance along the water from the outlet, with the streams
+/// of its basin as thin lines and a tick at every confluence.
+/// \param network without a main stem: empty axes that say so
 /// \param orders the network's orders
 /// \return the picture
 /// \throws BadInput when orders or heights are not those of the network, or a number is not finite

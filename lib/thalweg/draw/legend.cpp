@@ -7,6 +7,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/draw/internal/map.hpp>
+#include <thalweg/draw/internal/water.hpp>
 
 namespace thalweg::draw {
 namespace {
@@ -53,8 +54,7 @@ Block scale_bar(LegendFacts const& facts, double unit) {
     double const part_px = part_m * facts.px_per_m;
     bool const in_km = 4.0 * part_m >= 1000.0;
     double const shown = in_km ? part_m / 1000.0 : part_m;
-    double const text_room = 300.0;
-    return {text_room, [=](Cairo* sheet, Vec2 at) {
+    return {std::max(180.0, longest / unit + 60.0), [=](Cairo* sheet, Vec2 at) {
                 Styles const style(unit);
                 double const top = at.y + 22.0 * unit;
                 double const left = at.x + 6.0 * unit;
@@ -71,11 +71,6 @@ Block scale_bar(LegendFacts const& facts, double unit) {
                 double const beside = left + 4.0 * part_px +
                                       0.6 * text_width(sheet, number(4 * shown, decimals), style.small) + 4.0 * unit;
                 draw_text(sheet, {beside, at.y + 15.0 * unit}, in_km ? "km" : "m", style.small);
-                double y = at.y + 48.0 * unit;
-                for (std::string const& line : facts.frame_text) {
-                    draw_text_within(sheet, {at.x, y}, line, style.small, text_room * unit);
-                    y += 17.0 * unit;
-                }
             }};
 }
 
@@ -171,7 +166,7 @@ Block river_samples(RiverScale const& scale, double unit) {
 }
 
 Block contour_samples(LegendFacts const& facts, double unit) {
-    return {190.0, [=, interval = facts.contour_interval_m](Cairo* sheet, Vec2 at) {
+    return {130.0, [=, interval = facts.contour_interval_m](Cairo* sheet, Vec2 at) {
                 Styles const style(unit);
                 draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Contours", style.heading);
                 double y = at.y + 32.0 * unit;
@@ -186,22 +181,55 @@ Block contour_samples(LegendFacts const& facts, double unit) {
             }};
 }
 
-Block ridge_sample(double unit) {
-    return {100.0, [unit](Cairo* sheet, Vec2 at) {
-                LineStyle const line = ridge_style(unit);
-                double const y = at.y + 32.0 * unit;
-                draw_text(sheet, {at.x, at.y + 13.0 * unit}, "Ridges", Styles(unit).heading);
-                draw_line(sheet, {at.x, y}, {at.x + 34.0 * unit, y}, line.width_px, line.colour);
+/// A sign of the map and its name, drawn around the left end of its base line.
+struct Sign {
+    char const* name;
+    std::function<void(Cairo*, Vec2)> draw;
+};
+
+Sign area_sign(char const* name, Colour colour, double unit) {
+    return {name, [=](Cairo* sheet, Vec2 at) {
+                Box const swatch{at.x, at.y - 11.0 * unit, 28.0 * unit, 13.0 * unit};
+                fill_box(sheet, swatch, colour);
+                frame_box(sheet, swatch, 0.8 * unit, faint_ink);
             }};
 }
 
-Block no_data_sample(double unit) {
-    return {100.0, [unit](Cairo* sheet, Vec2 at) {
-                Box const swatch{at.x, at.y + 22.0 * unit, 28.0 * unit, 16.0 * unit};
-                fill_box(sheet, swatch, no_data);
-                frame_box(sheet, swatch, 0.8 * unit, faint_ink);
-                draw_text(sheet, {swatch.right() + 8.0 * unit, swatch.bottom() - 3.5 * unit}, "no data",
-                          Styles(unit).small);
+std::vector<Sign> signs_of(LegendFacts const& facts, double unit) {
+    std::vector<Sign> signs;
+    if (facts.summits) {
+        signs.push_back({"summit, height", [unit](Cairo* sheet, Vec2 at) {
+                             draw_summit(sheet, {at.x + 14.0 * unit, at.y - 4.0 * unit}, 4.5 * unit);
+                         }});
+    }
+    if (facts.ridges) {
+        signs.push_back({"ridge", [unit](Cairo* sheet, Vec2 at) {
+                             LineStyle const line = ridge_style(unit);
+                             double const y = at.y - 4.5 * unit;
+                             draw_line(sheet, {at.x, y}, {at.x + 28.0 * unit, y}, line.width_px, line.colour);
+                         }});
+    }
+    if (facts.sea) {
+        signs.push_back(area_sign("sea", mix(shallow_sea, deep_sea, 0.5), unit));
+    }
+    if (facts.lakes) {
+        signs.push_back(area_sign("lake", lake_colour, unit));
+    }
+    if (facts.holes && facts.low_m <= facts.high_m) {
+        signs.push_back(area_sign("no data", no_data, unit));
+    }
+    return signs;
+}
+
+/// Up to three signs, one below the other.
+Block sign_samples(std::vector<Sign> const& signs, double unit) {
+    return {130.0, [=](Cairo* sheet, Vec2 at) {
+                Vec2 base{at.x, at.y + 13.0 * unit};
+                for (Sign const& sign : signs) {
+                    sign.draw(sheet, base);
+                    draw_text(sheet, {base.x + 38.0 * unit, base.y}, sign.name, Styles(unit).small);
+                    base.y += 22.0 * unit;
+                }
             }};
 }
 
@@ -214,11 +242,12 @@ std::vector<std::vector<Block>> rows_of(LegendFacts const& facts, double width, 
     if (facts.contour_interval_m > 0.0) {
         blocks.push_back(contour_samples(facts, unit));
     }
-    if (facts.ridges) {
-        blocks.push_back(ridge_sample(unit));
-    }
-    if (facts.holes && facts.low_m <= facts.high_m) {
-        blocks.push_back(no_data_sample(unit));
+    std::vector<Sign> const signs = signs_of(facts, unit);
+    constexpr std::size_t rows_of_signs = 3;
+    for (std::size_t k = 0; k < signs.size(); k += rows_of_signs) {
+        auto const first = signs.begin() + static_cast<std::ptrdiff_t>(k);
+        auto const last = signs.begin() + static_cast<std::ptrdiff_t>(std::min(k + rows_of_signs, signs.size()));
+        blocks.push_back(sign_samples({first, last}, unit));
     }
     std::vector<std::vector<Block>> rows(1);
     double used = 0.0;

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/draw/internal/map.hpp>
+#include <thalweg/draw/map.hpp>
 
 #include <algorithm>
 #include <array>
@@ -14,19 +14,12 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/draw/internal/labels.hpp>
+#include <thalweg/draw/internal/map.hpp>
+#include <thalweg/draw/internal/water.hpp>
 
 namespace thalweg::draw {
 namespace {
-
-struct Relief {
-    std::vector<std::uint32_t> pixels; // premultiplied ARGB, row-major from the north-west
-    int width = 0;                     // [px]
-    int height = 0;                    // [px]
-    double cells_a_pixel = 1.0;        // side of a pixel [cells]; the last pixels may extend beyond the grid
-    double low_m = 0.0;                // heights at the ends of the tint; low > high: none
-    double high_m = 0.0;
-    std::int64_t holes = 0; // cells without a height
-};
 
 constexpr Colour link_colour{0.05, 0.28, 0.58};
 
@@ -106,10 +99,40 @@ constexpr std::array<std::array<double, 3>, 17> tints = {{{126, 166, 136},
 
 constexpr int level_shade = 181; ///< GDAL's hillshade of level ground under a light 45 degrees high
 
+} // namespace
+
 Colour mix(Colour a, Colour b, double share) {
     auto const blend = [share](double p, double q) { return p + (q - p) * share; };
     return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue), 1.0};
 }
+
+std::uint32_t packed(double red, double green, double blue, double alpha) {
+    auto const byte = [](double v) { return static_cast<std::uint32_t>(std::clamp(v, 0.0, 1.0) * 255.0 + 0.5); };
+    return byte(alpha) << 24U | byte(red) << 16U | byte(green) << 8U | byte(blue);
+}
+
+Colour tint(double share) {
+    double const place = std::clamp(share, 0.0, 1.0) * static_cast<double>(tints.size() - 1);
+    std::size_t const k = std::min(static_cast<std::size_t>(place), tints.size() - 2);
+    double const part = place - static_cast<double>(k);
+    auto const channel = [&](std::size_t c) { return (tints[k][c] + (tints[k + 1][c] - tints[k][c]) * part) / 255.0; };
+    return {channel(0), channel(1), channel(2), 1.0};
+}
+
+HeightRange height_range(Raster<float> const& dem) {
+    HeightRange range{std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+    for (float const z : dem.values()) {
+        if (std::isfinite(z)) {
+            range.low_m = std::min(range.low_m, static_cast<double>(z));
+            range.high_m = std::max(range.high_m, static_cast<double>(z));
+        } else {
+            ++range.holes;
+        }
+    }
+    return range;
+}
+
+namespace {
 
 /// Slopes turned away from the light are multiplied by a cool grey, those facing it are lightened.
 Colour shade(Colour ground, double light) {
@@ -143,40 +166,53 @@ std::array<double, 256> lights(Raster<float> const& dem, Raster<std::uint8_t> co
     return light;
 }
 
-std::uint32_t packed(double red, double green, double blue, double alpha) {
-    auto const byte = [](double v) { return static_cast<std::uint32_t>(std::clamp(v, 0.0, 1.0) * 255.0 + 0.5); };
-    return byte(alpha) << 24U | byte(red) << 16U | byte(green) << 8U | byte(blue);
-}
+/// Colours cells by height and light.
+class Ground {
+public:
+    Ground(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade, HeightRange const& heights, bool has_sea)
+        : dem_(dem), hillshade_(hillshade), light_(lights(dem, hillshade)), low_m_(heights.low_m),
+          span_m_(heights.high_m - heights.low_m), has_sea_(has_sea) {}
 
-} // namespace
+    /// \return alpha 0: not coloured. In the sea, cells near land have the mean colour of the land around them: shores
+    /// are smoother than cells.
+    Colour at(Cell c) const {
+        if (std::isfinite(dem_[c])) {
+            return seen(c);
+        }
+        Colour sum{0.0, 0.0, 0.0, 0.0};
+        for (std::int64_t row = c.row - 2; has_sea_ && row <= c.row + 2; ++row) {
+            for (std::int64_t col = c.col - 2; col <= c.col + 2; ++col) {
+                if (dem_.grid().contains({col, row}) && std::isfinite(dem_[Cell{col, row}])) {
+                    Colour const land = seen({col, row});
+                    sum = {sum.red + land.red, sum.green + land.green, sum.blue + land.blue, sum.alpha + 1.0};
+                }
+            }
+        }
+        double const lands = std::max(sum.alpha, 1.0);
+        return {sum.red / lands, sum.green / lands, sum.blue / lands, std::min(sum.alpha, 1.0)};
+    }
 
-Colour tint(double share) {
-    double const place = std::clamp(share, 0.0, 1.0) * static_cast<double>(tints.size() - 1);
-    std::size_t const k = std::min(static_cast<std::size_t>(place), tints.size() - 2);
-    double const part = place - static_cast<double>(k);
-    auto const channel = [&](std::size_t c) { return (tints[k][c] + (tints[k + 1][c] - tints[k][c]) * part) / 255.0; };
-    return {channel(0), channel(1), channel(2), 1.0};
-}
+private:
+    Colour seen(Cell c) const {
+        double const z = dem_[c];
+        return shade(tint(span_m_ > 0.0 ? (z - low_m_) / span_m_ : 0.4), light_[hillshade_[c]]);
+    }
 
-namespace {
+    Raster<float> const& dem_;
+    Raster<std::uint8_t> const& hillshade_;
+    std::array<double, 256> light_;
+    double low_m_;
+    double span_m_;
+    bool has_sea_;
+};
 
-// Makes the background of a map. dem, hillshade: heights and their hillshade [1, 255] (0: none) on the same grid.
+// Makes the background of a map: the sheet's heights and their hillshade [1, 255] (0: none).
 // Returns one pixel per cell, or one for the mean colour of every k × k cells, with the largest k that leaves at least
 // most_wide pixels in a row; k is larger if the picture would exceed 30 000 pixels a side.
-Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade, double most_wide) {
+Relief tinted_relief(MapSheet const& sheet, HeightRange const& heights, double most_wide) {
+    Raster<float> const& dem = sheet.dem;
     Relief relief;
-    relief.low_m = std::numeric_limits<double>::infinity();
-    relief.high_m = -relief.low_m;
-    for (float const z : dem.values()) {
-        if (std::isfinite(z)) {
-            relief.low_m = std::min(relief.low_m, static_cast<double>(z));
-            relief.high_m = std::max(relief.high_m, static_cast<double>(z));
-        } else {
-            ++relief.holes;
-        }
-    }
-    double const span = relief.high_m - relief.low_m;
-    std::array<double, 256> const light = lights(dem, hillshade);
+    Ground const ground(dem, sheet.hillshade, heights, sheet.sea.has_value());
 
     constexpr std::int64_t longest = 30000;
     std::int64_t const fine = static_cast<std::int64_t>(static_cast<double>(dem.width()) / std::max(1.0, most_wide));
@@ -195,13 +231,8 @@ Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hills
             std::int64_t const bottom = std::min(dem.height(), (r + 1) * block);
             for (std::int64_t row = r * block; row < bottom; ++row) {
                 for (std::int64_t col = c * block; col < right; ++col) {
-                    double const z = dem[Cell{col, row}];
-                    if (!std::isfinite(z)) {
-                        continue;
-                    }
-                    Colour const seen =
-                        shade(tint(span > 0.0 ? (z - relief.low_m) / span : 0.4), light[hillshade[Cell{col, row}]]);
-                    sum = {sum.red + seen.red, sum.green + seen.green, sum.blue + seen.blue, sum.alpha + 1.0};
+                    Colour const seen = ground.at({col, row});
+                    sum = {sum.red + seen.red, sum.green + seen.green, sum.blue + seen.blue, sum.alpha + seen.alpha};
                 }
             }
             double const cells = static_cast<double>((right - c * block) * (bottom - r * block));
@@ -211,7 +242,8 @@ Relief tinted_relief(Raster<float> const& dem, Raster<std::uint8_t> const& hills
     return relief;
 }
 
-// where: position of the grid on the sheet. px_per_cell: scale.
+} // namespace
+
 void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell) {
     struct End {
         void operator()(cairo_surface_t* surface) const { cairo_surface_destroy(surface); }
@@ -226,7 +258,7 @@ void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_ce
     cairo_translate(sheet, where.x, where.y);
     cairo_scale(sheet, scale, scale);
     cairo_set_source_surface(sheet, image.get(), 0.0, 0.0);
-    cairo_pattern_set_filter(cairo_get_source(sheet), CAIRO_FILTER_BEST);
+    cairo_pattern_set_filter(cairo_get_source(sheet), scale > 1.0 ? CAIRO_FILTER_BILINEAR : CAIRO_FILTER_BEST);
     bool const is_svg = cairo_surface_get_type(cairo_get_target(sheet)) == CAIRO_SURFACE_TYPE_SVG;
     if (!is_svg) { // PNG has no such extension: Cairo 1.18 writes every pixel instead
         cairo_pattern_set_extend(cairo_get_source(sheet), CAIRO_EXTEND_PAD);
@@ -250,41 +282,7 @@ std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window) 
     return out;
 }
 
-/// A part of a line straight enough for a label.
-struct Seat {
-    Vec2 from;
-    Vec2 to;
-    Vec2 middle() const { return {0.5 * (from.x + to.x), 0.5 * (from.y + to.y)}; }
-};
-
-/// Point at a distance along a line. along: [px] of every vertex from the first.
-Vec2 point_at(std::vector<Vec2> const& line, std::vector<double> const& along, double where) {
-    auto const k = static_cast<std::size_t>(std::upper_bound(along.begin(), along.end(), where) - along.begin());
-    if (k == 0 || k == line.size()) {
-        return k == 0 ? line.front() : line.back();
-    }
-    double const step = along[k] - along[k - 1];
-    double const share = step > 0.0 ? (where - along[k - 1]) / step : 0.0;
-    return {line[k - 1].x + (line[k].x - line[k - 1].x) * share, line[k - 1].y + (line[k].y - line[k - 1].y) * share};
-}
-
-std::vector<Seat> seats_on(std::vector<Vec2> const& line, double room, double apart) {
-    std::vector<double> along(line.size(), 0.0);
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        along[i] = along[i - 1] + distance(line[i - 1], line[i]);
-    }
-    std::vector<Seat> seats;
-    double const step = std::max(0.25 * room, along.back() / 4000.0);
-    for (double where = 0.5 * room; where + 1.5 * room < along.back(); where += step) {
-        Seat const seat{point_at(line, along, where), point_at(line, along, where + room)};
-        Vec2 const halfway = point_at(line, along, where + 0.5 * room);
-        if (distance(seat.from, seat.to) > 0.97 * room && distance(seat.middle(), halfway) < 0.06 * room) {
-            seats.push_back(seat);
-            where += apart;
-        }
-    }
-    return seats;
-}
+namespace {
 
 /// Channel width grows with the square root of discharge (Leopold and Maddock 1953), which grows with area.
 constexpr double width_exponent = 0.5;
@@ -304,8 +302,8 @@ LineStyle river_style(double share, RiverScale const& scale, double unit) {
 } // namespace
 
 LineStyle contour_style(ContourKind kind, double unit) {
-    return kind == ContourKind::index ? LineStyle{1.25 * unit, {0.47, 0.29, 0.15, 0.75}}
-                                      : LineStyle{0.65 * unit, {0.50, 0.33, 0.19, 0.55}};
+    return kind == ContourKind::index ? LineStyle{0.9 * unit, {0.45, 0.27, 0.13, 0.60}}
+                                      : LineStyle{0.5 * unit, {0.45, 0.27, 0.13, 0.38}};
 }
 
 LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit) {
@@ -314,6 +312,18 @@ LineStyle style_of_area(double area_m2, RiverScale const& scale, double unit) {
 
 LineStyle style_of_order(int order, RiverScale const& scale, double unit) {
     return river_style(static_cast<double>(order - 1) / std::max(1, scale.highest_order - 1), scale, unit);
+}
+
+void draw_summit(Cairo* sheet, Vec2 at, double half_height) {
+    cairo_move_to(sheet, at.x, at.y - half_height);
+    cairo_line_to(sheet, at.x + half_height, at.y + 0.75 * half_height);
+    cairo_line_to(sheet, at.x - half_height, at.y + 0.75 * half_height);
+    cairo_close_path(sheet);
+    set_colour(sheet, {1.0, 1.0, 1.0, 0.75});
+    cairo_set_line_width(sheet, 0.6 * half_height);
+    cairo_stroke_preserve(sheet);
+    set_colour(sheet, {0.10, 0.10, 0.12});
+    cairo_fill(sheet);
 }
 
 LineStyle ridge_style(double unit) {
@@ -338,18 +348,37 @@ bool has_ridges(MapSheet const& sheet) {
     return sheet.ridges != nullptr && !sheet.ridges->lines.empty();
 }
 
-void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit) {
+bool has_lakes(MapSheet const& sheet) {
+    return sheet.lakes != nullptr && sheet.lakes->cells() > 0;
+}
+
+// Draws contours with gaps for their labels.
+void draw_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit,
+                   std::vector<Label> const& labels) {
+    cairo_save(canvas);
+    cairo_set_fill_rule(canvas, CAIRO_FILL_RULE_EVEN_ODD);
+    cairo_rectangle(canvas, window.frame.x, window.frame.y, window.frame.width, window.frame.height);
+    for (Label const& label : labels) {
+        for (Vec2 const corner : label.room.corners()) {
+            cairo_line_to(canvas, corner.x, corner.y);
+        }
+        cairo_close_path(canvas);
+        cairo_new_sub_path(canvas);
+    }
+    cairo_clip(canvas);
     for (ContourKind const kind : {ContourKind::ordinary, ContourKind::index}) {
         LineStyle const style = contour_style(kind, unit);
         set_colour(canvas, style.colour);
         cairo_set_line_width(canvas, style.width_px);
         for (auto const& [height_m, line] : sheet.contours) {
-            if (kind_of_contour(height_m, interval_m) == kind) {
+            bool const is_shore = sheet.sea && height_m <= 0.0;
+            if (!is_shore && kind_of_contour(height_m, interval_m) == kind) {
                 trace_line(canvas, on_sheet(line, window), 0.0);
                 cairo_stroke(canvas);
             }
         }
     }
+    cairo_restore(canvas);
 }
 
 void draw_ridges(Cairo* canvas, MapSheet const& sheet, Window const& window, double unit) {
@@ -388,41 +417,6 @@ void draw_rivers(Cairo* canvas, MapSheet const& sheet, Window const& window, dou
     cairo_set_line_cap(canvas, CAIRO_LINE_CAP_BUTT);
 }
 
-// Labels index contours with their heights where these run straight and no other label is near.
-void label_contours(Cairo* canvas, MapSheet const& sheet, Window const& window, double interval_m, double unit) {
-    LineStyle const line_style = contour_style(ContourKind::index, unit);
-    TextStyle const style{11.0 * unit, line_style.colour, Weight::normal, 2.0 * unit};
-    int const decimals = interval_m > 0.0 ? decimals_of(round_down(interval_m)) : 0;
-    Box const& frame = window.frame;
-    std::vector<Vec2> taken;
-    for (auto const& [height_m, line] : sheet.contours) {
-        if (line.size() < 2 || kind_of_contour(height_m, interval_m) != ContourKind::index) {
-            continue;
-        }
-        std::string const label = number(height_m, decimals);
-        double const room = text_width(canvas, label, style) + 6.0 * unit;
-        for (Seat seat : seats_on(on_sheet(line, window), room, 500.0 * unit)) {
-            Vec2 const at = seat.middle();
-            bool const inside = at.x - room > frame.x && at.x + room < frame.right() && at.y - room > frame.y &&
-                                at.y + room < frame.bottom();
-            bool const free = std::none_of(taken.begin(), taken.end(),
-                                           [&](Vec2 other) { return distance(other, at) < 130.0 * unit; });
-            if (!inside || !free) {
-                continue;
-            }
-            if (seat.to.x < seat.from.x) {
-                std::swap(seat.from, seat.to);
-            }
-            // The base line lies below the contour, so that the number is centred on it.
-            double const length = distance(seat.from, seat.to);
-            double const drop = 0.36 * style.size / length;
-            draw_text(canvas, {at.x - (seat.to.y - seat.from.y) * drop, at.y + (seat.to.x - seat.from.x) * drop}, label,
-                      style, Anchor::middle, seat.to - seat.from);
-            taken.push_back(at);
-        }
-    }
-}
-
 void require_finite(std::vector<Vec2> const& line, char const* what, std::size_t number_of_line) {
     for (std::size_t i = 0; i < line.size(); ++i) {
         refuse_if<BadInput>(!is_finite(line[i]), "draw.map: {} {}, vertex {} has no finite coordinates; mend the line",
@@ -442,6 +436,16 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
     refuse_if<BadInput>(sheet.hillshade.width() != grid.width || sheet.hillshade.height() != grid.height,
                         "draw.map: the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM",
                         sheet.hillshade.width(), sheet.hillshade.height(), grid.width, grid.height);
+    if (has_lakes(sheet)) {
+        refuse_if<BadInput>(sheet.lakes->width() != grid.width || sheet.lakes->height() != grid.height,
+                            "draw.map: the lakes have {} x {} cells, the DEM {} x {}; give lakes of this DEM",
+                            sheet.lakes->width(), sheet.lakes->height(), grid.width, grid.height);
+    }
+    for (std::size_t i = 0; i < sheet.spot_heights.size(); ++i) {
+        SpotHeight const& spot = sheet.spot_heights[i];
+        refuse_if<BadInput>(!is_finite(spot.at) || !std::isfinite(spot.z),
+                            "draw.map: spot height {} is not finite; mend it", i + 1);
+    }
     for (std::size_t i = 0; i < sheet.contours.size(); ++i) {
         require_finite(sheet.contours[i].second, "contour", i);
     }
@@ -470,7 +474,33 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
 std::string name_of_crs(std::string const& crs) {
     std::size_t const open = crs.find('"');
     std::size_t const close = open == std::string::npos ? open : crs.find('"', open + 1);
-    return close == std::string::npos ? crs : crs.substr(open + 1, close - open - 1);
+    return crs.empty() ? "no CRS" : close == std::string::npos ? crs : crs.substr(open + 1, close - open - 1);
+}
+
+/// A height as the report page writes it.
+std::string height_in_words(double z, HeightRange const& heights) {
+    return figures(heights.high_m - heights.low_m >= 50.0 ? std::floor(z + 0.5) : z, 5);
+}
+
+/// The line below the title, in the words of the report page.
+std::vector<std::string> facts_of(MapSheet const& sheet, MapParams const& params, HeightRange const& heights) {
+    Grid const& grid = sheet.dem.grid();
+    auto const cells = [](std::int64_t count) { return figures(static_cast<double>(count), 7); };
+    auto const km = [&](std::int64_t count) { return figures(static_cast<double>(count) * grid.cell_m / 1000.0, 3); };
+    std::vector<std::string> facts = {fmt::format("{} × {} cells of {} m ({} × {} km)", cells(grid.width),
+                                                  cells(grid.height), figures(grid.cell_m, 4), km(grid.width),
+                                                  km(grid.height)),
+                                      params.crs.empty() ? name_of_crs(grid.crs) : params.crs};
+    if (int const highest = river_scale(sheet).highest_order; highest > 0) {
+        std::size_t const arcs = sheet.network->planform.arc_count();
+        facts.push_back(fmt::format("{} {} to order {}", figures(static_cast<double>(arcs), 4),
+                                    arcs == 1 ? "arc" : "arcs", highest));
+    }
+    if (heights.low_m <= heights.high_m) {
+        facts.push_back(fmt::format("{} to {} m", height_in_words(heights.low_m, heights),
+                                    height_in_words(heights.high_m, heights)));
+    }
+    return facts;
 }
 
 /// How the sheet is laid out [px].
@@ -481,20 +511,29 @@ struct Layout {
     Box ground; ///< of the DEM
     double width = 0.0;
     double height = 0.0;
+    std::vector<std::string> facts; ///< lines below the title
     LegendFacts legend;
     Vec2 legend_corner;
     double legend_width = 0.0;
 };
 
-Layout lay_out(MapSheet const& sheet, MapParams const& params) {
+constexpr double facts_pitch = 20.0; ///< [units] between base lines
+
+TextStyle facts_style(double unit) {
+    return {14.5 * unit, faint_ink};
+}
+
+Layout lay_out(MapSheet const& sheet, MapParams const& params, std::vector<std::string> const& facts) {
     Grid const& grid = sheet.dem.grid();
     Layout out;
     out.width = params.width_px;
     out.unit = std::max(0.6, out.width / 1400.0);
     out.band = 23.0 * out.unit;
     double const margin = 22.0 * out.unit + out.band;
-    double const top = (params.title.empty() ? 22.0 : 66.0) * out.unit + out.band;
     double const room = out.width - 2.0 * margin;
+    out.facts = lines_within(facts, facts_style(out.unit), out.width - 44.0 * out.unit);
+    double const top = (params.title.empty() ? 22.0 : 60.0) * out.unit +
+                       static_cast<double>(out.facts.size()) * facts_pitch * out.unit + out.band;
     double const ground_wide = static_cast<double>(grid.width) * grid.cell_m;
     double const ground_tall = static_cast<double>(grid.height) * grid.cell_m;
     out.window.px_per_m = std::min(room / ground_wide, 1.4 * room / ground_tall);
@@ -515,10 +554,6 @@ Layout lay_out(MapSheet const& sheet, MapParams const& params) {
     out.legend_width = out.width - 44.0 * out.unit;
     out.legend.px_per_m = out.window.px_per_m;
     out.legend.ground_px = out.ground.width;
-    out.legend.frame_text = {fmt::format("{} × {} cells of {:.6g} m", grid.width, grid.height, grid.cell_m)};
-    if (!grid.crs.empty()) {
-        out.legend.frame_text.push_back(name_of_crs(grid.crs));
-    }
     out.legend.rivers = river_scale(sheet);
     out.legend.contour_interval_m = params.contour_interval_m;
     out.legend.ridges = has_ridges(sheet);
@@ -595,34 +630,72 @@ void draw_frame(Cairo* canvas, Layout const& layout) {
               {10.0 * unit, faint_ink}, Anchor::middle);
 }
 
+/// The shores of a mask on the sheet.
+Shores shores_on_sheet(Mask const& water, Window const& window) {
+    Shores out = shores(water);
+    for (std::vector<Vec2>& shore : out) {
+        shore = on_sheet(shore, window);
+    }
+    return out;
+}
+
+void draw_heading(Cairo* canvas, Layout const& layout, std::string const& title) {
+    double const unit = layout.unit;
+    double const left = 22.0 * unit;
+    double const room = layout.width - 2.0 * left;
+    draw_text_within(canvas, {left, 44.0 * unit}, title, {26.0 * unit, ink, Weight::bold}, room);
+    double y = (title.empty() ? 33.0 : 70.0) * unit;
+    for (std::string const& line : layout.facts) {
+        draw_text_within(canvas, {left, y}, line, facts_style(unit), room);
+        y += facts_pitch * unit;
+    }
+}
+
 } // namespace
 
 Picture map(MapSheet const& sheet, MapParams const& params) {
     require_sheet(sheet, params);
-    Layout layout = lay_out(sheet, params);
     double const density = params.format == Format::png ? 1.0 : 2.0; // vector output can be scaled
-    Relief const relief = tinted_relief(sheet.dem, sheet.hillshade, density * layout.ground.width);
-    layout.legend.low_m = relief.low_m;
-    layout.legend.high_m = relief.high_m;
-    layout.legend.holes = relief.holes > 0;
+    HeightRange const heights = height_range(sheet.dem);
+    Layout layout = lay_out(sheet, params, facts_of(sheet, params, heights));
+    Relief const relief = tinted_relief(sheet, heights, density * layout.ground.width);
+    Window const& window = layout.window;
     double const unit = layout.unit;
+    Mask const sea = sheet.sea ? holes_of(sheet.dem) : Mask{};
+    bool const has_sea = sheet.sea && heights.holes > 0;
+    Shores const sea_shores = has_sea ? shores_on_sheet(sea, window) : Shores{};
+    Shores const lake_shores = has_lakes(sheet) ? shores_on_sheet(*sheet.lakes, window) : Shores{};
+    Shores all_shores = sea_shores;
+    all_shores.insert(all_shores.end(), lake_shores.begin(), lake_shores.end());
+    layout.legend.low_m = heights.low_m;
+    layout.legend.high_m = heights.high_m;
+    layout.legend.holes = heights.holes > 0 && !has_sea;
+    layout.legend.sea = has_sea;
+    layout.legend.lakes = !lake_shores.empty();
+    layout.legend.summits = !sheet.spot_heights.empty();
     layout.height = std::ceil(layout.legend_corner.y + legend_height(layout.legend, layout.legend_width, unit));
 
     return paint(layout.width, layout.height, params.format, [&](Cairo* canvas) {
-        Box const& frame = layout.window.frame;
-        fill_box(canvas, frame, no_data);
+        Box const& frame = window.frame;
+        double const px_per_cell = sheet.dem.grid().cell_m * window.px_per_m;
+        Labels const labels = place_labels(canvas, sheet, window, all_shores, params.contour_interval_m, unit);
+        fill_box(canvas, frame, sheet.sea && sheet.sea->is_around ? deep_sea : no_data);
         cairo_save(canvas);
         cairo_rectangle(canvas, frame.x, frame.y, frame.width, frame.height);
         cairo_clip(canvas);
-        draw_relief(canvas, relief, layout.ground, sheet.dem.grid().cell_m * layout.window.px_per_m);
-        draw_contours(canvas, sheet, layout.window, params.contour_interval_m, unit);
-        draw_ridges(canvas, sheet, layout.window, unit);
-        draw_rivers(canvas, sheet, layout.window, unit);
-        label_contours(canvas, sheet, layout.window, params.contour_interval_m, unit);
+        draw_relief(canvas, relief, layout.ground, px_per_cell);
+        draw_contours(canvas, sheet, window, params.contour_interval_m, unit, labels.contours);
+        draw_ridges(canvas, sheet, window, unit);
+        draw_rivers(canvas, sheet, window, unit);
+        if (has_sea) {
+            Relief const depths = sea_depths(sea);
+            draw_water(canvas, sea_shores, &depths, layout.ground, px_per_cell, unit);
+        }
+        draw_water(canvas, lake_shores, nullptr, layout.ground, px_per_cell, unit);
+        draw_labels(canvas, labels);
         cairo_restore(canvas);
         draw_frame(canvas, layout);
-        TextStyle const title{26.0 * unit, ink, Weight::bold};
-        draw_text_within(canvas, {22.0 * unit, 46.0 * unit}, params.title, title, layout.width - 44.0 * unit);
+        draw_heading(canvas, layout, params.title);
         draw_legend(canvas, layout.legend, layout.legend_corner, layout.legend_width, unit);
     });
 }

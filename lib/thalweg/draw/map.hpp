@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
 #include <string>
 #include <utility>
 #include <vector>
@@ -32,9 +33,21 @@ Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& pa
 /// Options of map().
 struct MapParams {
     std::string title;               ///< UTF-8; "" for none
+    std::string crs;                 ///< UTF-8: the coordinate system in words; "": as the grid's
     int width_px = 1400;             ///< [200, 8000] of the whole sheet; its height follows
     double contour_interval_m = 0.0; ///< for the legend, every fifth is drawn heavier; 0: no contours
     Format format = Format::png;
+};
+
+/// The sea of a map: its cells without a height.
+struct Sea {
+    bool is_around = false; ///< it reaches beyond the grid
+};
+
+/// A height that a map may write beside its place.
+struct SpotHeight {
+    Vec2 at;
+    double z = 0.0; ///< [m]
 };
 
 /// The content of a map. hillshade has the DEM's grid, 0: no data.
@@ -47,15 +60,16 @@ struct MapSheet {
     RidgeLines const* ridges = nullptr;                         ///< null or empty: none
     /// [m²] by arc: contributing area at its downstream end; not above 0: unknown; empty: all unknown
     std::vector<double> areas_m2 = {};
+    std::optional<Sea> sea = {};               ///< none: cells without a height are light grey
+    Mask const* lakes = nullptr;               ///< on the DEM's grid; null or without cells: none
+    std::vector<SpotHeight> spot_heights = {}; ///< the most important first: those without room are left out
 };
 
-/// Draws a map: hillshade under a hypsometric tint, contours, ridges as thin brown lines, rivers whose width and colour
-/// follow their contributing area (Strahler order if no area is known), scale bar, legend, title, and a frame with
-/// coordinates.
-/// \param sheet a DEM of at least one cell; cells without a height are light grey, cells without a shade are drawn as
-/// level
-/// \return the picture
-/// \throws BadInput when hillshade, orders or areas belong to another grid or network, or a coordinate of a line is not
+/// Draws a map: hillshade under a hypsometric tint, contours with heights on index contours, ridges as thin brown
+/// lines, rivers whose width and colour follow their contributing area (Strahler order if no area is known), sea and
+/// lakes, spot heights, scale bar, legend, title with the grid's facts, and a frame with coordinates. \param sheet a
+/// DEM of at least one cell; cells without a shade are drawn as level \return the picture \throws BadInput when
+/// hillshade, lakes, orders or areas belong to another grid or network, or a coordinate of a line or spot height is not
 /// finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 

@@ -60,12 +60,14 @@ void draw_ground(Cairo* sheet, std::vector<Vec2> const& line, double base_y, Col
 
 enum class Anchor : std::uint8_t { start, middle, end };
 enum class Weight : std::uint8_t { normal, bold };
+enum class Slant : std::uint8_t { upright, italic };
 
 struct TextStyle {
     double size = 12.0; ///< [px]
     Colour colour = ink;
     Weight weight = Weight::normal;
     double halo_px = 0.0; ///< of a white rim
+    Slant slant = Slant::upright;
 };
 
 /// Accepts any bytes: invalid UTF-8 becomes U+FFFD, control characters become spaces.
@@ -73,6 +75,9 @@ double text_width(Cairo* sheet, std::string_view text, TextStyle const& style);
 /// at: position of the anchor on the base line. along: direction of the base line.
 void draw_text(Cairo* sheet, Vec2 at, std::string_view text, TextStyle const& style, Anchor anchor = Anchor::start,
                Vec2 along = {1.0, 0.0});
+/// Joins texts by " · " in as few lines as hold them.
+/// \param room [px] width of a line; a text wider than that has a line to itself
+std::vector<std::string> lines_within(std::vector<std::string> const& texts, TextStyle const& style, double room);
 /// As draw_text; a text wider than room is scaled down to 0.6 of its size at most, then truncated with "…".
 void draw_text_within(Cairo* sheet, Vec2 at, std::string_view text, TextStyle style, double room,
                       Anchor anchor = Anchor::start);
@@ -86,6 +91,9 @@ struct Window {
 
     Vec2 at(Vec2 ground) const {
         return {frame.x + (ground.x - west) * px_per_m, frame.y + (north - ground.y) * px_per_m};
+    }
+    Vec2 ground(Vec2 place) const {
+        return {west + (place.x - frame.x) / px_per_m, north - (place.y - frame.y) / px_per_m};
     }
     double east() const { return west + frame.width / px_per_m; }
     double south() const { return north - frame.height / px_per_m; }
@@ -110,6 +118,10 @@ Ticks ticks_between(double low, double high, int most);
 /// Formats a number with this number of decimals, U+2212 for minus, a thin space between thousands from 10 000; four
 /// digits and an exponent from 1e9.
 std::string number(double value, int decimals);
+
+/// Formats a number as the report page does: a thin space between thousands, U+2212 for minus, no zeros at the end.
+/// \param digits [1, 15] significant ones, at least; at most six decimals
+std::string figures(double value, int digits);
 
 /// Number of decimals [0, 9] that multiples of step need.
 int decimals_of(double step);

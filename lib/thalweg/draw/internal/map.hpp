@@ -3,7 +3,6 @@
 #pragma once
 
 #include <cstdint>
-#include <string>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -13,6 +12,28 @@
 namespace thalweg::draw {
 
 // The background of a map: hillshade under a hypsometric tint.
+
+/// Heights of a DEM.
+struct HeightRange {
+    double low_m = 0.0; ///< low > high: none
+    double high_m = 0.0;
+    std::int64_t holes = 0; ///< cells without a height
+};
+
+HeightRange height_range(Raster<float> const& dem);
+
+struct Relief {
+    std::vector<std::uint32_t> pixels; ///< premultiplied ARGB, row-major from the north-west
+    int width = 0;                     ///< [px]
+    int height = 0;                    ///< [px]
+    double cells_a_pixel = 1.0;        ///< side of a pixel [cells]; the last pixels may extend beyond the grid
+};
+
+/// where: position of the grid on the sheet. px_per_cell: scale.
+void draw_relief(Cairo* sheet, Relief const& relief, Box where, double px_per_cell);
+
+Colour mix(Colour a, Colour b, double share);
+std::uint32_t packed(double red, double green, double blue, double alpha);
 
 /// Colour of a height. share: [0, 1] position between the lowest and the highest.
 Colour tint(double share);
@@ -28,6 +49,12 @@ struct LineStyle {
 };
 
 enum class ContourKind : std::uint8_t { ordinary, index };
+
+ContourKind kind_of_contour(double height_m, double interval_m);
+std::vector<Vec2> on_sheet(std::vector<Vec2> const& line, Window const& window);
+
+/// A small triangle around a place.
+void draw_summit(Cairo* sheet, Vec2 at, double half_height);
 
 /// Every fifth contour is an index contour.
 inline constexpr int index_every = 5;
@@ -48,11 +75,13 @@ LineStyle ridge_style(double unit);
 
 struct LegendFacts {
     double px_per_m = 1.0;
-    double ground_px = 0.0;              ///< width of the map area
-    std::vector<std::string> frame_text; ///< lines under the scale bar
-    double low_m = 0.0;                  ///< heights at the ends of the tint; low > high: none
+    double ground_px = 0.0; ///< width of the map area
+    double low_m = 0.0;     ///< heights at the ends of the tint; low > high: none
     double high_m = 0.0;
-    bool holes = false; ///< some cells have no height
+    bool holes = false; ///< some cells have no height, and are not the sea
+    bool sea = false;
+    bool lakes = false;
+    bool summits = false; ///< some have their heights
     RiverScale rivers;
     double contour_interval_m = 0.0; ///< 0: none
     bool ridges = false;             ///< the map shows ridges

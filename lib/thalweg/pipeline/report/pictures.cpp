@@ -13,6 +13,7 @@
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/draw/wireframe.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
@@ -48,12 +49,13 @@ draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
     for (io::ContourLine& contour : io::contours(dem, interval, run)) {
         sheet.contours.emplace_back(contour.z, std::move(contour.line));
     }
+    sheet.lakes = &scene.lakes;
     draw::MapParams params;
     params.title = scene.title;
     params.contour_interval_m = sheet.contours.empty() ? 0.0 : interval;
     params.format = look.format;
     params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
-    return draw::map(sheet, params);
+    return draw_land(std::move(sheet), scene.sea, params, run);
 }
 
 draw::Picture draw_wireframe(Scene const& scene, Look const& look) {
@@ -109,6 +111,28 @@ char const* name_of(PictureKind kind) {
     case PictureKind::wireframe: break;
     }
     return "wireframe";
+}
+
+namespace {
+
+/// "WGS 84 / UTM zone 31N (EPSG:32631)", without a code the name; "": neither.
+std::string crs_on_map(std::string const& crs) {
+    std::string const words = io::crs_in_words(crs);
+    return words.empty() || !crs.starts_with("EPSG:") ? words : fmt::format("{} ({})", words, crs);
+}
+
+} // namespace
+
+draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, draw::MapParams params, Run const& run) {
+    constexpr std::size_t most_summits = 24;
+    if (sea) {
+        sheet.sea = draw::Sea{sea->is_around};
+    }
+    for (Summit const& summit : summits(sheet.dem, most_summits, run)) {
+        sheet.spot_heights.push_back({summit.at, summit.z});
+    }
+    params.crs = crs_on_map(sheet.dem.grid().crs);
+    return draw::map(sheet, params);
 }
 
 double round_interval(double relief_m) {

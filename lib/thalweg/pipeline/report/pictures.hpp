@@ -10,7 +10,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
+#include <thalweg/pipeline/report/landmarks.hpp>
 
 namespace thalweg::pipeline {
 
@@ -31,6 +33,8 @@ struct Scene {
     std::string increment;          ///< its name or expression
     std::string title;
     double contour_interval_m = 0.0; ///< 0: a round number is chosen
+    std::optional<Sea> sea;          ///< cells without a height are the sea
+    Mask lakes;                      ///< on the DEM's grid; without cells: none
 };
 
 /// The appearance of pictures; each picture chooses what is not set.
@@ -55,6 +59,15 @@ std::string missing_for(PictureKind kind, Scene const& scene);
 /// \return the picture
 /// \throws BadInput when a part of the scene is missing; as the pictures
 draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& look, Run const& run = {});
+
+/// Draws a map with what every map of a terrain has: the sea, heights of summits, its coordinate system in words.
+/// \param sheet the rest of the map
+/// \param sea of the terrain
+/// \param params without crs
+/// \return the picture
+/// \throws BadInput as draw::map
+draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, draw::MapParams params,
+                        Run const& run = {});
 
 /// Chooses a contour interval.
 /// \param relief_m [m] > 0, height range

@@ -26,6 +26,8 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
@@ -189,7 +191,9 @@ void write_surface(Made const& t, std::string const& title, io::OutputFolder con
     draw::MapParams map;
     map.title = title;
     map.contour_interval_m = interval;
-    io::write_text(out.path("map.png"), draw::map(sheet, map).bytes);
+    Mask const lakes = t.terrain.lakes > 0 ? lake_cells(t.terrain.channels) : Mask{};
+    sheet.lakes = &lakes;
+    io::write_text(out.path("map.png"), draw_land(std::move(sheet), sea_of(t.terrain), map, run).bytes);
     if (!t.terrain.surface->increments.empty()) {
         io::write_text(
             out.path("curve.svg"),
