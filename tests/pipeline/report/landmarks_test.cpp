@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <limits>
+#include <tuple>
 #include <utility>
 
 #include <gtest/gtest.h>
@@ -51,6 +52,22 @@ TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
     EXPECT_FALSE(sea_of(terrain).has_value());
     terrain.equilibrium->edge = surface::Edge::coast;
     EXPECT_TRUE(sea_of(terrain)->is_around);
+}
+
+TEST(Landmarks, ARecipeNamesTheSeaOfTerrainInEquilibrium) {
+    Recipe recipe;
+    EXPECT_FALSE(sea_of(recipe).has_value());
+    recipe.surface.emplace();
+    recipe.surface->method = Method::equilibrium;
+    for (auto const& [edge, has_sea, is_around] : {std::tuple{surface::Edge::open, false, false},
+                                                   {surface::Edge::mainland, true, false},
+                                                   {surface::Edge::coast, true, true}}) {
+        recipe.surface->equilibrium.edge = edge;
+        EXPECT_EQ(sea_of(recipe).has_value(), has_sea);
+        EXPECT_EQ(sea_of(recipe).value_or(Sea{}).is_around, is_around);
+    }
+    recipe.surface->method = Method::dilate;
+    EXPECT_FALSE(sea_of(recipe).has_value());
 }
 
 } // namespace thalweg::pipeline

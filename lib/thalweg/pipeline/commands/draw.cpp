@@ -188,9 +188,13 @@ SceneRead read_folder(DrawParams const& params, Run const& run) {
             scene.ds_area_m2.push_back(arc.ds_area_m2);
         }
     }
+    if (std::string const lakes = (folder / "lakes.tif").string(); fs::exists(lakes) && scene.dem) {
+        scene.lakes = io::read_mask({lakes}, scene.dem->grid(), run);
+    }
     if (fs::exists(recipe)) {
         Recipe const made = read_recipe(io::read_text(recipe, 2 << 20), recipe);
         scene.title = title_of(made);
+        scene.sea = sea_of(made);
         bool const in_metres = made.output.units == HeightUnit::metre; // pictures are always in metres
         scene.contour_interval_m = in_metres ? made.output.contour_interval : 0.0;
         if (fs::exists(report)) {

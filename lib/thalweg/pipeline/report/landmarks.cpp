@@ -38,11 +38,23 @@ std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run cons
     return chosen;
 }
 
+namespace {
+
+std::optional<Sea> sea_beside(std::optional<surface::Edge> edge) {
+    bool const is_island = edge == surface::Edge::coast;
+    return is_island || edge == surface::Edge::mainland ? std::optional(Sea{0.0, is_island}) : std::nullopt;
+}
+
+} // namespace
+
 std::optional<Sea> sea_of(Terrain const& terrain) {
-    using surface::Edge;
-    bool const is_island = terrain.equilibrium && terrain.equilibrium->edge == Edge::coast;
-    bool const is_mainland = terrain.equilibrium && terrain.equilibrium->edge == Edge::mainland;
-    return is_island || is_mainland || terrain.land.cells() > 0 ? std::optional(Sea{0.0, is_island}) : std::nullopt;
+    std::optional<Sea> const sea = terrain.equilibrium ? sea_beside(terrain.equilibrium->edge) : std::nullopt;
+    return !sea && terrain.land.cells() > 0 ? Sea{} : sea;
+}
+
+std::optional<Sea> sea_of(Recipe const& made) {
+    bool const balanced = made.surface && made.surface->method == Method::equilibrium;
+    return balanced ? sea_beside(made.surface->equilibrium.edge) : std::nullopt;
 }
 
 } // namespace thalweg::pipeline

@@ -10,6 +10,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -34,5 +35,9 @@ struct Sea {
 
 /// \return the sea of a terrain; nothing: cells without data are not the sea
 std::optional<Sea> sea_of(Terrain const& terrain);
+
+/// \param made recipe as make writes it: it names the edge of terrain in equilibrium
+/// \return the sea of such a terrain; nothing for other ones
+std::optional<Sea> sea_of(Recipe const& made);
 
 } // namespace thalweg::pipeline
