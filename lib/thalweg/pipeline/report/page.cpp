@@ -18,7 +18,6 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
 
 namespace thalweg::pipeline {
@@ -382,8 +381,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);
     if (heights && made.terrain.drainage) {
-        std::vector<std::uint8_t> const water =
-            page_water(*made.terrain.drainage, lake_cells(made.terrain.channels), *heights);
+        std::vector<std::uint8_t> const water = page_water(*made.terrain.drainage, params.lakes, *heights);
         parts.water = water.empty() ? "" : io::packed(water);
     }
     return fill_page(page_template(), parts);
@@ -456,6 +454,8 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     params.contour_interval_m = scene.contour_interval_m > 0.0 ? scene.contour_interval_m : round_interval(relief);
     params.command = command;
     params.notes = notes;
+    params.sea = scene.sea;
+    params.lakes = scene.lakes;
     return page(made, params, run);
 }
 

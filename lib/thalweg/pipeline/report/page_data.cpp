@@ -315,10 +315,8 @@ ordered_json summits_array(Made const& t, Run const& run) {
     return out;
 }
 
-ordered_json sea_object(Made const& t) {
-    std::optional<Sea> const sea = sea_of(t.terrain);
-    return sea && t.terrain.surface ? ordered_json{{"level", sea->level_m}, {"around", sea->is_around}}
-                                    : ordered_json(nullptr);
+ordered_json sea_object(std::optional<Sea> const& sea) {
+    return sea ? ordered_json{{"level", sea->level_m}, {"around", sea->is_around}} : ordered_json(nullptr);
 }
 
 ordered_json curve_object(Made const& t) {
@@ -516,7 +514,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                               {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
                               {"arcs", arcs_object(t, lines)}}},
                             {"ridges", ridges_object(t, lines)},
-                            {"sea", sea_object(t)},
+                            {"sea", sea_object(params.sea)},
                             {"summits", summits_array(t, run)},
                             {"profiles", profiles_array(stems, t.terrain.grid)},
                             {"curve", curve_object(t)},

@@ -246,6 +246,10 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
     PageParams params;
     params.contour_interval_m = made.terrain.surface ? contour_interval_m(made) : 0.0;
     params.recipe = recipe_toml;
+    if (made.terrain.surface) {
+        params.sea = sea_of(made.terrain);
+        params.lakes = lake_cells(made.terrain.channels);
+    }
     io::write_text(out.path("report.html"), page(made, params, run));
     run.at(0.9, "write");
     std::vector<std::string> files = out.files();

@@ -13,6 +13,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 
 namespace thalweg::pipeline {
@@ -22,6 +23,8 @@ struct PageParams {
     std::string recipe;                                        ///< TOML as in the file beside the page; "": none
     std::string command = "thalweg make recipe.toml -o again"; ///< command that reproduces the terrain
     std::vector<std::string> notes = {};                       ///< additional ones
+    std::optional<Sea> sea = {};                               ///< cells without a height are the sea
+    Mask lakes = {};                                           ///< on the grid; without cells: none
 };
 
 /// Makes report.html of a terrain: one page that a browser opens without a network connection. It is the page built
