@@ -13,12 +13,14 @@ const farthestShore = 64; // [values] beyond which water is as deep as it gets
 const shared = /* glsl */`
 precision highp float;
 precision highp sampler2D;
-uniform float onMap, unit, dark, near;
+uniform float onMap, unit, dark, near, backdrop; // backdrop: [pixels] height of the view where no sea reaches the horizon
 uniform vec3 sunThere, horizon, zenith;
 uniform sampler2D grain;
 vec3 linear(vec3 c) { return c * c; }
 vec3 screen(vec3 c) { return sqrt(c); }
 float noise(vec2 p) { return texture(grain, p / 64.0).r; }
+// What is behind the land.
+vec3 behind() { return mix(linear(horizon), linear(zenith), onMap > 0.5 ? 0.0 : 0.85 * smoothstep(0.25, 1.05, gl_FragCoord.y / max(backdrop, 1.0))); }
 vec3 haze(vec3 c, vec3 at) {
   if (onMap > 0.5) return c;
   float far = max(0.0, distance(at, cameraPosition) - near);
@@ -168,12 +170,12 @@ void main() {
     shoreline = 1.0 - smoothstep(0.0, 1.0, abs(share - 0.5) / max(fwidth(share), 1e-4) - 0.2 * dpr);
     light = mix(light, onMap > 0.5 ? linear(vec3(0.20, 0.38, 0.55)) : vec3(0.86, 0.86, 0.80) * mix(1.0, 0.5, dark), shoreline * (onMap > 0.5 ? 0.7 : 0.5));
   }
+  light = haze(light, at);
+  if (holes > 0.5 && sea < 0.5) light = mix(behind(), light, smoothstep(0.02, 0.9, covers.r));
   if (withLines > 0.5) {
     vec4 line = linesAt(across, down);
-    light = mix(light, linear(line.rgb), line.a);
+    light = mix(light, haze(linear(line.rgb), at), line.a);
   }
-  light = haze(light, at);
-  if (holes > 0.5 && sea < 0.5) light = mix(linear(horizon), light, smoothstep(0.02, 0.9, covers.r));
   colour = vec4(screen(light), 1.0);
 }`;
 
@@ -212,11 +214,10 @@ const skyShader = /* glsl */`
 ${shared}
 in vec3 at;
 out vec4 colour;
-uniform float backdrop; // [pixels] height of the view where no sea reaches the horizon
 void main() {
   float up = normalize(at - cameraPosition).y;
   vec3 c = mix(linear(horizon), linear(zenith), smoothstep(0.0, 0.55, up));
-  if (backdrop > 0.0) c = mix(linear(horizon), linear(zenith), 0.85 * smoothstep(0.25, 1.05, gl_FragCoord.y / backdrop));
+  if (backdrop > 0.0) c = behind();
   float towards = max(dot(normalize(at - cameraPosition), normalize(vec3(sunThere.x, 0.12, sunThere.z))), 0.0);
   c += vec3(0.9, 0.75, 0.5) * 0.10 * pow(towards, 6.0) * (1.0 - dark);
   colour = vec4(screen(c), 1.0);
@@ -328,13 +329,13 @@ export class Ground {
     this.group = new Group();
     this.#stitch();
     this.air = {
-      onMap: { value: 0 }, unit: { value: this.unit * land.cells }, near: { value: 0 }, dark: { value: 0 }, sunThere: { value: new Vector3(0, 1, 0) },
+      onMap: { value: 0 }, unit: { value: this.unit * land.cells }, near: { value: 0 }, backdrop: { value: 0 }, dark: { value: 0 }, sunThere: { value: new Vector3(0, 1, 0) },
       horizon: { value: new Vector3(1, 1, 1) }, zenith: { value: new Vector3(1, 1, 1) }, grain: { value: grain() },
     };
     this.group.add(new Mesh(this.geometry, this.#material(linear)));
     this.walls = this.#walls();
     this.group.add(this.walls);
-    this.sky = new Mesh(new SphereGeometry(40, 24, 16), this.#plain(skyShader, { depthWrite: false, side: BackSide }, { backdrop: { value: 0 } }));
+    this.sky = new Mesh(new SphereGeometry(40, 24, 16), this.#plain(skyShader, { depthWrite: false, side: BackSide }));
     this.sky.renderOrder = 2; // where nothing else is
     this.sky.frustumCulled = false;
     this.ocean = new Mesh(new PlaneGeometry(70, 70).rotateX(-Math.PI / 2), this.#plain(seaShader, {}, { half_: { value: new Vector2(this.halfX, this.halfZ) }, surf: this.uniforms.surf }));

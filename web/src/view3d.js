@@ -277,7 +277,7 @@ export class View3d {
     }
     u.contour.value = step;
     ground.air.near.value = Math.max(0, this.perspective.position.distanceTo(this.controls.target) - 0.7);
-    ground.sky.material.uniforms.backdrop.value = ground.sea?.around ? 0 : this.renderer.domElement.height;
+    ground.air.backdrop.value = ground.sea?.around ? 0 : this.renderer.domElement.height;
     if (this.onmap) ground.ocean.visible = false;
     else ground.ocean.visible = Boolean(ground.sea?.around);
     this.renderer.render(this.scene, this.controls.object);
