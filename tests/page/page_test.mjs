@@ -286,6 +286,35 @@ describe('samples/dla.toml with WebGL', () => {
     await page.close();
   });
 
+  test('links the profile with the land, both ways', async () => {
+    const { page } = seen;
+    await page.click('#bhome');
+    const labelled = () => page.evaluate(async () => {
+      await window.__thalweg.still();
+      return document.querySelector('#view canvas.labels').toDataURL();
+    });
+    const before_ = await labelled();
+    await page.focus('#sections [role=slider]');
+    for (let k = 0; k < 5; ++k) await page.keyboard.press('PageUp');
+    assert.notEqual(await labelled(), before_); // a ring on the river
+    await page.keyboard.press('Escape');
+    assert.equal(await labelled(), before_);
+    // A place of the main stem that is in sight.
+    const at = await page.evaluate(() => {
+      const { points } = JSON.parse(document.getElementById('data').textContent).profiles[0];
+      for (const [, , x, y] of points) {
+        const found = window.__thalweg.project(x, y);
+        if (found && window.__thalweg.pick(found.x, found.y)?.arc?.hack === 1) return found;
+      }
+      return null;
+    });
+    assert.ok(at);
+    const box = await page.locator('#view canvas').first().boundingBox();
+    await page.mouse.move(box.x + at.x, box.y + at.y);
+    await page.waitForSelector('#sections [role=slider] .tip', { state: 'visible' });
+    await page.mouse.move(0, 0);
+  });
+
   test('shows diagrams, laws, statistics, checks, times, command and recipe', async () => {
     const { page } = seen;
     const heads = await page.$$eval('#panel h2', (all) => all.map((e) => e.textContent));
