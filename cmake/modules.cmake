@@ -4,6 +4,9 @@ add_library(thalweg_options INTERFACE)
 # No contraction, no fast-math, no -march: the same recipe gives the same bytes on every machine.
 target_compile_options(thalweg_options INTERFACE
   -Wall -Wextra -Wconversion -ffp-contract=off)
+if(CMAKE_CXX_COMPILER_ID MATCHES "Clang")
+  target_compile_options(thalweg_options INTERFACE -Wno-sign-conversion) # not in g++'s -Wconversion
+endif()
 # Other versions have false positives.
 if(THALWEG_WERROR AND "${CMAKE_CXX_COMPILER_ID} ${CMAKE_CXX_COMPILER_VERSION}" MATCHES "^(GNU 12|Clang 14)\\.")
   set(THALWEG_STRICT -Werror)
