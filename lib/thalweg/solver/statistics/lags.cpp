@@ -73,7 +73,8 @@ struct LinesOfDem {
 };
 
 PairLines empty_pairs(std::int64_t length) {
-    return PairLines(lines_at_once / 2, PairLine(length));
+    PairLines pairs(lines_at_once / 2, PairLine(length));
+    return pairs;
 }
 
 struct Power {
