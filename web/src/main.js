@@ -80,7 +80,7 @@ function start() {
   $('title').textContent = data.title;
   const land = new Land(data.grid, data.heights, $('heights').textContent, data.sea);
   const rivers = new Rivers(data.rivers, data.ridges, $('lines').textContent);
-  const water = new Water(land, $('water').textContent);
+  const water = new Water(land, $('water').textContent, data.lakes);
   $('summary').textContent = summary(data, rivers);
   $('foot').textContent = `thalweg ${data.version}` + (data.recipe ? `, seed ${data.seed}` : '');
 

@@ -30,8 +30,9 @@ export class Water {
   #base64;
   #bytes;
 
-  constructor(land, base64) {
+  constructor(land, base64, hasLakes) {
     this.land = land;
+    this.hasLakes = hasLakes;
     this.#base64 = base64.trim();
     this.known = this.#base64 !== '' && land.cells === 1 && !land.level;
   }
@@ -44,10 +45,8 @@ export class Water {
 
   /** 255 in lakes by value, or null without a lake. */
   get lakes() {
-    if (!this.known) return null;
-    const { bytes } = this;
-    if (!bytes.some((b) => b >= 16)) return null;
-    return Uint8Array.from(bytes, (b) => (b >= 16 ? 255 : 0));
+    if (!this.known || !this.hasLakes) return null;
+    return Uint8Array.from(this.bytes, (b) => (b >= 16 ? 255 : 0));
   }
 
   /** Receivers by value, -1 where water leaves. */

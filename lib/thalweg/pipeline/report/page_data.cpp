@@ -515,6 +515,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                               {"arcs", arcs_object(t, lines)}}},
                             {"ridges", ridges_object(t, lines)},
                             {"sea", sea_object(params.sea)},
+                            {"lakes", params.lakes.cells() > 0},
                             {"summits", summits_array(t, run)},
                             {"profiles", profiles_array(stems, t.terrain.grid)},
                             {"curve", curve_object(t)},
