@@ -16,6 +16,7 @@
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
