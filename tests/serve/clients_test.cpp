@@ -115,7 +115,7 @@ TEST(Clients, RandomBytesHarmNobody) {
     Running running;
     RawClient other(running.port());
     ASSERT_TRUE(running.lets_in(other));
-    ASSERT_TRUE(rc::check("bytes by chance close one connection or wait for more", [&] {
+    ASSERT_TRUE(rc::check("random bytes affect one connection only", [&] {
         std::string const bytes = *rc::gen::container<std::string>(rc::gen::arbitrary<char>());
         RawClient client(running.port());
         RC_ASSERT(running.lets_in(client));
@@ -248,5 +248,5 @@ TEST(SoakClients, WhoDoNotReadLeaveMemoryAlone) {
         ASSERT_TRUE(running.has_seen("closed " + std::to_string(round)));
     }
     std::string const status = test::bytes_of("/proc/self/status");
-    EXPECT_LT(std::stol(status.substr(status.find("VmHWM:") + 6)), 300000) << "[KB] of 10 GB that were sent";
+    EXPECT_LT(std::stol(status.substr(status.find("VmHWM:") + 6)), 1000000) << "[KB] of 10 GB that were sent";
 }

@@ -42,7 +42,7 @@ using Response = http::response<http::string_body>;
 
 constexpr std::size_t most_head_bytes = 8192;     ///< of a request's head
 constexpr std::size_t most_unread_bytes = 262144; ///< read and discarded of what a request sends beyond its head
-constexpr std::chrono::seconds farewell{1};       ///< for the last words of a connection
+constexpr std::chrono::seconds closing_time{1};   ///< in which connections close in order
 
 std::string_view view_of(auto const& text) {
     return {text.data(), text.size()};
@@ -200,7 +200,7 @@ public:
         }
     }
 
-    void take_leave() {
+    void begin_closing() {
         websocket::close_reason const why(websocket::close_code::going_away, "the program ends");
         socket_.async_close(why, [self = shared_from_this()](error_code) { self->end("the program ends"); });
     }
@@ -311,9 +311,9 @@ private:
     void answer(error_code error) {
         bool const is_too_long = error == http::error::header_limit || error == http::error::buffer_overflow;
         if (is_too_long) {
-            write(in_words(status::request_header_fields_too_large, "The head of this request is too long."));
+            write(in_words(status::request_header_fields_too_large, "The header of this request is too long."));
         } else if (error && error.category() == make_error_code(http::error::bad_method).category()) {
-            write(in_words(status::bad_request, "This is no HTTP request."));
+            write(in_words(status::bad_request, "This is not an HTTP request."));
         } else if (!error) { // else the client left or was too slow
             answer(parser_.get());
         }
@@ -343,12 +343,12 @@ private:
     std::optional<Response> refusal_of(Request const& request) const {
         std::string const& host = listener_.host;
         if (request.count(http::field::host) != 1 || view_of(request[http::field::host]) != host) {
-            return in_words(status::forbidden, "This server answers at http://" + host + " alone.");
+            return in_words(status::forbidden, "This server answers only at http://" + host + ".");
         }
         auto const origins = request.equal_range(http::field::origin);
         if (std::any_of(origins.first, origins.second,
                         [&](auto const& origin) { return view_of(origin.value()) != "http://" + host; })) {
-            return in_words(status::forbidden, "Pages of other sites may not ask this server.");
+            return in_words(status::forbidden, "Pages of other sites must not use this server.");
         }
         if (!is_same_secret(token_of(view_of(request.target())), listener_.params.token)) {
             return in_words(
@@ -356,10 +356,10 @@ private:
                 "The token in this address is missing or wrong. Open the address that the program printed.");
         }
         if (request.method() != http::verb::get && request.method() != http::verb::head) {
-            return in_words(status::method_not_allowed, "This server answers GET and HEAD alone.");
+            return in_words(status::method_not_allowed, "This server answers only GET and HEAD.");
         }
         if (parser_.chunked() || parser_.content_length().value_or(0) > 0) {
-            return in_words(status::payload_too_large, "A request has no body here.");
+            return in_words(status::payload_too_large, "Requests must not have a body.");
         }
         return std::nullopt;
     }
@@ -374,7 +374,7 @@ private:
             if (!error) {
                 error_code ignored;
                 self->stream_.socket().shutdown(tcp::socket::shutdown_send, ignored);
-                self->stream_.expires_after(farewell);
+                self->stream_.expires_after(closing_time);
                 self->discard();
             }
         });
@@ -441,15 +441,15 @@ void Listener::run(std::stop_token const& stop) {
     }
     acceptor_.close();
     pause_.cancel();
-    std::vector<Session*> left; // taking leave may end a session at once
+    std::vector<Session*> left; // closing may end a session at once
     for (auto const& [id, session] : clients) {
         left.push_back(session);
     }
     for (Session* const session : left) {
-        session->take_leave();
+        session->begin_closing();
     }
     io.restart();
-    io.run_for(farewell); // less where all is said before
+    io.run_for(closing_time); // returns as soon as nothing is left to do
     while (!clients.empty()) {
         clients.begin()->second->end("the program ends");
     }
@@ -488,7 +488,7 @@ void Listener::admit(tcp::socket socket) {
         std::make_shared<Exchange>(*this, std::move(socket))->read();
         return;
     }
-    socket.non_blocking(true, ignored); // says why if that needs no waiting
+    socket.non_blocking(true, ignored); // the answer is lost if sending it would wait
     std::array<char, 4096> discarded;
     socket.read_some(asio::buffer(discarded), ignored);
     Response refusal = in_words(status::service_unavailable, "Too many connections are open. Close other windows.");

@@ -55,9 +55,10 @@ struct Handlers {
 
 class Listener;
 
-/// Serves a page, files and a WebSocket to this machine's users who know the token. It answers GET and HEAD at
-/// 127.0.0.1, and never touches the file system. WebSocket clients connect to the address of the page. Who sends
-/// another Host (DNS rebinding), a foreign Origin or no token gets 403; errors are answered in words.
+/// Serves a page, files and a WebSocket to programs on this machine that know the token. It answers GET and HEAD at
+/// 127.0.0.1, each request on a connection of its own, and never touches the file system. WebSocket clients connect to
+/// the address of the page. A request with another Host (DNS rebinding), a foreign Origin or without the token gets
+/// 403. Errors are answered in words.
 class Server {
 public:
     /// Opens the port; connections wait until run().
@@ -74,10 +75,10 @@ public:
     /// \return "http://127.0.0.1:PORT/?token=TOKEN"
     std::string address() const;
 
-    /// Serves on this thread until a stop is requested, then takes leave of all clients within a second. May be called
-    /// once.
+    /// Serves on this thread until a stop is requested, then closes the port and, within a second, all clients. May be
+    /// called once.
     /// \param stop ends it
-    /// \throws what a handler throws; nothing is served then
+    /// \throws what a handler throws; the server then serves nothing more
     void run(std::stop_token const& stop);
 
     /// Sends a message. May be called by any thread, handlers among them; never waits. Messages of one thread arrive in
