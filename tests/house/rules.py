@@ -13,6 +13,7 @@ BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
 MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
 MODULES.update({stage: BELOW for stage in STAGES})
+MODULES["serve"] = ["core"]
 
 # The families of pipeline, in their order: each may include those before it.
 FAMILIES = ["recipe", "plan", "make", "report", "commands"]
@@ -26,6 +27,7 @@ FOREIGN = {
     "surface": ["muParser"],
     "draw": ["cairo", "fontconfig/"],
     "io": ["gdal", "ogr", "cpl_", "proj.h"],
+    "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/"],
 }
