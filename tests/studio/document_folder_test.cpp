@@ -234,6 +234,17 @@ TEST_F(DocumentFolders, WhatWasChangedElsewhereIsAnEdit) {
     EXPECT_EQ(document.document().recipe.seed, 3U);
 }
 
+TEST_F(DocumentFolders, ACommentIsNoEdit) {
+    std::string const folder = edited("d");
+    std::string const recipe = bytes_of(folder + "/recipe.toml");
+    test::write(folder + "/recipe.toml", "# mine\n" + recipe);
+    DocumentFolder document(folder);
+    EXPECT_EQ(document.document().recipe.seed, 3U);
+    EXPECT_TRUE(document.notes().empty());
+    EXPECT_EQ(bytes_of(folder + "/recipe.toml"), recipe);
+    EXPECT_TRUE(document.redo());
+}
+
 TEST_F(DocumentFolders, ARecipeWithFaultsIsRefusedAndStays) {
     std::string const folder = edited("d");
     test::write(folder + "/recipe.toml", "seeds = 99\n");

@@ -83,6 +83,11 @@ void require_no_way_out(std::string const& folder, Document const& document) {
     }
 }
 
+/// A document with a text as it is.
+Document unchanged(std::string const& toml) {
+    return apply({}, {"", {ReplaceLines{0, "", toml}}}).document;
+}
+
 /// A name that nothing has: NAME, NAME.2, NAME.3.
 std::string free_name(fs::path const& path) {
     fs::path free = path;
@@ -138,22 +143,29 @@ void DocumentFolder::open() {
     bool const is_readable = journal.lines > 0;
     refuse_if<BadInput>(!is_readable && !has_recipe, "studio.document_folder: {} has neither a recipe nor a history",
                         folder_);
-    bool const is_newer = is_readable && has_recipe && found != journal.toml && !journal.passed;
-    session_.history = std::move(journal.history);
-    if (is_newer) {
-        // The history may end in what no recipe is: then what was changed elsewhere stands alone.
-        session_.document.toml = journal.toml;
-        session_ = edited(std::move(session_), {"recipe.toml as it was found", {ReplaceRecipe{found}}});
+    // A recipe that is no state of the history came later.
+    bool const is_newer = has_recipe && found != journal.toml && !journal.passed;
+    Document document = is_newer ? document_of(found) : unchanged(journal.toml);
+    document.recipe.folder = folder_;
+    document.revision = 0;
+    require_no_way_out(folder_, document);
+    if (!is_readable) {
+        journal.first_toml = document.toml;
+    } else if (document.toml != journal.toml) {
+        // The history may end in what no recipe is: its text alone is taken.
+        Edit const edit{"recipe.toml as it was found", {ReplaceRecipe{found}}};
+        journal.history = edited({{journal.toml, {}, 0}, std::move(journal.history)}, edit).history;
         notes_.emplace_back("recipe.toml was changed elsewhere: that is an edit now");
-    } else {
-        session_.document =
-            is_readable ? apply({}, {"", {ReplaceLines{0, "", journal.toml}}}).document : document_of(found);
     }
-    session_.document.recipe.folder = folder_;
-    session_.document.revision = 0;
-    require_no_way_out(folder_, session_.document);
+    mend(path, text, journal, document.toml == journal.toml);
+    if (found != document.toml) {
+        replace_file(recipe_path, document.toml);
+    }
+    session_ = {std::move(document), std::move(journal.history)};
+}
 
-    std::string const first = is_readable ? journal.first_toml : session_.document.toml;
+void DocumentFolder::mend(std::string const& path, std::string const& text, Journal const& journal, bool is_whole) {
+    bool const is_cut = journal.bytes < text.size();
     if (!journal.fault.empty()) {
         std::string const kept = free_name(path + ".damaged");
         io::copy_file(path, kept);
@@ -161,21 +173,16 @@ void DocumentFolder::open() {
             fmt::format("line {} of {} cannot be read ({}): what was edited from there on cannot be undone; "
                         "the file is kept as {}",
                         journal.lines + 1, history_name, journal.fault, fs::path(kept).filename().string()));
-    } else if (journal.bytes < text.size()) {
+    } else if (is_cut) {
         notes_.push_back(fmt::format("the last line of {} was not written to its end, and is dropped", history_name));
     }
-    // What was undone and can no longer be redone goes, where it is more than what stays.
-    std::string whole = journal_of(first, session_.history);
-    bool const is_long = text.size() > 2 * whole.size();
-    if (is_newer || is_long || journal.bytes < text.size() || !is_readable) {
-        replace_file(path, whole);
-        bytes_ = static_cast<std::int64_t>(whole.size());
-    } else {
-        bytes_ = static_cast<std::int64_t>(text.size());
+    std::string const shortest = journal_of(journal.first_toml, journal.history);
+    bool const is_long = text.size() > 2 * shortest.size(); // of edits that can no longer be redone
+    bool const stays = is_whole && !is_cut && !is_long;
+    if (!stays) {
+        replace_file(path, shortest);
     }
-    if (found != session_.document.toml) {
-        replace_file(recipe_path, session_.document.toml);
-    }
+    bytes_ = static_cast<std::int64_t>(stays ? text.size() : shortest.size());
 }
 
 void DocumentFolder::append(std::string const& line) {

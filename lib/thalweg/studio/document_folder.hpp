@@ -11,6 +11,8 @@
 
 namespace thalweg::studio {
 
+struct Journal;
+
 /// Makes the folder of a document, completely or not at all: recipe.toml, which `thalweg make` makes the same terrain
 /// of; inputs/, with copies of all its files; history.jsonl, every edit as a line of JSON. \param folder a new one, or
 /// an empty one \param input a recipe, a folder that make wrote (its recipe is taken), or rivers as for
@@ -55,6 +57,7 @@ public:
 
 private:
     void open();
+    void mend(std::string const& path, std::string const& text, Journal const& journal, bool is_whole);
     void save(Document after, std::string const& line);
     void append(std::string const& line);
 
