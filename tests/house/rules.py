@@ -11,7 +11,8 @@ import sys
 # Which modules a module may include, besides itself. Stage modules meet in pipeline only.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
+MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES,
+           "studio": BELOW + STAGES + ["pipeline"]}
 MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
 
@@ -29,6 +30,7 @@ FOREIGN = {
     "io": ["gdal", "ogr", "cpl_", "proj.h"],
     "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
+    "studio": ["nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/"],
 }
 FOREIGN_ANYWHERE = ["fmt/", "boost/graph/", "boost/property_map/"]
