@@ -257,9 +257,17 @@ export class View3d {
   draw(fine = !this.software) {
     if (this.waiting) cancelAnimationFrame(this.waiting);
     this.waiting = undefined;
-    clearTimeout(this.resting);
-    this.resting = fine ? undefined : setTimeout(() => this.draw(true), 160);
-    this.ratio = Math.min(window.devicePixelRatio || 1, 2) * (fine ? 1 : 0.55);
+    const rest = (this.resting = fine ? undefined : {});
+    if (rest) {
+      // The coarse picture is shown before the fine one is begun.
+      const wait = (frames) => {
+        if (this.resting !== rest) return;
+        if (frames > 0) requestAnimationFrame(() => wait(frames - 1));
+        else setTimeout(() => this.resting === rest && this.draw(true), 160);
+      };
+      wait(2);
+    }
+    this.ratio = Math.min(window.devicePixelRatio || 1, 2) * (fine ? 1 : this.size ? 0.55 : 0.4);
     const { clientWidth: width, clientHeight: height } = this.parent;
     const size = `${width} ${height} ${this.ratio}`;
     if (size !== this.size) this.renderer.setDrawingBufferSize(width, height, this.ratio);
