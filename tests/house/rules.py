@@ -11,8 +11,10 @@ import sys
 # Which modules a module may include, besides itself. Stage modules meet in pipeline only.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES}
+MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES,
+           "studio": BELOW + STAGES + ["pipeline"]}
 MODULES.update({stage: BELOW for stage in STAGES})
+MODULES["serve"] = ["core"]
 
 # The families of pipeline, in their order: each may include those before it.
 FAMILIES = ["recipe", "plan", "make", "report", "commands"]
@@ -26,7 +28,9 @@ FOREIGN = {
     "surface": ["muParser"],
     "draw": ["cairo", "fontconfig/"],
     "io": ["gdal", "ogr", "cpl_", "proj.h"],
+    "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
+    "studio": ["nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/"],
 }
 FOREIGN_ANYWHERE = ["fmt/", "boost/graph/", "boost/property_map/"]

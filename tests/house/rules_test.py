@@ -20,6 +20,8 @@ PLANTED = [
     ("lib/thalweg/core/run/run.cpp", "#include <thalweg/network/vectorise/vectorise.hpp>", "dependencies point one way"),
     ("lib/thalweg/io/raster/read_dem.cpp", "#include <thalweg/pipeline/recipe/recipe.hpp>", "dependencies point one way"),
     ("lib/thalweg/geometry/crossings.cpp", "#include <gdal.h>", "does not belong to geometry"),
+    ("lib/thalweg/serve/serve.hpp", "#include <boost/beast/http.hpp>", "in a header"),
+    ("lib/thalweg/serve/serve.cpp", "#include <thalweg/io/raster/read_dem.hpp>", "dependencies point one way"),
     ("tools/commands/make.cpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "is for the .cpp files of network alone"),
     ("lib/thalweg/network/order/order.hpp", "#include <thalweg/network/order/internal/require_trees.hpp>", "of network alone"),
     (NETWORK, "#include <CGAL/Arrangement_2.h>", "does not belong to network"),

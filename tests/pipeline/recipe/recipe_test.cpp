@@ -173,6 +173,27 @@ TEST(Recipe, SetTakesBareWordsAndNumbers) {
     }
 }
 
+TEST(Recipe, KeysAndSectionsAreTakenBack) {
+    Recipe recipe = cluster_recipe();
+    set_key(recipe, "patch.1.source", "a.tif");
+    set_key(recipe, "patch.2.source", "b.tif");
+    set_key(recipe, "detail.levels", "3");
+    for (char const* path : {"network.prune", "network.dla.branch", "seed", "patch.2.source", "patch.1", "detail"}) {
+        unset_key(recipe, path);
+    }
+    EXPECT_FALSE(recipe.network->prune_cells);
+    EXPECT_EQ(recipe.network->branch, network::BranchChoice::largest);
+    EXPECT_EQ(recipe.patches.size(), 1U);
+    EXPECT_EQ(recipe.patches[0].source, "");
+    EXPECT_FALSE(recipe.detail);
+    for (char const* bad :
+         {"", ".", "detail", "detail.levels", "patch.2", "patch.7.source", "grid", "network.prunes"}) {
+        EXPECT_THROW(unset_key(recipe, bad), BadParameter) << bad;
+    }
+    EXPECT_TRUE(has(message_of([&] { require_effect(recipe, "surface.base"); }), "surface.base has no effect"));
+    require_effect(recipe, "network.dla.branch");
+}
+
 TEST(Recipe, PatchesAreSetByNumber) {
     Recipe recipe = cluster_recipe();
     set_key(recipe, "patch.source=a.tif");

@@ -301,6 +301,21 @@ Recipe read_recipe(std::string const& toml, std::string const& name);
 /// \param assignment "section.key=value"
 void set_key(Recipe& recipe, std::string const& assignment);
 
+/// Sets one key, as set_key() does.
+/// \param path "section.key", "patch.2.key"
+/// \param text the value as it stands after "="
+void set_key(Recipe& recipe, std::string const& path, std::string const& text);
+
+/// Takes a key back to its default, or a section ("detail") or patch ("patch.2") out of a recipe.
+/// \param path of a key or section
+/// \throws BadParameter when there is no such key or section, or a recipe cannot be without it
+void unset_key(Recipe& recipe, std::string const& path);
+
+/// Checks that a key decides something.
+/// \param path "section.key", "patch.2.key"
+/// \throws BadParameter when it has no effect in this recipe, with what it needs
+void require_effect(Recipe const& recipe, std::string const& path);
+
 /// \return the recipe as TOML: every key that has an effect, defaults too. read_recipe gives it back.
 std::string write_recipe(Recipe const& recipe);
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 
+#include <algorithm>
 #include <filesystem>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
@@ -113,6 +116,73 @@ std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, 
     return notes;
 }
 
+namespace {
+
+/// A file name as TOML and JSON can contain it.
+std::string name_in_utf8(std::string name) {
+    if (!is_utf8(name)) {
+        std::ranges::replace_if(
+            name, [](char c) { return static_cast<unsigned char>(c) >= 0x80U; }, '_');
+    }
+    return name;
+}
+
+/// Copies a named input and its companions into a folder of the output.
+/// \return its new name
+std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
+                       std::string const& into) {
+    fs::path const given(name);
+    fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
+    std::vector<std::string> const files = io::is_text_of_points(path.string())
+                                               ? std::vector<std::string>{path.string()}
+                                               : io::dataset_files({path.string(), io::Access::recipe});
+    std::string const own = name_in_utf8(path.filename().string());
+    std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
+    for (std::string const& file : files) {
+        if (fs::is_regular_file(file)) {
+            io::copy_file(file, out.path(place + name_in_utf8(fs::path(file).filename().string())));
+        }
+    }
+    return into + own;
+}
+
+/// Whether a recipe may name a file as it is.
+bool is_plain(std::string const& path) {
+    return io::is_text_of_points(path) || io::is_recipe_file(path);
+}
+
+} // namespace
+
+std::vector<std::string> file_names(Recipe const& recipe) {
+    std::vector<std::string> names;
+    for (NamedFile const& file : files_of(recipe)) {
+        names.push_back(file.name);
+    }
+    return names;
+}
+
+Recipe keep_inputs(Recipe recipe, io::OutputFolder const& out) {
+    for (NamedFile const& file : files_of(recipe)) {
+        Key const& key = *file.key;
+        bool const is_array = key.part->is_array;
+        if (is_array || key.use.holds(recipe)) {
+            std::string const items = is_array ? fmt::format("{}{}/", key.part->name, file.item + 1) : "";
+            std::string const into = "inputs/" + items + key.folder;
+            key.put(recipe, keep_input(out, recipe.folder, file.name, into), file.item);
+        }
+    }
+    recipe.folder.clear();
+    return recipe;
+}
+
+std::string keep_user_file(std::string const& path, io::OutputFolder const& out, Run const& run) {
+    std::error_code ignored;
+    refuse_if<BadInput>(path.empty() || (!is_address(path) && !fs::exists(path, ignored)),
+                        "pipeline.keep_user_file: there is no file {}", path);
+    return is_plain(path) ? keep_input(out, "", path, "")
+                          : fs::path(io::plain_copy(path, "", out.staging(), run)).filename().string();
+}
+
 UserFiles::UserFiles(Recipe& recipe, Run const& run) {
     for (NamedFile const& file : files_of(recipe)) {
         if (is_users(recipe, file.key->place(file.item))) {
@@ -125,7 +195,7 @@ std::string UserFiles::copied(Recipe const& recipe, std::string const& name, std
     std::string const path = file_in(recipe, name).path;
     std::error_code ignored;
     bool const is_missing = !io::names_connection(path) && !fs::exists(path, ignored) && !path.starts_with("/vsi");
-    if (name.empty() || is_missing || io::is_text_of_points(path) || io::is_recipe_file(path)) {
+    if (name.empty() || is_missing || is_plain(path)) {
         return name; // what is missing is reported by the stage that needs it
     }
     if (!folder_) {

@@ -3,6 +3,8 @@
 #pragma once
 
 #include <memory>
+#include <string>
+#include <vector>
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -25,5 +27,21 @@ private:
     std::unique_ptr<io::TemporaryFolder> folder_; ///< null where nothing was copied
     int copies_ = 0;
 };
+
+/// \return the name of every file in a recipe, in the order of recipe files.
+std::vector<std::string> file_names(Recipe const& recipe);
+
+/// Copies every file of a recipe, with what belongs to it, into inputs/ of an output.
+/// \param recipe any; files of keys without an effect are left
+/// \param out the output
+/// \return the recipe with the names of the copies, and no folder
+/// \throws BadInput when a file is missing or cannot be read
+Recipe keep_inputs(Recipe recipe, io::OutputFolder const& out);
+
+/// Copies a file that the user names, with what belongs to it, into an output; a database, an address or a format that
+/// no recipe may name becomes a GeoPackage or a GeoTIFF, as with UserFiles.
+/// \return its name there
+/// \throws BadInput when it is missing or cannot be read
+std::string keep_user_file(std::string const& path, io::OutputFolder const& out, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -168,22 +168,31 @@ template <auto part> std::size_t count_of(Recipe const& recipe) {
     return (recipe.*part).has_value() ? 1 : 0;
 }
 
-/// A section that is named is a stage that runs, empty or not.
 template <auto part> void begin_one(Recipe& recipe) {
     if (!(recipe.*part)) {
         (recipe.*part).emplace();
     }
 }
 
+template <auto part> void remove_one(Recipe& recipe, Item) {
+    (recipe.*part).reset();
+}
+
+/// A section that is named is a stage that runs, empty or not.
+template <auto part> constexpr Section stage(char const* name) {
+    return {name, count_of<part>, begin_one<part>, remove_one<part>};
+}
+
 constexpr std::array<Section, 9> sections = {
     {{"", always_one, nothing_to_begin},
      {"grid", always_one, nothing_to_begin},
-     {"network", count_of<&Recipe::network>, begin_one<&Recipe::network>},
-     {"skeleton", count_of<&Recipe::skeleton>, begin_one<&Recipe::skeleton>},
-     {"surface", count_of<&Recipe::surface>, begin_one<&Recipe::surface>},
-     {"statistics", count_of<&Recipe::statistics>, begin_one<&Recipe::statistics>},
-     {"detail", count_of<&Recipe::detail>, begin_one<&Recipe::detail>},
-     {"patch", [](Recipe const& r) { return r.patches.size(); }, [](Recipe& r) { r.patches.emplace_back(); }, true},
+     stage<&Recipe::network>("network"),
+     stage<&Recipe::skeleton>("skeleton"),
+     stage<&Recipe::surface>("surface"),
+     stage<&Recipe::statistics>("statistics"),
+     stage<&Recipe::detail>("detail"),
+     {"patch", [](Recipe const& r) { return r.patches.size(); }, [](Recipe& r) { r.patches.emplace_back(); },
+      [](Recipe& r, Item item) { r.patches.erase(r.patches.begin() + static_cast<std::ptrdiff_t>(item)); }, true},
      {"output", always_one, nothing_to_begin}}};
 
 /// By KeyKind.
@@ -279,6 +288,24 @@ void Key::put(Recipe& recipe, Value const& value, std::optional<Item> item) cons
         part->begin(recipe);
     }
     std::visit(Store{*this, value}, row->field(recipe, item.value_or(part->count(recipe) - 1)));
+}
+
+void Key::reset(Recipe& recipe, Item item) const {
+    Recipe standard = with_all_sections();
+    Field const field = row->field(recipe, item);
+    Field const usual = row->field(standard, 0);
+    if (auto const* const word = std::get_if<Enumeration>(&field)) {
+        word->set(word->at, word->get(std::get<Enumeration>(usual).at));
+        return;
+    }
+    std::visit(
+        [](auto const& to, auto const& from) {
+            if constexpr (std::is_same_v<decltype(to), decltype(from)> &&
+                          std::is_pointer_v<std::decay_t<decltype(to)>>) {
+                *to = *from;
+            }
+        },
+        field, usual);
 }
 
 std::optional<Value> Key::take(Recipe const& recipe, std::optional<Item> item) const {

@@ -356,23 +356,62 @@ void assign(Recipe& recipe, Key const& key, std::optional<std::size_t> item, std
     recipe.set_at[key.place(item.value_or(key.part->count(recipe) - 1))] = "--set";
 }
 
+Key const& key_at(Target const& target) {
+    Key const* const key = find_key(target.path);
+    if (key == nullptr) {
+        throw BadParameter(unknown_key(cut(target.path)));
+    }
+    return *key;
+}
+
+void remove_section(Recipe& recipe, Section const& section, std::optional<std::size_t> item) {
+    std::size_t const count = section.count(recipe);
+    refuse_if<BadParameter>(section.remove == nullptr, "[{}] is part of every recipe", section.name);
+    refuse_if<BadParameter>(count == 0 || item.value_or(0) >= count, "the recipe has no such [{}]", section.name);
+    section.remove(recipe, item.value_or(count - 1));
+    std::erase_if(recipe.set_at,
+                  [&](auto const& at) { return at.first.starts_with(fmt::format("{}.", section.name)); });
+}
+
 } // namespace
+
+void set_key(Recipe& recipe, std::string const& path, std::string const& text) {
+    Target const target = target_of(path);
+    assign(recipe, key_at(target), target.item, text);
+}
 
 void set_key(Recipe& recipe, std::string const& assignment) {
     auto const equals = assignment.find('=');
     if (equals == std::string::npos || equals == 0) {
         throw BadParameter(fmt::format("--set {}: write section.key=value", cut(assignment)));
     }
-    Target const target = target_of(assignment.substr(0, equals));
-    Key const* const key = find_key(target.path);
-    if (key == nullptr) {
-        throw BadParameter(fmt::format("--set {}: {}", cut(assignment), unknown_key(cut(target.path))));
-    }
     try {
-        assign(recipe, *key, target.item, assignment.substr(equals + 1));
+        set_key(recipe, assignment.substr(0, equals), assignment.substr(equals + 1));
     } catch (BadParameter const& fault) {
         throw BadParameter(fmt::format("--set {}: {}", cut(assignment), fault.what()));
     }
+}
+
+void unset_key(Recipe& recipe, std::string const& path) {
+    Target const whole = target_of(path + "."); // "patch.2." is "patch." of item 1
+    if (Section const* const section = find_section(whole.path.substr(0, whole.path.size() - 1));
+        section != nullptr && !section->name.empty()) {
+        remove_section(recipe, *section, whole.item);
+        return;
+    }
+    Target const of_key = target_of(path);
+    Key const& key = key_at(of_key);
+    std::size_t const count = key.part->count(recipe);
+    std::size_t const item = of_key.item.value_or(count - 1);
+    refuse_if<BadParameter>(count == 0 || item >= count, "{}: the recipe has no such section", cut(path));
+    key.reset(recipe, item);
+    recipe.set_at.erase(key.place(item));
+}
+
+void require_effect(Recipe const& recipe, std::string const& path) {
+    Key const& key = key_at(target_of(path));
+    refuse_if<BadParameter>(!key.use.holds(recipe), "{} has no effect in this recipe: it needs {}", cut(path),
+                            key.use.lacks(recipe));
 }
 
 namespace {

@@ -24,7 +24,7 @@
 #include <thalweg/network/planform/split_confluences.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
@@ -56,51 +56,6 @@ double contour_interval(Made const& t) {
 /// For pictures and the page, which are in metres.
 double contour_interval_m(Made const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
-}
-
-/// A file name as TOML and JSON can contain it.
-std::string name_in_utf8(std::string name) {
-    if (!is_utf8(name)) {
-        std::ranges::replace_if(
-            name, [](char c) { return static_cast<unsigned char>(c) >= 0x80U; }, '_');
-    }
-    return name;
-}
-
-/// Copies a named input and its companions into a folder of the output.
-/// \return its new name
-std::string keep_input(io::OutputFolder const& out, std::string const& folder, std::string const& name,
-                       std::string const& into) {
-    fs::path const given(name);
-    fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
-    std::vector<std::string> const files = io::is_text_of_points(path.string())
-                                               ? std::vector<std::string>{path.string()}
-                                               : io::dataset_files({path.string(), io::Access::recipe});
-    std::string const own = name_in_utf8(path.filename().string());
-    std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
-    for (std::string const& file : files) {
-        if (fs::is_regular_file(file)) {
-            io::copy_file(file, out.path(place + name_in_utf8(fs::path(file).filename().string())));
-        }
-    }
-    return into + own;
-}
-
-/// Copies every file of the recipe into inputs/.
-/// \return the recipe with the names of the copies
-Recipe keep_inputs(Made const& made, io::OutputFolder const& out) {
-    Recipe recipe = made.recipe;
-    for (NamedFile const& file : files_of(recipe)) {
-        Key const& key = *file.key;
-        bool const is_array = key.part->is_array;
-        if (is_array || key.use.holds(recipe)) {
-            std::string const items = is_array ? fmt::format("{}{}/", key.part->name, file.item + 1) : "";
-            std::string const into = "inputs/" + items + key.folder;
-            key.put(recipe, keep_input(out, recipe.folder, file.name, into), file.item);
-        }
-    }
-    recipe.folder.clear();
-    return recipe;
 }
 
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
@@ -219,7 +174,7 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
                                        Run const& run) {
     io::OutputFolder out(folder, existing, files_left_in(folder));
     run.at(0.0, "write");
-    Recipe const recipe = keep_inputs(made, out);
+    Recipe const recipe = keep_inputs(made.recipe, out);
     if (made.recipe.network) {
         write_network(made, out, run);
     }

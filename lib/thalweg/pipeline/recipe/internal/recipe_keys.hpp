@@ -145,10 +145,11 @@ struct Use {
 
 /// A section of recipe files, [network] with what lies below it, or the keys before the first section.
 struct Section {
-    std::string_view name;               ///< "network"; "" before the first section
-    std::size_t (*count)(Recipe const&); ///< how many a recipe has; what it cannot be without is 1
-    void (*begin)(Recipe&);              ///< makes it, or one more of an array
-    bool is_array = false;               ///< [[patch]]: each mention is one more
+    std::string_view name;                   ///< "network"; "" before the first section
+    std::size_t (*count)(Recipe const&);     ///< how many a recipe has; what it cannot be without is 1
+    void (*begin)(Recipe&);                  ///< makes it, or one more of an array
+    void (*remove)(Recipe&, Item) = nullptr; ///< takes it out; null: no recipe is without it
+    bool is_array = false;                   ///< [[patch]]: each mention is one more
 };
 
 /// A key. Of a section that is an array, item counts from 0; without one the last is meant.
@@ -164,6 +165,8 @@ struct Key {
     /// Makes the section, or the item after the last, where it is not there.
     /// \throws BadParameter with the reason alone; the recipe is unchanged then
     void put(Recipe& recipe, Value const& value, std::optional<Item> item = {}) const;
+    /// Takes it back to its default, in a section that is there.
+    void reset(Recipe& recipe, Item item) const;
     /// Nothing where the section or the value is left out.
     std::optional<Value> take(Recipe const& recipe, std::optional<Item> item = {}) const;
     /// "patch.2.rotate" of the second patch; the path of any other.
