@@ -14,10 +14,10 @@ export function number(value, digits = 4) {
 /** A range in figures. */
 export const between = ([low, high]) => `${number(low, 3)}–${number(high, 3)}`;
 
-/** The largest of 1, 2, 5 times a power of ten that gives no fewer than `least` steps. */
-function roundStep(span, least) {
-  const power = 10 ** Math.floor(Math.log10(span / least));
-  return [5, 2, 1].map((m) => m * power).find((step) => span / step >= least) ?? power;
+/** The largest of 1, 2 or 5 times a power of ten that is not above a length. */
+export function roundBelow(length) {
+  const power = 10 ** Math.floor(Math.log10(length));
+  return [5, 2, 1].map((m) => m * power).find((step) => step <= length * (1 + 1e-9)) ?? power;
 }
 
 function logarithmic(values) {
@@ -39,7 +39,7 @@ function scale(values, { log, whole, least }) {
     low -= half;
     high += half;
   }
-  const step = whole ? 1 : roundStep(high - low, least);
+  const step = whole ? 1 : roundBelow((high - low) / least);
   const ticks = [];
   for (let t = Math.ceil(low / step - 1e-9) * step; t <= high + 1e-9 * step; t += step) ticks.push(Math.abs(t) < 1e-9 * step ? 0 : t);
   if (whole) {

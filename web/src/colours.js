@@ -57,7 +57,8 @@ export const ridgeColour = [120, 74, 40];
 export const markColour = [255, 120, 0];
 
 /** The landform of each value: which of eight directions look up or down, within 12 values and over one degree. */
-function landforms(land, { width, height, z, has }) {
+function landforms(land) {
+  const { width, height, z, has } = land;
   const codes = new Float32Array(z.length);
   const side = land.cells * land.grid.cell_m;
   const ways = [[1, 0], [1, 1], [0, 1], [-1, 1], [-1, 0], [-1, -1], [0, -1], [1, -1]];
@@ -104,8 +105,8 @@ export const modes = {
   },
   slope: {
     label: 'slope',
-    make: ({ land, slope }) => ({ values: Float32Array.from(slope.east, (e, i) => (Math.atan(Math.hypot(e, slope.south[i])) * 180) / Math.PI),
-      low: 0, high: 60, palette: palette(steep), legend: { ramp: steep, from: '0°', to: '60°' }, land }),
+    make: ({ slope }) => ({ values: Float32Array.from(slope.east, (e, i) => (Math.atan(Math.hypot(e, slope.south[i])) * 180) / Math.PI),
+      low: 0, high: 60, palette: palette(steep), legend: { ramp: steep, from: '0°', to: '60°' } }),
   },
   aspect: {
     label: 'aspect',
@@ -133,7 +134,7 @@ export const modes = {
   hack: { label: 'Hack order', needs: 'rivers', lines: 'hack', make: () => ({ values: null, low: 0, high: 1, palette: palette(plain), legend: null }) },
   forms: {
     label: 'landforms (geomorphons)',
-    make: ({ land }) => ({ values: landforms(land, land), low: 0, high: 255, byClass: true, palette: classes(forms.map(([, c]) => c)), legend: { entries: forms } }),
+    make: ({ land }) => ({ values: landforms(land), low: 0, high: 255, byClass: true, palette: classes(forms.map(([, c]) => c)), legend: { entries: forms } }),
   },
   difference: {
     label: 'difference from another report…',

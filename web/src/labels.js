@@ -2,16 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Words and the scale bar over the view, on a canvas of their own. No label covers another.
 
+import { roundBelow } from './chart.js';
+
 const family = "system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', 'Noto Sans CJK SC', sans-serif";
 
-/** The largest of 1, 2 or 5 times a power of ten that is not above a length. */
-export function roundBelow(length) {
-  const power = 10 ** Math.floor(Math.log10(length));
-  return [5, 2, 1].map((m) => m * power).find((step) => step <= length * (1 + 1e-9)) ?? power;
-}
-
 export class Labels {
-  boxes = []; // of what is written: {text, x0, y0, x1, y1} in pixels of the page
+  boxes = []; // of what is written: {text, kind, x0, y0, x1, y1} in pixels of the page
 
   constructor(parent) {
     this.canvas = document.createElement('canvas');
@@ -52,7 +48,7 @@ export class Labels {
       if (label.kind === 'contour') {
         const [c, s] = [Math.abs(Math.cos(label.angle)), Math.abs(Math.sin(label.angle))];
         const [hx, hy] = [(wide * c + size * s) / 2 + 2, (wide * s + size * c) / 2 + 2];
-        const box = { text: label.text, x0: label.x - hx, x1: label.x + hx, y0: label.y - hy, y1: label.y + hy };
+        const box = { text: label.text, kind: label.kind, x0: label.x - hx, x1: label.x + hx, y0: label.y - hy, y1: label.y + hy };
         if (!free(box)) continue;
         taken.push(box);
         this.boxes.push(box);
@@ -67,7 +63,7 @@ export class Labels {
       // Right of the place, else left, above, below.
       const gap = 6;
       const tries = [[gap, -size / 2], [-gap - wide, -size / 2], [-wide / 2, -size - gap], [-wide / 2, gap]];
-      const found = tries.map(([dx, dy]) => ({ text: label.text, x0: label.x + dx - 1, x1: label.x + dx + wide + 1, y0: label.y + dy - 2, y1: label.y + dy + size + 2 })).find(free);
+      const found = tries.map(([dx, dy]) => ({ text: label.text, kind: label.kind, x0: label.x + dx - 1, x1: label.x + dx + wide + 1, y0: label.y + dy - 2, y1: label.y + dy + size + 2 })).find(free);
       if (!found) continue;
       const dot = { x0: label.x - 4, x1: label.x + 4, y0: label.y - 4, y1: label.y + 4 };
       taken.push(found, dot);

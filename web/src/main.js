@@ -400,8 +400,10 @@ function start() {
     heights: () => Float32Array.from(land.z, (z, i) => (land.has && !land.has[i] ? NaN : z)),
     /** Strahler orders of the arcs as pruned now, 0 for those that are gone. */
     orders: () => Array.from(orders),
-    /** What is written over the view: {text, x0, y0, x1, y1} [pixels]. */
+    /** What is written over the view: {text, kind, x0, y0, x1, y1} [pixels]. */
     labels: () => view.labels.boxes,
+    /** The interval of the contours drawn now [m], 0: none. */
+    contour: () => view.places?.step ?? view.contour,
     /** A place [cells] on the view [pixels], or null. */
     project: (x, y) => view.project(x, y),
     /** When the view rests. */

@@ -189,7 +189,6 @@ export class View3d {
 
   look({ exaggeration, contour, azimuth, altitude, shadeGain }) {
     const { ground, land } = this;
-    const u = ground.uniforms;
     const lift = land.level ? 1 : exaggeration;
     const raised = lift !== ground.lift;
     if (raised) {
@@ -207,8 +206,6 @@ export class View3d {
       Object.assign(this, { azimuth, altitude });
       ground.shine(MathUtils.degToRad(azimuth), MathUtils.degToRad(altitude));
     }
-    u.contour.value = this.contour;
-    if (this.places?.contour !== this.contour) this.places = { contour: this.contour, list: contourPlaces(land, 5 * this.contour, 40) };
     this.controls.update();
     this.redraw();
   }
@@ -277,13 +274,14 @@ export class View3d {
     const u = ground.uniforms;
     const lift = ground.lift ?? 1;
     u.gain.value = this.onmap ? this.shadeGain ?? 1 : lift;
-    // On the map contours thin out until they have room.
+    // On the map contours thin out until they have room: 1, 2, 5, 10, …
     let step = this.contour;
     if (this.onmap && step > 0) {
-      const steep = Math.max(this.land.steepness(), 1e-6);
-      while ((step / steep / this.land.grid.cell_m) / this.cellsPerPixel < 5) step *= String(step).match(/^0*\.?0*2/) ? 2.5 : 2;
+      const steep = Math.max(this.land.steepness(), 1e-6) * this.land.grid.cell_m;
+      while (step / steep / this.cellsPerPixel < 5) step *= Math.floor(step / 10 ** Math.floor(Math.log10(step) + 1e-9) + 1e-9) === 2 ? 2.5 : 2;
     }
     u.contour.value = step;
+    if (this.places?.step !== step) this.places = { step, list: contourPlaces(this.land, u.index.value * step, 40) };
     ground.air.near.value = Math.max(0, this.perspective.position.distanceTo(this.controls.target) - 0.7);
     ground.air.backdrop.value = ground.sea?.around ? 0 : this.renderer.domElement.height;
     if (this.onmap) ground.ocean.visible = false;
