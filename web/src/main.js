@@ -402,8 +402,8 @@ function start() {
     orders: () => Array.from(orders),
     /** What is written over the view: {text, kind, x0, y0, x1, y1} [pixels]. */
     labels: () => view.labels.boxes,
-    /** The interval of the contours drawn now [m], 0: none. */
-    contour: () => view.places?.step ?? view.contour,
+    /** The contours drawn now: {step, index: of the labelled ones} [m], 0: none. */
+    contours: () => view.drawn ?? { step: view.contour, index: 5 * view.contour },
     /** A place [cells] on the view [pixels], or null. */
     project: (x, y) => view.project(x, y),
     /** When the view rests. */

@@ -281,7 +281,11 @@ export class View3d {
       while (step / steep / this.cellsPerPixel < 5) step *= Math.floor(step / 10 ** Math.floor(Math.log10(step) + 1e-9) + 1e-9) === 2 ? 2.5 : 2;
     }
     u.contour.value = step;
-    if (this.places?.step !== step) this.places = { step, list: contourPlaces(this.land, u.index.value * step, 40) };
+    // Every fifth is heavier and labelled, as before they thinned out where that is one of those drawn.
+    const index = step > 0 && Number.isInteger((5 * this.contour) / step) ? 5 * this.contour : 5 * step;
+    u.index.value = step > 0 ? index / step : 5;
+    if (this.places?.index !== index) this.places = { index, list: contourPlaces(this.land, index, 40) };
+    this.drawn = { step, index };
     ground.air.near.value = Math.max(0, this.perspective.position.distanceTo(this.controls.target) - 0.7);
     ground.air.backdrop.value = ground.sea?.around ? 0 : this.renderer.domElement.height;
     if (this.onmap) ground.ocean.visible = false;
