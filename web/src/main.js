@@ -5,6 +5,7 @@ import './style.css';
 import { Land } from './land.js';
 import { createPage, tellAll } from './page.js';
 import { Rivers } from './rivers.js';
+import { openStudio } from './studio.js';
 import { Water } from './water.js';
 
 const text = (id) => document.getElementById(id).textContent;
@@ -23,7 +24,9 @@ function packed() {
 
 window.addEventListener('error', (event) => fail(event.error ?? event.message));
 try {
-  createPage(packed(), state);
+  const studio = text('studio').trim();
+  if (studio.startsWith('{')) openStudio(JSON.parse(studio), state);
+  else createPage(packed(), state);
 } catch (error) {
   fail(error);
   console.error(error);
