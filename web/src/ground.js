@@ -312,34 +312,82 @@ function halved(data, width, height, parts) {
 export class Ground {
   /** sky: values along the longer side by which the sky's share is reckoned. */
   constructor(land, segments, linear, lakes, sea, sky) {
+    this.segments = segments;
     this.skyValues = sky;
-    this.land = land;
-    this.sea = sea;
-    this.lakes = lakes;
-    const { width, height } = land.grid;
-    this.unit = 2 / Math.max(width, height); // of space a cell
-    this.halfX = (width * this.unit) / 2;
-    this.halfZ = (height * this.unit) / 2;
-    this.perMetre = this.unit / land.grid.cell_m;
-    this.field = new LineField(land.grid);
-    // As many stitches as asked along the longer side, never more than values.
-    const most = Math.max(land.width, land.height);
-    this.columns = Math.max(1, Math.min(land.width, Math.round((segments * land.width) / most)));
-    this.rows = Math.max(1, Math.min(land.height, Math.round((segments * land.height) / most)));
+    this.linear = linear;
+    this.#measure(land, lakes, sea);
     this.group = new Group();
+    this.geometry = new BufferGeometry();
     this.#stitch();
     this.air = {
       onMap: { value: 0 }, unit: { value: this.unit * land.cells }, near: { value: 0 }, backdrop: { value: 0 }, dark: { value: 0 }, sunThere: { value: new Vector3(0, 1, 0) },
       horizon: { value: new Vector3(1, 1, 1) }, zenith: { value: new Vector3(1, 1, 1) }, grain: { value: grain() },
     };
-    this.group.add(new Mesh(this.geometry, this.#material(linear)));
-    this.walls = this.#walls();
+    this.group.add(new Mesh(this.geometry, this.#material()));
+    this.walls = new Mesh(this.#wallsGeometry(), new ShaderMaterial({ glslVersion: GLSL3, vertexShader: wallVertexShader, fragmentShader: wallShader,
+      uniforms: this.air, side: DoubleSide }));
     this.group.add(this.walls);
     this.sky = new Mesh(new SphereGeometry(40, 24, 16), this.#plain(skyShader, { depthWrite: false, side: BackSide }));
     this.sky.renderOrder = 2; // where nothing else is
     this.sky.frustumCulled = false;
-    this.ocean = new Mesh(new PlaneGeometry(70, 70).rotateX(-Math.PI / 2), this.#plain(seaShader, {}, { half_: { value: new Vector2(this.halfX, this.halfZ) }, surf: this.uniforms.surf }));
+    this.half = { value: new Vector2(this.halfX, this.halfZ) };
+    this.ocean = new Mesh(new PlaneGeometry(70, 70).rotateX(-Math.PI / 2), this.#plain(seaShader, {}, { half_: this.half, surf: this.uniforms.surf }));
     this.ocean.renderOrder = 1;
+  }
+
+  #measure(land, lakes, sea) {
+    Object.assign(this, { land, lakes, sea });
+    const { width, height } = land.grid;
+    this.unit = 2 / Math.max(width, height); // of space a cell
+    this.halfX = (width * this.unit) / 2;
+    this.halfZ = (height * this.unit) / 2;
+    this.perMetre = this.unit / land.grid.cell_m;
+    if (this.field?.of !== `${width} ${height}`) this.field = Object.assign(new LineField(land.grid), { of: `${width} ${height}` });
+    // As many stitches as asked along the longer side, never more than values.
+    const most = Math.max(land.width, land.height);
+    this.columns = Math.max(1, Math.min(land.width, Math.round((this.segments * land.width) / most)));
+    this.rows = Math.max(1, Math.min(land.height, Math.round((this.segments * land.height) / most)));
+  }
+
+  /** Puts other land in the place of this: raise(), shine(), paint() and lines() must follow. */
+  replace(land, lakes, sea) {
+    const before = { grid: this.land.grid, columns: this.columns, rows: this.rows };
+    const sameFrame = ['width', 'height'].every((key) => before.grid[key] === land.grid[key]);
+    this.#measure(land, lakes, sea);
+    // Coarse land is laid on the finer mesh that is there already.
+    if (sameFrame && before.columns >= this.columns && before.rows >= this.rows) Object.assign(this, { columns: before.columns, rows: before.rows });
+    if (sameFrame && before.columns === this.columns && before.rows === this.rows) {
+      this.#lay();
+      for (const name of ['position', 'uv']) this.geometry.getAttribute(name).needsUpdate = true;
+    } else {
+      this.geometry.dispose();
+      this.#stitch();
+      this.walls.geometry.dispose();
+      this.walls.geometry = this.#wallsGeometry();
+    }
+    this.geometry.boundingSphere = null; // reckoned when it is next drawn
+    const u = this.uniforms;
+    const { width, height } = land;
+    if (u.values.value !== u.heights.value) u.values.value.dispose();
+    const { image } = u.heights.value;
+    if (image.width === width && image.height === height) {
+      image.data = land.z;
+      u.heights.value.needsUpdate = true;
+    } else {
+      u.heights.value.dispose();
+      u.heights.value = texture(land.z, width, height, RedFormat, FloatType, this.linear ? LinearFilter : NearestFilter);
+    }
+    u.values.value = u.heights.value;
+    this.slope = slopes(land);
+    u.cover.value.dispose();
+    u.cover.value = this.#cover();
+    u.size.value.set(width, height);
+    u.fine.value.set(this.field.width, this.field.height);
+    Object.assign(u.holes, { value: land.has ? 1 : 0 });
+    Object.assign(u.sea, { value: sea && land.has ? 1 : 0 });
+    Object.assign(u.level, { value: land.level ? 1 : 0 });
+    this.air.unit.value = this.unit * land.cells;
+    this.half.value.set(this.halfX, this.halfZ);
   }
 
   #plain(fragment, options, uniforms = {}) {
@@ -347,10 +395,28 @@ export class Ground {
   }
 
   #stitch() {
-    const { columns, rows, land } = this;
+    const { columns, rows } = this;
+    this.positions = new Float32Array((columns + 1) * (rows + 1) * 3);
+    this.uvs = new Float32Array((columns + 1) * (rows + 1) * 2);
+    this.#lay();
+    const index = new Uint32Array(columns * rows * 6);
+    for (let r = 0, k = 0; r < rows; ++r) {
+      for (let c = 0; c < columns; ++c) {
+        const a = r * (columns + 1) + c;
+        const b = a + columns + 1;
+        index.set([a, b, a + 1, b, b + 1, a + 1], k);
+        k += 6;
+      }
+    }
+    this.geometry.setAttribute('position', new BufferAttribute(this.positions, 3));
+    this.geometry.setAttribute('uv', new BufferAttribute(this.uvs, 2));
+    this.geometry.setIndex(new BufferAttribute(index, 1));
+  }
+
+  /** The mesh's places on the land. */
+  #lay() {
+    const { columns, rows, land, positions, uvs } = this;
     const { width, height } = land.grid;
-    const positions = new Float32Array((columns + 1) * (rows + 1) * 3);
-    const uvs = new Float32Array((columns + 1) * (rows + 1) * 2);
     for (let r = 0, i = 0; r <= rows; ++r) {
       for (let c = 0; c <= columns; ++c, ++i) {
         const x = (c / columns) * width;
@@ -362,26 +428,11 @@ export class Ground {
         uvs[2 * i + 1] = y / land.cells / land.height;
       }
     }
-    const index = new Uint32Array(columns * rows * 6);
-    for (let r = 0, k = 0; r < rows; ++r) {
-      for (let c = 0; c < columns; ++c) {
-        const a = r * (columns + 1) + c;
-        const b = a + columns + 1;
-        index.set([a, b, a + 1, b, b + 1, a + 1], k);
-        k += 6;
-      }
-    }
-    this.positions = positions;
-    this.geometry = new BufferGeometry();
-    this.geometry.setAttribute('position', new BufferAttribute(positions, 3));
-    this.geometry.setAttribute('uv', new BufferAttribute(uvs, 2));
-    this.geometry.setIndex(new BufferAttribute(index, 1));
   }
 
-  #material(linear) {
-    const { land } = this;
+  #material() {
+    const { land, linear } = this;
     const { width, height } = land;
-    this.linear = linear;
     const filter = linear ? LinearFilter : NearestFilter;
     const heights = texture(land.z, width, height, RedFormat, FloatType, filter);
     this.slope = slopes(land);
@@ -508,7 +559,7 @@ export class Ground {
   }
 
   /** Walls from the border down to a base, so that the land reads as a block. */
-  #walls() {
+  #wallsGeometry() {
     const { columns, rows } = this;
     const rim = [];
     for (let c = 0; c <= columns; ++c) rim.push(c);
@@ -522,8 +573,7 @@ export class Ground {
     const index = [];
     for (let i = 0; i + 1 < rim.length; ++i) index.push(2 * i, 2 * i + 1, 2 * i + 2, 2 * i + 1, 2 * i + 3, 2 * i + 2);
     geometry.setIndex(index);
-    return new Mesh(geometry, new ShaderMaterial({ glslVersion: GLSL3, vertexShader: wallVertexShader, fragmentShader: wallShader,
-      uniforms: this.air, side: DoubleSide }));
+    return geometry;
   }
 
   /** Vertical exaggeration. */

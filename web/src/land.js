@@ -4,7 +4,10 @@
 import { unpackHeights } from './unpack.js';
 
 export class Land {
-  constructor(grid, about, base64, sea) {
+  #numbers;
+
+  /** heights: as packed in the page, or float32 values [m] with NaN where there is none. */
+  constructor(grid, about, heights, sea) {
     this.grid = grid;
     this.sea = sea;
     if (about === null) { // rivers without a surface lie on level ground
@@ -25,16 +28,37 @@ export class Land {
     this.min = about.min;
     this.max = about.max;
     this.holes = about.nodata;
-    const q = (this.q = unpackHeights(base64, about.width, about.height));
-    const scale = (about.max - about.min) / 65534;
-    this.z = new Float32Array(q.length);
-    this.has = about.nodata > 0 ? new Uint8Array(q.length) : null;
-    for (let i = 0; i < q.length; ++i) {
-      this.z[i] = q[i] === 0 ? about.min : about.min + (q[i] - 1) * scale;
-      if (this.has) this.has[i] = q[i] === 0 ? 0 : 255;
-    }
+    this.has = about.nodata > 0 ? new Uint8Array(about.width * about.height) : null;
+    if (typeof heights === 'string') this.#unpack(heights);
+    else this.#take(heights);
     if (this.has && sea) this.z.forEach((_, i) => this.has[i] || (this.z[i] = sea.level));
     else if (this.has) this.#fillHoles();
+  }
+
+  #unpack(base64) {
+    const q = (this.#numbers = unpackHeights(base64, this.width, this.height));
+    const scale = (this.max - this.min) / 65534;
+    this.z = new Float32Array(q.length);
+    for (let i = 0; i < q.length; ++i) {
+      this.z[i] = q[i] === 0 ? this.min : this.min + (q[i] - 1) * scale;
+      if (this.has) this.has[i] = q[i] === 0 ? 0 : 255;
+    }
+  }
+
+  #take(values) {
+    this.z = Float32Array.from(values);
+    for (let i = 0; this.has && i < values.length; ++i) {
+      this.has[i] = Number.isNaN(values[i]) ? 0 : 255;
+      if (!this.has[i]) this.z[i] = this.min;
+    }
+  }
+
+  /** The heights as 16-bit numbers, 0 where there is none (web/README.md). */
+  get q() {
+    const range = this.max - this.min;
+    this.#numbers ??= Uint16Array.from(this.z, (z, i) =>
+      (this.has && !this.has[i] ? 0 : 1 + Math.floor((range > 0 ? (z - this.min) / range : 0) * 65534 + 0.5)));
+    return this.#numbers;
   }
 
   /** Gives holes the heights beside them, so that the land does not fall into them: they are not drawn. */

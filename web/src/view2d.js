@@ -11,20 +11,12 @@ export class View2d {
   names = [];
   places = [];
 
-  constructor(parent, land, rivers, { lakes, sea } = {}) {
+  constructor(parent, land, rivers, options = {}) {
     this.parent = parent;
-    this.land = land;
-    this.rivers = rivers;
     this.canvas = document.createElement('canvas');
     parent.append(this.canvas);
     this.labels = new Labels(parent);
-    const { width, height } = land;
-    this.shores = [];
-    if (sea && land.has) {
-      const wet = land.has.map((h) => (h ? 0 : 1));
-      this.shores.push({ wet, away: distanceInside(wet, width, height, 64), deep: 11, shallow: [168, 205, 214], bed: [92, 134, 172] });
-    }
-    if (lakes) this.shores.push({ wet: lakes, away: distanceInside(lakes, width, height, 64), deep: 4, shallow: [150, 194, 214], bed: [96, 148, 184] });
+    this.#hold(land, rivers, options);
     this.groups = [];
     this.marked = [];
     this.marks = []; // places [cells] shown by a ring
@@ -32,6 +24,26 @@ export class View2d {
     this.centre = [land.grid.width / 2, land.grid.height / 2];
     this.paper = [255, 255, 255];
     this.#listen();
+  }
+
+  /** Shows other land or rivers, as in view3d.js. */
+  replace(land, rivers, options) {
+    if (land === this.land && options.lakes === this.lakes) this.rivers = rivers;
+    else {
+      this.#hold(land, rivers, options);
+      this.relief = this.contour = this.painted = undefined; // look() and paint() shade and trace it
+    }
+  }
+
+  #hold(land, rivers, { lakes, sea }) {
+    Object.assign(this, { land, rivers, lakes });
+    const { width, height } = land;
+    this.shores = [];
+    if (sea && land.has) {
+      const wet = land.has.map((h) => (h ? 0 : 1));
+      this.shores.push({ wet, away: distanceInside(wet, width, height, 64), deep: 11, shallow: [168, 205, 214], bed: [92, 134, 172] });
+    }
+    if (lakes) this.shores.push({ wet: lakes, away: distanceInside(lakes, width, height, 64), deep: 4, shallow: [150, 194, 214], bed: [96, 148, 184] });
   }
 
   #listen() {

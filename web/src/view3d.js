@@ -72,6 +72,28 @@ export class View3d {
     this.contour = 0;
   }
 
+  /**
+   * Shows other land or rivers from where the view stands; look(), paint() and showLines() must follow, and home() where
+   * the grid is another. Heights that stay the same stay where they are on the screen.
+   */
+  replace(land, rivers, { lakes, sea }) {
+    this.rivers = rivers;
+    const { ground } = this;
+    if (land === this.land && lakes === ground.lakes) return;
+    const lift = land.level ? 1 : (ground.lift ?? 1);
+    const sunk = (this.land.min - land.min) * ground.perMetre * lift;
+    const near = Math.abs(this.land.min - land.min) < 0.1 * (land.max - land.min);
+    this.land = land;
+    ground.replace(land, lakes, sea);
+    if (near && !this.onmap) {
+      this.controls.target.y += sunk;
+      this.perspective.position.y += sunk;
+    }
+    ground.raise(lift);
+    this.azimuth = undefined; // look() shades it
+    this.places = undefined;
+  }
+
   get aspect() {
     return this.parent.clientWidth / Math.max(1, this.parent.clientHeight);
   }

@@ -29,6 +29,7 @@ function steepest(q, width, height, c, r) {
 export class Water {
   #base64;
   #bytes;
+  #lakes;
 
   constructor(land, base64, hasLakes) {
     this.land = land;
@@ -46,7 +47,7 @@ export class Water {
   /** 255 in lakes by value, or null without a lake. */
   get lakes() {
     if (!this.known || !this.hasLakes) return null;
-    return Uint8Array.from(this.bytes, (b) => (b >= 16 ? 255 : 0));
+    return (this.#lakes ??= Uint8Array.from(this.bytes, (b) => (b >= 16 ? 255 : 0)));
   }
 
   /** Receivers by value, -1 where water leaves. */
