@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // A server that speaks as `thalweg studio` does, for tests of the page alone: it holds a few finished lands, chosen by the
 // pruning length, and edits the values of a recipe without understanding them.
+import { deflateSync } from 'node:zlib';
 import { execFileSync } from 'node:child_process';
 import { createHash } from 'node:crypto';
 import fs from 'node:fs';
@@ -68,7 +69,7 @@ export function cluster(size = 160, particles = 2600) {
       break;
     }
   }
-  return { width: size, height: size, arms: arms.toString('base64') };
+  return { width: size, height: size, arms: deflateSync(arms).toString('base64') };
 }
 
 function frame(opcode, payload) {

@@ -91,8 +91,8 @@ private:
                 .rivers = [this](Job const& job, pipeline::Plan const&, pipeline::Planform const&,
                                  Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
                 .heights =
-                    [this](Job const& job, Grid const&, Raster<float> const& dem, bool is_finished) {
-                        note(job, [&](Told& told) { told.heights.emplace_back(dem, is_finished); });
+                    [this](Job const& job, Heights const& seen) {
+                        note(job, [&](Told& told) { told.heights.emplace_back(seen.dem, seen.is_finished); });
                     },
                 .made = [this](Job const& job, pipeline::Made const&) { note(job, [](Told& told) { ++told.made; }); },
                 .measured =
