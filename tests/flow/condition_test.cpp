@@ -132,7 +132,24 @@ bool same_change(flow::DemChange const& a, flow::DemChange const& b) {
            a.max_cut_m == b.max_cut_m && a.raised_m3 == b.raised_m3 && a.cut_m3 == b.cut_m3;
 }
 
-/// Land that drains, by its banks or only by its rivers, or all but for one cell; or that mostly does not.
+void change_cell(Scene& scene, std::int64_t at, int how) {
+    float& here = scene.dem[at];
+    switch (how) {
+    case 0: here = flow::just_below(here); break;
+    case 1: here = std::nextafter(here, -1.0F); break;
+    case 2:
+    case 3: here -= 3.0F; break; // a pit, or a bank below its river
+    case 4: here += 3.0F; break;
+    case 5: here = scene.dem[std::max<std::int64_t>(at - 1, 0)]; break;
+    case 6: here = no_data; break;
+    default: scene.valley.z[at] = here; break; // a sink
+    }
+    if (!std::isnan(scene.valley.z[at])) {
+        scene.valley.z[at] = here;
+    }
+}
+
+/// Land that drains, by its banks or only by its rivers, or all but for a few cells; or that mostly does not.
 Scene any_nearly_drained_scene() {
     Scene scene = any_scene();
     if (*rc::gen::inRange(0, 6).as("as it is if 0") == 0) {
@@ -142,23 +159,10 @@ Scene any_nearly_drained_scene() {
         scene.dem = confine_channels(scene.dem, scene.valley).dem;
     }
     scene.dem = plain::filled(scene.dem, scene.valley);
-    auto const at = *rc::gen::inRange<std::int64_t>(0, scene.dem.cells()).as("cell");
-    float& here = scene.dem[at];
-    switch (*rc::gen::inRange(0, 8).as("change")) {
-    case 0: here = flow::just_below(here); break;
-    case 1: here = std::nextafter(here, -1.0F); break;
-    case 2: here -= 3.0F; break;
-    case 3: here += 3.0F; break;
-    case 4: here = scene.dem[std::max<std::int64_t>(at - 1, 0)]; break;
-    case 5:
-        here = no_data;
-        scene.valley.z[at] = no_data;
-        break;
-    case 6: scene.valley.z[at] = here; break; // a sink
-    default: break;
-    }
-    if (!std::isnan(scene.valley.z[at])) {
-        scene.valley.z[at] = here;
+    auto const changes = *rc::gen::inRange(0, 4).as("changes");
+    for (int k = 0; k < changes; ++k) {
+        auto const at = *rc::gen::inRange<std::int64_t>(0, scene.dem.cells()).as("cell");
+        change_cell(scene, at, *rc::gen::inRange(0, 8).as("change"));
     }
     return scene;
 }
@@ -306,7 +310,7 @@ TEST(Carve, WhatDrainsAlreadyIsRecognisedAndStaysAsItIs) {
     int drained = 0;
     int undrained = 0;
     ASSERT_TRUE(rc::check("as carved and filled without looking first, bit for bit, with the same changes", [&] {
-        Scene const scene = any_nearly_drained_scene();
+        Scene const scene = *rc::gen::resize(rc::kNominalSize, rc::gen::exec(any_nearly_drained_scene));
         Raster<float> const filled = flooded(scene.dem, scene.valley.z, Lakes::slope);
         bool const drains = flow::drains(scene.dem, scene.valley.z, {});
         ++(drains ? drained : undrained);
@@ -320,8 +324,8 @@ TEST(Carve, WhatDrainsAlreadyIsRecognisedAndStaysAsItIs) {
         RC_ASSERT(same_change(land.banks, flow::change_between(scene.dem, banks.dem)));
         RC_ASSERT(same_change(land.depressions, flow::change_between(banks.dem, carved)));
     }));
-    EXPECT_GT(drained, 10);
-    EXPECT_GT(undrained, 10);
+    EXPECT_GT(drained, 0);
+    EXPECT_GT(undrained, 0);
 }
 
 TEST(Carve, RefusesLeastHeightsOfAnotherGrid) {

@@ -175,13 +175,14 @@ private:
         is_writing_ = true;
         writing_ =
             std::jthread([this, client, request, revision = folder_.document().revision](std::stop_token const& stop) {
+                std::string answer;
                 try {
-                    Written const written = written_now(request.file, stop);
-                    server_.send_text(client, written_message(request.id, revision, written));
+                    answer = written_message(request.id, revision, written_now(request.file, stop));
                 } catch (std::exception const& error) {
-                    server_.send_text(client, refused_message(request.id, error.what()));
+                    answer = refused_message(request.id, error.what());
                 }
                 is_writing_ = false;
+                server_.send_text(client, std::move(answer));
             });
     }
 

@@ -211,9 +211,11 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     level.side = static_cast<float>(std::int64_t{1} << number);
     level.rivers = std::move(input.rivers);
     set_cell_types(level, input.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
+    run.check();
     set_erodibility(level, fields, rock, run);
     copy_firmness(level, coarser);
     jitter(level, params.seed, run);
+    run.check();
     if (coarser.z.empty()) {
         start_from_nothing(level, nearest_river(level), params.seed, run);
     } else {
@@ -258,6 +260,7 @@ public:
             by_rivers ? boundary_cells(level, nearest_river(level), params_.inflow ? Beyond::rivers : Beyond::valleys)
                       : BoundaryCells{};
         set_boundary_heights(level, edge);
+        run_.check();
         flood_terrain(level);
         int const rounds = rounds_of(number, levels);
         bool const given = !level.rivers.asked.empty();
@@ -277,7 +280,9 @@ public:
             if (number == 0 && round == floors_after && params_.floor_width_km > 0.0) {
                 valley_floors(level, {params_.floor_width_km, window_.grid.cell_m, params_.seed});
             }
+            run_.check();
             set_stack_order(level);
+            run_.check();
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);
             } else if (number > 0) {
@@ -285,12 +290,14 @@ public:
             } else {
                 relax_finest_rivers(level, rounds - round);
             }
+            run_.check();
             relax_terrain(level, law_);
             if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
                 reduce_erodibility(level, law_);
             }
         }
         if (number == 0) {
+            run_.check();
             slide_and_remove_tips(level, given);
         }
     }
@@ -329,9 +336,11 @@ private:
     /// Where divides moved in the last round, terrain slides and may leave tips of rivers perched.
     void slide_and_remove_tips(TerrainLevel& level, bool given) {
         slide_terrain(level);
+        run_.check();
         if (!given) {
             remove_tips(level);
             slide_terrain(level);
+            run_.check();
         }
         set_steepest_receivers(level, per_length_, run_);
         set_stack_order(level);
@@ -505,7 +514,9 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     quiet.preview = is_asked ? nullptr : run.preview;
     Solved graded = solved(drawn, fields, wanted, nullptr, quiet);
     Window const window{rivers.grid, fields.land, graded.margin};
+    run.check();
     HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params);
+    run.check();
     if (!is_asked) {
         EquilibriumTerrain land = extract_terrain(std::move(graded.level), rivers, window, raise,
                                                   std::move(graded.shortened), params.heads, run);

@@ -380,7 +380,9 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
         lower_to_ends(level, rivers);
     }
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
+    run.check();
     settle_terrain(level, settled_step(raise), RiverHeights::graded);
+    run.check();
     out.dem = cropped(level, window);
     float const perched_m = perched_height(raise, window.grid);
     if (heads == Heads::kept) {
@@ -414,7 +416,9 @@ EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels con
         lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }
+    run.check();
     settle_terrain(level, settled_step(raise), heights);
+    run.check();
     out.dem = cropped(level, window);
     out.walled = walled_cells(level, perched_height(raise, window.grid));
     level = {};
