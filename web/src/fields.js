@@ -185,7 +185,7 @@ export function field(key, path, act) {
   return {
     element, path, key,
     show(value) {
-      say(null);
+      if ((value === undefined ? '' : plain(value)) !== shown) say(null); // a refusal stays until the key is another
       show(value);
     },
     get changed() {

@@ -318,7 +318,7 @@ export function openStudio(about, state) {
     compare.setAttribute('aria-pressed', String(on));
     root.dataset.before = on ? 'on' : 'off';
     page.replace(on ? before : now, { report: false });
-    if (on) page.bindLength(null, before.data.rivers.prune);
+    if (on) page.bindLength({ least: L.least, changing() {}, changed() {} }, before.data.rivers.prune);
     else above();
   }
   for (const [kind, on] of [['pointerdown', true], ['pointerup', false], ['pointerleave', false], ['pointercancel', false], ['blur', false]]) compare.addEventListener(kind, () => hold(on));
