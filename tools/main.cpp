@@ -149,6 +149,7 @@ Commands add_commands(CLI::App& app, Session& session) {
         commands[sub] = add_command(*sub, session);
     };
     add("make", "Make terrain and a river network from a recipe or a river file.", add_make);
+    add("studio", "Edit a recipe in the browser while its terrain follows.", add_studio);
     add("check", "Check the topology of a river network, and its drainage on a DEM.", add_check);
     add("convert", "Convert a river network to another schema or format.", add_convert);
     add("stats", "Print statistics of a DEM.", add_stats);

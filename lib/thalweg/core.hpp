@@ -15,6 +15,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/lanes.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>

@@ -32,5 +32,6 @@
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>

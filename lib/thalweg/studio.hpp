@@ -5,3 +5,5 @@
 /// All public headers of the module.
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/engine.hpp>
+#include <thalweg/studio/studio.hpp>

@@ -12,7 +12,7 @@ import sys
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
 MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES,
-           "studio": BELOW + STAGES + ["pipeline"]}
+           "studio": BELOW + STAGES + ["pipeline", "serve"]}
 MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
 
@@ -39,7 +39,7 @@ FOREIGN_IN_HEADERS = {"thalweg/core/stream_network_graph.hpp": ["boost/graph/", 
                       "thalweg/core/run/refuse.hpp": ["fmt/"]}
 # The folders of tools, with those each may include; main.cpp includes any.
 TOOLS = {"commands": ["help", "terminal"], "help": [], "terminal": []}
-SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|dlfcn|malloc)\.h$")  # C++ headers have no suffix
+SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|spawn|dlfcn|malloc)\.h$")  # C++ headers have no suffix
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')
 SPDX = ("SPDX-FileCopyrightText: the thalweg authors", "SPDX-License-Identifier: GPL-3.0-or-later")

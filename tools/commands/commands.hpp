@@ -42,6 +42,7 @@ Command add_blend(CLI::App& app, Session& session);
 Command add_deform(CLI::App& app, Session& session);
 Command add_measure(CLI::App& app, Session& session);
 Command add_grow(CLI::App& app, Session& session);
+Command add_studio(CLI::App& app, Session& session);
 // Commands about the command line itself: they read the other commands.
 Command add_completion(CLI::App& app);
 Command add_man(CLI::App& app);

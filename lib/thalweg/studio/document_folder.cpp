@@ -113,10 +113,13 @@ void new_document(std::string const& folder, std::string const& input, Run const
     out.commit();
 }
 
-DocumentFolder::DocumentFolder(std::string folder) : folder_(std::move(folder)) {
-    std::string const history = (fs::path(folder_) / history_name).string();
+bool is_document(std::string const& folder) {
     std::error_code ignored;
-    refuse_if<BadInput>(!fs::is_regular_file(fs::symlink_status(history, ignored)),
+    return fs::is_regular_file(fs::symlink_status(fs::path(folder) / history_name, ignored));
+}
+
+DocumentFolder::DocumentFolder(std::string folder) : folder_(std::move(folder)) {
+    refuse_if<BadInput>(!is_document(folder_),
                         "studio.document_folder: {} is not the folder of a document: it has no {}", folder_,
                         history_name);
     lock_ = locked((fs::path(folder_) / lock_name).string());

@@ -20,6 +20,9 @@ struct Journal;
 /// input cannot be read \throws BadParameter as document_of()
 void new_document(std::string const& folder, std::string const& input = {}, Run const& run = {});
 
+/// Whether a folder is that of a document.
+bool is_document(std::string const& folder);
+
 /// A document in its folder. An edit is on disk when the call returns: first its line at the end of history.jsonl, then
 /// recipe.toml, written aside and renamed. A process that dies in between leaves the state before or after an edit. No
 /// file of inputs/ is ever removed, since an undo may need it.

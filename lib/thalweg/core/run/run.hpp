@@ -12,6 +12,9 @@ namespace thalweg {
 /// The device on which linear systems are solved.
 enum class Device : std::uint8_t { cpu, opencl };
 
+template <class T> class Raster;
+class Kept;
+
 /// Controls execution (progress, cancellation, threads, device). It never changes results.
 struct Run {
     /// Receives progress, with GDAL's signature: share done [0, 1], what is being done, progress_arg. Called by one
@@ -25,6 +28,10 @@ struct Run {
     void* progress_arg = nullptr;
     std::function<void(std::string_view)> log; ///< called with one line, without newline
     std::stop_token stop;
+    /// Receives a terrain while it is made: heights [m], first of larger cells, which what follows refines;
+    /// is_finished: those of the result. Called by one thread at a time; empty: nobody looks on.
+    std::function<void(Raster<float> const& dem, bool is_finished)> preview;
+    Kept* kept = nullptr; ///< results of stages of earlier runs; null: all stages run
 
     /// Reports progress.
     /// \param share [0, 1] done

@@ -8,6 +8,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
@@ -15,6 +16,7 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
+#include <thalweg/pipeline/make/internal/made_from.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
@@ -213,12 +215,40 @@ NetworkStatistics statistics_of(NetworkStatistics statistics, std::vector<Findin
 
 } // namespace
 
-Planform make_planform(Plan const& plan, Run const& run) {
-    if (!plan.recipe.network) {
-        return {};
-    }
+namespace {
+
+/// Rivers of the source, and the times of making them.
+struct TimedSource {
+    SourceRivers rivers;
+    Timings timings_s;
+};
+
+/// About the bytes of a network's vertices.
+std::int64_t bytes_of(StreamNetwork const& network) {
+    constexpr std::size_t of_arc = 256;
+    return static_cast<std::int64_t>(vertices_of(network) * sizeof(Vec2) + network.arc_count() * of_arc);
+}
+
+TimedSource source_of(Plan const& plan, Run const& run) {
+    return kept_or_made(
+        run, "source", [&] { return source_made_from(plan); },
+        [&] {
+            StageLog stage_log(run);
+            SourceRivers rivers = rivers_of_source(plan, stage_log, run);
+            return TimedSource{std::move(rivers), stage_log.take()};
+        },
+        [](TimedSource const& source) {
+            constexpr std::int64_t copies = 4; // of the network, with heights and features
+            return copies * bytes_of(source.rivers.network) + source.rivers.land.cells();
+        });
+}
+
+/// The rivers of a plan that has any.
+Planform drawn(Plan const& plan, Run const& run) {
     StageLog stage_log(run);
-    SourceRivers source = rivers_of_source(plan, stage_log, run);
+    TimedSource made = source_of(plan, run);
+    stage_log.add(made.timings_s);
+    SourceRivers& source = made.rivers;
     std::vector<Finding> conversions = report_conversions(plan.recipe, source.grid, run);
     Pruned kept = pruned(plan, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
     NetworkStatistics statistics = statistics_of(std::move(source.statistics), std::move(conversions), kept);
@@ -243,6 +273,20 @@ Planform make_planform(Plan const& plan, Run const& run) {
             .file = std::move(rivers.file),
             .statistics = std::move(statistics),
             .timings_s = stage_log.take()};
+}
+
+} // namespace
+
+Planform make_planform(Plan const& plan, Run const& run) {
+    if (!plan.recipe.network) {
+        return {};
+    }
+    return kept_or_made(
+        run, "planform", [&] { return planform_made_from(plan); }, [&] { return drawn(plan, run); },
+        [](Planform const& planform) {
+            constexpr std::int64_t copies = 4;
+            return copies * bytes_of(planform.network) + planform.land.cells();
+        });
 }
 
 } // namespace thalweg::pipeline

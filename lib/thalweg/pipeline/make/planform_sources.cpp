@@ -8,6 +8,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
@@ -19,6 +20,7 @@
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
+#include <thalweg/pipeline/make/internal/made_from.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 
@@ -69,13 +71,24 @@ network::Branch branch_of(network::Cluster const& cluster, Recipe const& recipe)
     return network::pick_branch(cluster, params);
 }
 
+} // namespace
+
+network::Cluster cluster_of(Plan const& plan, Run const& run) {
+    return kept_or_made(
+        run, "cluster", [&] { return cluster_made_from(plan); },
+        [&] { return network::grow_dla(plan.recipe.network->dla, run); },
+        [](network::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
+}
+
+namespace {
+
 // One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
 SourceRivers rivers_of_cluster(Plan const& plan, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     NetworkRecipe const& wanted = *recipe.network;
     NetworkStatistics statistics;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
-    network::Cluster const cluster = stage_log.stage("grow", [&] { return network::grow_dla(wanted.dla, run); });
+    network::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(plan, run); });
     statistics.wide = cluster.stop == network::GrowthStop::radius;
     stage_log.say(fmt::format("{} particles  seed {}  radius {:.0f} cells{}", cluster.cells.size(), recipe.seed,
                               cluster.radius, statistics.wide ? ", where it stops" : ""));

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
+#include <thalweg/pipeline/make/internal/made_from.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 
 #include <cmath>
@@ -10,6 +11,7 @@
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
@@ -424,17 +426,53 @@ Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run)
 
 } // namespace
 
+namespace {
+
+/// A surface before it drains, and the times of drawing it.
+struct TimedSurface {
+    UndrainedTerrain terrain;
+    Timings timings_s;
+};
+
+TimedSurface undrained(Plan const& plan, Planform const& planform, Run const& run) {
+    return kept_or_made(
+        run, "surface", [&] { return surface_made_from(plan); },
+        [&] {
+            StageLog stage_log(run);
+            UndrainedTerrain drawn = plan.recipe.network ? draw_around_rivers(plan, planform, stage_log, run)
+                                                         : draw_alone(plan, stage_log, run);
+            return TimedSurface{std::move(drawn), stage_log.take()};
+        },
+        [](TimedSurface const& made) {
+            constexpr std::int64_t of_cell = 16; // heights, valley, levels
+            return of_cell * made.terrain.surface.dem.cells();
+        });
+}
+
+void show(Raster<float> const& dem, bool is_finished, Run const& run) {
+    if (run.preview) {
+        run.preview(dem, is_finished);
+    }
+}
+
+} // namespace
+
 Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run) {
     bool const has_rivers = plan.recipe.network.has_value();
     if (has_rivers && !plan.recipe.surface) {
         return rivers_alone(plan, planform, run);
     }
     StageLog stage_log(run);
-    UndrainedTerrain drawn =
-        has_rivers ? draw_around_rivers(plan, planform, stage_log, run) : draw_alone(plan, stage_log, run);
+    TimedSurface timed = undrained(plan, planform, run);
+    stage_log.add(timed.timings_s);
+    UndrainedTerrain& drawn = timed.terrain;
+    if (!has_rivers || !in_equilibrium(plan.recipe)) { // in equilibrium it was seen, and drains as it is
+        show(drawn.surface.dem, false, run);
+    }
     Patched patched = with_patches(plan, std::move(drawn.surface.dem), std::move(drawn.valley),
                                    drawn.rivers.network.planform, stage_log, run);
     Conditioned drained = conditioned(plan, std::move(patched.dem), patched.valley, stage_log, run);
+    show(drained.dem, true, run);
     flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.planform, stage_log, run);
     WithSideValleys made = with_side_valleys(plan, std::move(drawn.rivers), std::move(patched.valley), drawn.channels,
                                              drained.dem, drainage, stage_log, run);

@@ -283,10 +283,21 @@ struct KeyHelp {
     std::vector<std::string> choices = {}; ///< words it may be; of an expression, those with a name; {} for none
     std::string used_by = {};              ///< what a recipe must hold for the key to have an effect; "": any recipe
     bool is_file = false;                  ///< its value names a file, relative to the recipe's folder
+    std::optional<double> least = {};      ///< of a number; with most: none where the range has no such end
+    std::optional<double> most = {};
 };
 
 /// \return every key in the order of recipe files.
 std::vector<KeyHelp> recipe_keys();
+
+/// A key that has an effect in a recipe.
+struct KeyValue {
+    std::string path;                ///< "network.prune", "patch.2.rotate"
+    std::optional<std::string> text; ///< as set_key() takes it; nothing: left out
+};
+
+/// \return every key that has an effect, in the order of recipe files.
+std::vector<KeyValue> key_values(Recipe const& recipe);
 
 /// Reads a recipe from TOML text.
 /// \param toml the text of a recipe

@@ -260,7 +260,10 @@ Key make_key(Row const& row, Recipe& standard) {
     key.help.is_file = row.kind == KeyKind::file;
     key.folder = row.extra.folder != nullptr ? row.extra.folder : key.name() + "/";
     if (row.kind == KeyKind::integer || row.kind == KeyKind::number) {
-        key.range = row.allowed.range;
+        Range const& range = row.allowed.range;
+        key.range = range;
+        key.help.least = range.least;
+        key.help.most = range.most < endless ? std::optional(range.most) : std::nullopt;
     }
     list_words(key, row.field(standard, 0));
     key.help.range = range_text(key);

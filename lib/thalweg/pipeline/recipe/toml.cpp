@@ -414,6 +414,27 @@ void require_effect(Recipe const& recipe, std::string const& path) {
                             key.use.lacks(recipe));
 }
 
+std::vector<KeyValue> key_values(Recipe const& recipe) {
+    std::vector<KeyValue> values;
+    for (Section const& section : all_sections()) {
+        for (std::size_t item = 0; item < section.count(recipe); ++item) {
+            for (Key const& key : all_keys()) {
+                if (key.part != &section || !key.use.holds(recipe)) {
+                    continue;
+                }
+                auto const value = key.take(recipe, item);
+                auto const* const words = value ? std::get_if<std::string>(&*value) : nullptr;
+                std::optional<std::string> text;
+                if (value) {
+                    text = words != nullptr ? *words : toml_text(*value);
+                }
+                values.push_back({key.place(item), std::move(text)});
+            }
+        }
+    }
+    return values;
+}
+
 namespace {
 
 /// A section, or one item of an array: its keys that have an effect.

@@ -144,6 +144,21 @@ std::int64_t page_cells(Grid const& grid) {
     return cells;
 }
 
+Raster<float> mean_of_squares(Raster<float> const& dem, std::int64_t cells) {
+    PageHeights page;
+    page.cells = cells;
+    page.width = parts(dem.width(), cells);
+    page.height = parts(dem.height(), cells);
+    Grid grid = dem.grid();
+    grid.width = page.width;
+    grid.height = page.height;
+    grid.cell_m *= static_cast<double>(cells);
+    Raster<float> squares(grid);
+    std::ranges::transform(means(dem, page, {}), squares.values().begin(),
+                           [](double z) { return static_cast<float>(z); });
+    return squares;
+}
+
 std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run) {
     PageHeights page;
     page.cells = page_cells(dem.grid());
@@ -308,11 +323,12 @@ std::size_t find_once(std::string_view page, std::string_view marker) {
 } // namespace
 
 std::string fill_page(std::string_view page, PageParts const& parts) {
-    std::array<Place, 5> places{{{0, "@@TITLE@@", &parts.title},
+    std::array<Place, 6> places{{{0, "@@TITLE@@", &parts.title},
                                  {0, "@@DATA@@", &parts.data},
                                  {0, "@@HEIGHTS@@", &parts.heights},
                                  {0, "@@LINES@@", &parts.lines},
-                                 {0, "@@WATER@@", &parts.water}}};
+                                 {0, "@@WATER@@", &parts.water},
+                                 {0, "@@STUDIO@@", &parts.studio}}};
     std::size_t size = page.size();
     for (Place& place : places) {
         place.at = find_once(page, place.marker);
@@ -331,9 +347,6 @@ std::string fill_page(std::string_view page, PageParts const& parts) {
     return out;
 }
 
-namespace {
-
-/// Replaces invalid UTF-8 in a text.
 std::string as_utf8(std::string const& text) {
     using nlohmann::json;
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
@@ -354,8 +367,9 @@ std::string html_text(std::string const& text) {
     return out;
 }
 
-/// The arcs by number, then the ridges.
-PageLines lines_of(StreamNetwork const& plan, RidgeLines const& ridges, Grid const& grid) {
+PageLines lines_of_page(Made const& made) {
+    StreamNetwork const& plan = made.terrain.rivers.network.planform;
+    RidgeLines const& ridges = made.terrain.ridges;
     std::vector<std::vector<Vec2>> ridges_in_plan;
     for (RidgeLine const& ridge : ridges.lines) {
         ridges_in_plan.push_back(in_plan(ridge.line));
@@ -365,16 +379,14 @@ PageLines lines_of(StreamNetwork const& plan, RidgeLines const& ridges, Grid con
         lines.emplace_back(plan.arc(arc).line);
     }
     lines.insert(lines.end(), ridges_in_plan.begin(), ridges_in_plan.end());
-    return page_lines(lines, grid);
+    return page_lines(lines, made.terrain.grid);
 }
-
-} // namespace
 
 std::string page(Made const& made, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights =
         made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
     run.check();
-    PageLines const lines = lines_of(made.terrain.rivers.network.planform, made.terrain.ridges, made.terrain.grid);
+    PageLines const lines = lines_of_page(made);
     PageParts parts;
     parts.title = html_text(as_utf8(title_of(made.recipe)));
     parts.data = page_data(made, params, heights, lines, run);

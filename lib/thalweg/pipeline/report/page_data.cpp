@@ -16,6 +16,7 @@
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
@@ -475,7 +476,12 @@ ordered_json notes_array(Made const& t, std::optional<PageHeights> const& height
     return out;
 }
 
-/// Inside a JSON string any character may be escaped; elsewhere JSON has no '<'.
+} // namespace
+
+std::string grid_json(Grid const& grid) {
+    return grid_object(grid).dump();
+}
+
 std::string without_tags(std::string const& json) {
     std::string out;
     out.reserve(json.size());
@@ -488,8 +494,6 @@ std::string without_tags(std::string const& json) {
     }
     return out;
 }
-
-} // namespace
 
 std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines, Run const& run) {

@@ -44,6 +44,10 @@ std::vector<std::string> files_left_in(std::string const& folder) {
 }
 
 double relief_m(Made const& t) {
+    if (!t.assessment.statistics) { // not yet measured
+        auto const heights = range_of(t.terrain.surface->dem);
+        return heights ? heights->second - heights->first : 0.0;
+    }
     return t.assessment.statistics->max.z - t.assessment.statistics->min.z;
 }
 
@@ -57,6 +61,21 @@ double contour_interval(Made const& t) {
 double contour_interval_m(Made const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
+
+} // namespace
+
+PageParams page_params_of(Made const& made, std::string recipe) {
+    PageParams params;
+    params.recipe = std::move(recipe);
+    if (made.terrain.surface) {
+        params.contour_interval_m = contour_interval_m(made);
+        params.sea = sea_of(made.terrain);
+        params.lakes = lake_cells(made.terrain.channels);
+    }
+    return params;
+}
+
+namespace {
 
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
 void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run) {
@@ -198,14 +217,7 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
     }
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);
-    PageParams params;
-    params.contour_interval_m = made.terrain.surface ? contour_interval_m(made) : 0.0;
-    params.recipe = recipe_toml;
-    if (made.terrain.surface) {
-        params.sea = sea_of(made.terrain);
-        params.lakes = lake_cells(made.terrain.channels);
-    }
-    io::write_text(out.path("report.html"), page(made, params, run));
+    io::write_text(out.path("report.html"), page(made, page_params_of(made, recipe_toml), run));
     run.at(0.9, "write");
     std::vector<std::string> files = out.files();
     files.emplace_back("report.json");

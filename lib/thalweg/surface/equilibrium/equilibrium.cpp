@@ -381,9 +381,18 @@ ErodibilityParams erodibility_of(EquilibriumParams const& params, Window const& 
     return {params.roughness, noise};
 }
 
+/// Whether a coarse level is worth a look: not as fine as to keep it waiting, not so coarse that it shows nothing.
+bool shows_terrain(TerrainLevel const& level, Grid const& grid) {
+    constexpr double most_cells = 600.0 * 600.0;
+    constexpr double least_cells = 180.0 * 180.0;
+    double const cells = static_cast<double>(grid.cells()) / (static_cast<double>(level.side) * level.side);
+    return level.side > 1.0F && cells <= most_cells && cells >= least_cells;
+}
+
 /// Solves all levels; rivers' heights are in solver units, or free.
+/// \param conversion of prescribed heights; null: none are
 Solved solved(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-              Run const& run) {
+              HeightConversion const* conversion, Run const& run) {
     PaddedTerrain land = padded(rivers, fields, params);
     Region const region = region_around(rivers, fields, params);
     std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
@@ -398,6 +407,9 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
         RegionFrame const frame =
             around.z.empty() || !params.inflow ? RegionFrame{} : frame_by_region(level, around, params.seed);
         solver.solve(level, number, levels.size(), frame);
+        if (run.preview && shows_terrain(level, rivers.grid)) {
+            run.preview(coarse_terrain(level, window, conversion, params), false);
+        }
         if (region.level > 0 && number == region.level) {
             around = level;
         }
@@ -437,7 +449,8 @@ Held solved_terrain(Channels const& rivers, EquilibriumFields const& fields, Equ
     for (float& z : drawn.z) {
         z = static_cast<float>((static_cast<double>(z) - base_m) / metres);
     }
-    return {solved(drawn, fields, params, run), metres};
+    HeightConversion const conversion{metres, base_m, 0.0};
+    return {solved(drawn, fields, params, &conversion, run), metres};
 }
 
 /// Solves again with other metres per unit until the terrain reaches its target; returns the closest solution.
@@ -484,13 +497,16 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     run.check();
     Channels drawn = rivers;
     drawn.z.clear();
+    bool const is_asked = asks_heights(rivers, params);
     EquilibriumParams wanted = params;
     // prescribed heights do not depend on the region
-    wanted.region = asks_heights(rivers, params) ? 1.0 : params.region;
-    Solved graded = solved(drawn, fields, wanted, run);
+    wanted.region = is_asked ? 1.0 : params.region;
+    Run quiet = run; // heights that are prescribed are not in the first solution
+    quiet.preview = is_asked ? nullptr : run.preview;
+    Solved graded = solved(drawn, fields, wanted, nullptr, quiet);
     Window const window{rivers.grid, fields.land, graded.margin};
     HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params);
-    if (!asks_heights(rivers, params)) {
+    if (!is_asked) {
         EquilibriumTerrain land = extract_terrain(std::move(graded.level), rivers, window, raise,
                                                   std::move(graded.shortened), params.heads, run);
         land.inflows = std::move(graded.inflows);

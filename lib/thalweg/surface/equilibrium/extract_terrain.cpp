@@ -244,6 +244,8 @@ Raster<flow::Direction> directions(Raster<float> const& dem, Channels const& riv
     return out;
 }
 
+constexpr double slope_by_cell = 0.17; ///< mean slope ~ cell size ^ -this, of terrain in equilibrium (measured)
+
 float perched_height(HeightConversion const& raise, Grid const& grid) {
     return static_cast<float>(raise.mean_tangent * grid.cell_m);
 }
@@ -317,6 +319,52 @@ HeightConversion height_conversion_for(TerrainLevel const& level, Channels const
 double share_of_target(TerrainLevel const& level, Window const& window, double metres,
                        EquilibriumParams const& params) {
     return share_of_target(cropped(level, window), metres / window.grid.cell_m, params);
+}
+
+Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, HeightConversion const* conversion,
+                             EquilibriumParams const& params) {
+    auto const side = static_cast<std::int64_t>(level.side);
+    Grid grid = window.grid;
+    grid.width = (grid.width + side - 1) / side;
+    grid.height = (grid.height + side - 1) / side;
+    grid.cell_m *= static_cast<double>(side);
+    auto const nearest = [side](std::int64_t cell, std::int64_t corner, std::int64_t size) {
+        return std::min((cell * side + side / 2 - corner) / side + 1, size - 2);
+    };
+    Raster<float> dem(grid);
+    float low = std::numeric_limits<float>::infinity();
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        for (std::int64_t col = 0; col < grid.width; ++col) {
+            Cell const fine{std::min(col * side + side / 2, window.grid.width - 1),
+                            std::min(row * side + side / 2, window.grid.height - 1)};
+            bool const dry = window.land.cells() == 0 || window.land[fine] != 0;
+            auto const i = static_cast<std::size_t>(nearest(row, level.corner.row, level.height) * level.width +
+                                                    nearest(col, level.corner.col, level.width));
+            bool const known = dry && std::isfinite(level.z[i]);
+            float const z = known ? level.z[i] : std::numeric_limits<float>::quiet_NaN();
+            dem[Cell{col, row}] = z;
+            low = z < low ? z : low;
+        }
+    }
+    HeightConversion raise{1.0, 0.0, 0.0};
+    if (conversion != nullptr) {
+        raise = *conversion;
+    } else {
+        // Slopes of larger cells are gentler.
+        double const gentler = portable::pow(level.side, -slope_by_cell);
+        EquilibriumParams target = params;
+        target.mean_slope_deg *= gentler;
+        Raster<float> in_cells = dem;
+        for (float& z : in_cells.values()) {
+            z /= level.side;
+        }
+        double const metres = height_scale_of(in_cells, target).factor * window.grid.cell_m;
+        raise = {metres, -static_cast<double>(low) * metres, 0.0};
+    }
+    for (float& z : dem.values()) {
+        z = static_cast<float>(raise.base_m + static_cast<double>(z) * raise.metres);
+    }
+    return dem;
 }
 
 EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, Window const& window,

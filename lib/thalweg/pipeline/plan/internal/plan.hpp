@@ -35,6 +35,8 @@ public:
     /// Logs a line about the last stage.
     void say(std::string const& words) const;
 
+    /// Adds times of stages that ran before.
+    void add(Timings const& timings_s) { timings_s_.insert(timings_s_.end(), timings_s.begin(), timings_s.end()); }
     /// Returns the times of the stages, in order, and clears them.
     Timings take() { return std::exchange(timings_s_, {}); }
 

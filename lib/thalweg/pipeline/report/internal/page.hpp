@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -26,6 +27,13 @@ struct PageParams {
     std::optional<Sea> sea = {};                               ///< cells without a height are the sea
     Mask lakes = {};                                           ///< on the grid; without cells: none
 };
+
+/// What the page of a terrain shows beside it.
+/// \param recipe its text
+PageParams page_params_of(Made const& made, std::string recipe);
+
+/// \return [m] the lowest and the highest value; nothing: there is none
+std::optional<std::pair<double, double>> range_of(Raster<float> const& dem);
 
 /// Makes report.html of a terrain: one page that a browser opens without a network connection. It is the page built
 /// into the library, filled as web/README.md describes. Titles and file names are escaped; invalid UTF-8 becomes
@@ -79,6 +87,21 @@ struct PageLines {
 /// grid's corner
 PageLines page_lines(std::span<std::span<Vec2 const> const> lines, Grid const& grid);
 
+/// The lines of a page: the arcs by number, then the ridges.
+PageLines lines_of_page(Made const& made);
+
+/// The means of squares of cells x cells; NaN: none of its cells has a height.
+Raster<float> mean_of_squares(Raster<float> const& dem, std::int64_t cells);
+
+/// Replaces invalid UTF-8 in a text.
+std::string as_utf8(std::string const& text);
+
+/// Escapes a text for HTML.
+std::string html_text(std::string const& text);
+
+/// Escapes '<' in JSON, so that it may stand in a script element.
+std::string without_tags(std::string const& json);
+
 /// Replacements of a page's markers, byte for byte: they must be safe in their places.
 struct PageParts {
     std::string title;   ///< for @@TITLE@@
@@ -86,6 +109,7 @@ struct PageParts {
     std::string heights; ///< for @@HEIGHTS@@
     std::string lines;   ///< for @@LINES@@
     std::string water;   ///< for @@WATER@@
+    std::string studio;  ///< for @@STUDIO@@
 };
 
 /// Replaces the markers of a page. Text in a part that looks like a marker stays.

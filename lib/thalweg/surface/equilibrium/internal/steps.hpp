@@ -293,6 +293,13 @@ HeightConversion height_conversion_for(TerrainLevel const& level, Channels const
 /// The ratio of the relief or mean slope in a window to its target, for this number of metres per unit.
 double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
 
+/// The caller's grid on the cells of a coarse level.
+/// \param conversion of the finest level where it is known: with prescribed heights; null: one that gives about the
+/// target
+/// \return [m]
+Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, HeightConversion const* conversion,
+                             EquilibriumParams const& params);
+
 /// Extracts the caller's grid from a solved finest level, in metres, with its flow directions. Tips that are still
 /// perched are removed too, unless heads are kept.
 EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, Window const& window,

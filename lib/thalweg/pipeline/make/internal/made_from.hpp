@@ -1,0 +1,26 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/pipeline/plan/plan.hpp>
+
+namespace thalweg::pipeline {
+
+// What decides the result of a stage, as a text for kept_or_made(): the recipe without the keys that only later stages
+// read, and the state of the files it names.
+
+/// Of a cluster, before a branch of it is chosen.
+std::string cluster_made_from(Plan const& plan);
+
+/// Of rivers as their source gives them, before they are pruned.
+std::string source_made_from(Plan const& plan);
+
+/// Of rivers in plan view.
+std::string planform_made_from(Plan const& plan);
+
+/// Of the surface before patches and drainage.
+std::string surface_made_from(Plan const& plan);
+
+} // namespace thalweg::pipeline

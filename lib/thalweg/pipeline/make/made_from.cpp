@@ -1,0 +1,104 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/make/internal/made_from.hpp>
+
+#include <algorithm>
+#include <filesystem>
+#include <system_error>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+/// A file and those beside it that have its name, as the parts of a Shapefile, with sizes and times.
+std::string state_of(fs::path const& path) {
+    std::error_code error;
+    std::vector<std::string> parts;
+    for (fs::directory_entry const& one : fs::directory_iterator(path.parent_path(), error)) {
+        std::error_code unknown;
+        if (one.path().stem() == path.stem() && one.is_regular_file(unknown)) {
+            parts.push_back(fmt::format("{} {} {}\n", one.path().string(), one.file_size(unknown),
+                                        one.last_write_time(unknown).time_since_epoch().count()));
+        }
+    }
+    std::ranges::sort(parts);
+    std::string all;
+    for (std::string const& part : parts) {
+        all += part;
+    }
+    return all;
+}
+
+std::string words_of(Plan const& plan, Recipe const& decisive) {
+    std::string words = write_recipe(decisive);
+    for (NamedFile const& file : files_of(decisive)) {
+        words += is_address(file.name) ? file.name : state_of(fs::absolute(file_in(decisive, file.name).path));
+    }
+    return words + (plan.heights_of_file ? "heights of the file\n" : "") + plan.recipe.folder;
+}
+
+/// A recipe without what only the surface reads.
+Recipe of_rivers(Recipe recipe) {
+    recipe.skeleton.reset();
+    recipe.detail.reset();
+    recipe.patches.clear();
+    recipe.output = {};
+    if (recipe.surface) {
+        Method const method = recipe.surface->method;
+        recipe.surface.emplace().method = method;
+    }
+    return recipe;
+}
+
+} // namespace
+
+std::string cluster_made_from(Plan const& plan) {
+    Recipe recipe;
+    recipe.seed = plan.recipe.seed;
+    recipe.network.emplace().dla = plan.recipe.network->dla;
+    return write_recipe(recipe);
+}
+
+std::string source_made_from(Plan const& plan) {
+    Recipe recipe = of_rivers(plan.recipe);
+    NetworkRecipe& rivers = *recipe.network;
+    NetworkRecipe const standard;
+    rivers.prune_cells = standard.prune_cells;
+    rivers.meander = standard.meander;
+    rivers.slope = standard.slope;
+    rivers.concavity = standard.concavity;
+    rivers.heights_tolerance_m = standard.heights_tolerance_m;
+    rivers.rosgen = standard.rosgen;
+    rivers.rosgen_slope = standard.rosgen_slope;
+    rivers.inland = standard.inland;
+    rivers.fill_space = standard.fill_space;
+    rivers.support_cells = standard.support_cells;
+    rivers.coast_m = standard.coast_m;
+    return words_of(plan, recipe);
+}
+
+std::string planform_made_from(Plan const& plan) {
+    return words_of(plan, of_rivers(plan.recipe));
+}
+
+std::string surface_made_from(Plan const& plan) {
+    Recipe recipe = plan.recipe;
+    recipe.patches.clear();
+    recipe.output = {};
+    if (recipe.surface) {
+        recipe.surface->drain = SurfaceRecipe{}.drain;
+    }
+    if (recipe.network) {
+        recipe.network->fill_space = NetworkRecipe{}.fill_space;
+        recipe.network->support_cells = NetworkRecipe{}.support_cells;
+    }
+    return words_of(plan, recipe);
+}
+
+} // namespace thalweg::pipeline

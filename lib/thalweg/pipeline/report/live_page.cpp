@@ -1,0 +1,133 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/report/live_page.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <string_view>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/gdal/packed.hpp>
+#include <thalweg/pipeline/make/internal/planform.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/internal/page_template.hpp>
+
+namespace thalweg::pipeline {
+
+std::optional<std::pair<double, double>> range_of(Raster<float> const& dem) {
+    std::optional<std::pair<double, double>> range;
+    for (float const z : dem.values()) {
+        if (!std::isnan(z)) {
+            auto const height = static_cast<double>(z);
+            range = range ? std::pair(std::min(range->first, height), std::max(range->second, height))
+                          : std::pair(height, height);
+        }
+    }
+    return range;
+}
+
+LivePage live_page(std::string const& title, std::string const& studio) {
+    static constexpr std::string_view before = R"(http-equiv="Content-Security-Policy" content=")";
+    PageParts parts;
+    parts.title = html_text(as_utf8(title));
+    parts.studio = without_tags(studio);
+    LivePage page;
+    page.html = fill_page(page_template(), parts);
+    std::size_t const begin = page.html.find(before) + before.size();
+    page.policy = page.html.substr(begin, page.html.find('"', begin) - begin) + "; connect-src 'self'";
+    page.html.replace(begin, page.policy.size() - std::string_view("; connect-src 'self'").size(), page.policy);
+    page.policy += "; frame-ancestors 'none'";
+    return page;
+}
+
+std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& grid) {
+    LiveHeights heights;
+    bool const is_finest = dem.width() == grid.width && dem.height() == grid.height;
+    std::int64_t const square = is_finest ? page_cells(grid) : 1;
+    heights.cells = is_finest ? square : (grid.width + dem.width() - 1) / dem.width();
+    heights.values = square > 1 ? mean_of_squares(dem, square) : dem;
+    auto const range = range_of(heights.values);
+    if (!range) {
+        return std::nullopt;
+    }
+    heights.min = range->first;
+    heights.max = range->second;
+    heights.nodata = std::ranges::count_if(heights.values.values(), [](float z) { return std::isnan(z); });
+    return heights;
+}
+
+std::string live_scene(Made const& made, std::string const& recipe, std::string const& command, Run const& run) {
+    PageParams params = page_params_of(made, recipe);
+    params.command = command;
+    PageLines const lines = lines_of_page(made);
+    std::optional<PageHeights> const heights =
+        made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
+    std::vector<std::uint8_t> const water = heights && made.terrain.drainage
+                                                ? page_water(*made.terrain.drainage, params.lakes, *heights)
+                                                : std::vector<std::uint8_t>{};
+    return fmt::format(R"("data":{},"lines":"{}","water":"{}")", page_data(made, params, heights, lines, run),
+                       io::packed(lines.bytes), water.empty() ? "" : io::packed(water));
+}
+
+Made rivers_to_be(Plan const& plan, Planform const& planform) {
+    Made made;
+    made.recipe = plan.recipe;
+    made.terrain.grid = planform.grid;
+    StreamNetwork const& network = planform.network;
+    ElevatedNetwork level{network, std::vector<double>(network.node_count(), 0.0), {}};
+    for (ArcId a = 0; a < network.arc_count(); ++a) {
+        level.arc_z.emplace_back(network.arc(a).line.size(), 0.0);
+    }
+    made.terrain.rivers = rivers_of(std::move(level), planform.types);
+    made.terrain.areas.us_area_m2.assign(network.arc_count(), 0.0);
+    made.terrain.areas.ds_area_m2.assign(network.arc_count(), 0.0);
+    made.terrain.areas.node_m2.assign(network.node_count(), 0.0);
+    return made;
+}
+
+std::optional<ClusterArms> cluster_arms(Plan const& plan, std::int64_t side, Run const& run) {
+    if (!plan.recipe.network || plan.recipe.network->source != Source::dla) {
+        return std::nullopt;
+    }
+    network::Cluster const cluster = cluster_of(plan, run);
+    Cell low = cluster.cells.front();
+    Cell high = low;
+    for (Cell const c : cluster.cells) {
+        low = {std::min(low.col, c.col), std::min(low.row, c.row)};
+        high = {std::max(high.col, c.col), std::max(high.row, c.row)};
+    }
+    std::int64_t const wide = high.col - low.col + 1;
+    std::int64_t const tall = high.row - low.row + 1;
+    std::int64_t const cells = std::max<std::int64_t>(1, (std::max(wide, tall) + side - 1) / side); // a place
+    ClusterArms arms;
+    arms.width = (wide + cells - 1) / cells;
+    arms.height = (tall + cells - 1) / cells;
+    std::vector<std::uint8_t> places(static_cast<std::size_t>(arms.width * arms.height));
+    arms.chosen = std::get<std::string>(*find_key("network.dla.branch")->take(plan.recipe));
+    auto const paint = [&](std::vector<Cell> const& branch, std::uint8_t arm) {
+        for (Cell const c : branch) {
+            auto const place = (c.row - low.row) / cells * arms.width + (c.col - low.col) / cells;
+            places[static_cast<std::size_t>(place)] = arm;
+        }
+    };
+    constexpr std::uint8_t no_arm = 5;
+    paint(cluster.cells, no_arm);
+    std::uint8_t arm = 0;
+    for (network::BranchChoice const choice : {network::BranchChoice::north, network::BranchChoice::east,
+                                               network::BranchChoice::south, network::BranchChoice::west}) {
+        ++arm;
+        try {
+            paint(network::pick_branch(cluster, {.choice = choice}).cells, arm);
+        } catch (BadInput const&) { // it has no such arm
+        }
+    }
+    arms.arms = io::packed(places);
+    return arms;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,166 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/engine.hpp>
+
+#include <algorithm>
+#include <exception>
+#include <utility>
+
+#include <thalweg/core/run/error.hpp>
+
+namespace thalweg::studio {
+namespace {
+
+/// Calls a function if there is one.
+template <class... Arguments, class... Given>
+void tell(std::function<void(Arguments...)> const& function, Given&&... given) {
+    if (function) {
+        function(std::forward<Given>(given)...);
+    }
+}
+
+/// What Run's progress is given.
+struct Reporting {
+    Watcher const& watcher;
+    Job const& job;
+};
+
+int report(double share, char const* what, void* reporting) {
+    auto const& to = *static_cast<Reporting const*>(reporting);
+    tell(to.watcher.at, to.job, std::string_view(what), share);
+    return 1;
+}
+
+/// About the bytes of a terrain of which all parts are there.
+std::int64_t bytes_of(pipeline::Made const& made) {
+    constexpr std::int64_t of_cell = 40;
+    constexpr std::int64_t least = 1 << 20;
+    return least + of_cell * made.terrain.grid.cells();
+}
+
+} // namespace
+
+Engine::Engine(Watcher watcher, int threads, std::int64_t kept)
+    : watcher_(std::move(watcher)), threads_(threads), kept_(kept),
+      thread_([this](std::stop_token const& ends) { work(ends); }) {}
+
+Engine::~Engine() {
+    thread_.request_stop();
+    stop();
+}
+
+std::int64_t Engine::make(Job job) {
+    std::scoped_lock const lock(guard_);
+    job.number = ++last_;
+    next_ = std::move(job);
+    if (!running_.stop_requested()) {
+        asked_to_stop_ = std::chrono::steady_clock::now();
+    }
+    running_.request_stop();
+    changed_.notify_all();
+    return last_;
+}
+
+void Engine::stop() {
+    std::scoped_lock const lock(guard_);
+    if (next_) {
+        next_.reset();
+        ended_ = last_;
+        latest_.reset();
+    }
+    if (!running_.stop_requested()) {
+        asked_to_stop_ = std::chrono::steady_clock::now();
+    }
+    running_.request_stop();
+    changed_.notify_all();
+}
+
+std::shared_ptr<pipeline::Made const> Engine::wait(std::stop_token const& stop) {
+    std::unique_lock lock(guard_);
+    changed_.wait(lock, stop, [this] { return ended_ == last_; });
+    return ended_ == last_ ? latest_ : nullptr;
+}
+
+double Engine::slowest_stop_s() const {
+    std::scoped_lock const lock(guard_);
+    return slowest_stop_s_;
+}
+
+void Engine::work(std::stop_token const& ends) {
+    std::unique_lock lock(guard_);
+    while (changed_.wait(lock, ends, [this] { return next_.has_value(); })) {
+        Job const job = std::move(*next_);
+        next_.reset();
+        latest_.reset();
+        running_ = std::stop_source();
+        std::stop_token const stop = running_.get_token();
+        lock.unlock();
+        run(job, stop);
+        lock.lock();
+        if (stop.stop_requested()) {
+            std::chrono::duration<double> const waited = std::chrono::steady_clock::now() - asked_to_stop_;
+            slowest_stop_s_ = std::max(slowest_stop_s_, waited.count());
+        }
+        running_ = std::stop_source(std::nostopstate);
+        ended_ = job.number;
+        changed_.notify_all();
+    }
+}
+
+void Engine::run(Job const& job, std::stop_token const& stop) {
+    Reporting reporting{watcher_, job};
+    Run run;
+    run.threads = threads_;
+    run.progress = report;
+    run.progress_arg = &reporting;
+    run.log = [&](std::string_view line) { tell(watcher_.said, job, line); };
+    run.stop = stop;
+    run.kept = &kept_;
+    std::string const made_from = "made\n" + job.recipe.folder + "\n" + job.toml;
+    try {
+        auto made = std::static_pointer_cast<pipeline::Made const>(kept_.find(made_from));
+        if (made) {
+            if (job.recipe.network) {
+                tell(watcher_.rivers, job, made->plan, made->planform, run);
+            }
+            if (made->terrain.surface) {
+                tell(watcher_.heights, job, made->terrain.grid, made->terrain.surface->dem, true);
+            }
+        } else {
+            auto const fresh = std::make_shared<pipeline::Made>();
+            fresh->plan = pipeline::resolve(job.recipe, run);
+            fresh->planform = pipeline::make_planform(fresh->plan, run);
+            if (job.recipe.network) {
+                tell(watcher_.rivers, job, fresh->plan, fresh->planform, run);
+            }
+            run.preview = [&](Raster<float> const& dem, bool is_finished) {
+                run.check();
+                tell(watcher_.heights, job, job.recipe.network ? fresh->planform.grid : *fresh->plan.grid, dem,
+                     is_finished);
+            };
+            fresh->terrain = pipeline::make_terrain(fresh->plan, fresh->planform, run);
+            run.preview = nullptr;
+            fresh->recipe = pipeline::recipe_of(fresh->plan, fresh->terrain);
+            tell(watcher_.made, job, *fresh);
+            fresh->assessment = pipeline::assess(fresh->plan, fresh->planform, fresh->terrain, run);
+            made = fresh;
+            kept_.keep(made_from, made, bytes_of(*made));
+        }
+        run.check();
+        {
+            std::scoped_lock const lock(guard_);
+            latest_ = made;
+        }
+        tell(watcher_.measured, job, made);
+    } catch (Cancelled const&) {
+        tell(watcher_.stopped, job);
+    } catch (std::exception const& error) {
+        if (stop.stop_requested()) {
+            tell(watcher_.stopped, job);
+            return;
+        }
+        tell(watcher_.failed, job, std::string_view(error.what()));
+    }
+}
+
+} // namespace thalweg::studio

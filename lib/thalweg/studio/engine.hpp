@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <chrono>
+#include <condition_variable>
+#include <cstdint>
+#include <functional>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string>
+#include <string_view>
+#include <thread>
+
+#include <thalweg/core/run/kept.hpp>
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
+
+namespace thalweg::studio {
+
+/// A recipe to be made.
+struct Job {
+    std::int64_t number = 0;   ///< from 1; of two jobs the later has the larger one
+    std::int64_t revision = 0; ///< of the document
+    bool is_saved = true;      ///< false: a try, as while a slider is drawn
+    pipeline::Recipe recipe = {};
+    std::string toml = {}; ///< the recipe as text
+};
+
+/// Hears what becomes of jobs, one call at a time, on the engine's thread. Each may be empty.
+struct Watcher {
+    std::function<void(Job const&, std::string_view stage, double share)> at = {}; ///< [0, 1] of a stage is done
+    std::function<void(Job const&, std::string_view line)> said = {};
+    /// Before their land. \param run of the job
+    std::function<void(Job const&, pipeline::Plan const&, pipeline::Planform const&, Run const& run)> rivers = {};
+    /// \param grid of the terrain; dem: [m] coarse first; is_finished: that of the result
+    std::function<void(Job const&, Grid const& grid, Raster<float> const& dem, bool is_finished)> heights = {};
+    std::function<void(Job const&, pipeline::Made const&)> made = {}; ///< not yet measured
+    /// The end of a job.
+    std::function<void(Job const&, std::shared_ptr<pipeline::Made const> const&)> measured = {};
+    std::function<void(Job const&, std::string_view error)> failed = {};
+    std::function<void(Job const&)> stopped = {}; ///< by a later job, or stop()
+};
+
+/// Makes terrain on a thread of its own, always that of the last recipe asked for: a new one stops what is running.
+/// Stages whose input and parameters are those of an earlier job are not run again.
+class Engine {
+public:
+    /// \param watcher kept
+    /// \param threads as Run
+    /// \param kept [bytes] of results of stages that stay for later jobs
+    explicit Engine(Watcher watcher, int threads = 0, std::int64_t kept = std::int64_t{1} << 30);
+    /// Stops what is running.
+    ~Engine();
+    Engine(Engine const&) = delete;
+    Engine& operator=(Engine const&) = delete;
+
+    /// Begins a job.
+    /// \param job its number is set here
+    /// \return the number
+    std::int64_t make(Job job);
+    /// Stops what is running.
+    void stop();
+    /// Waits for the terrain of the last job.
+    /// \return nothing when it failed, was stopped, or stop ended the wait
+    std::shared_ptr<pipeline::Made const> wait(std::stop_token const& stop = {});
+    /// \return [s] the longest time from the request to stop a job to its end
+    double slowest_stop_s() const;
+
+private:
+    void work(std::stop_token const& ends);
+    void run(Job const& job, std::stop_token const& stop);
+
+    Watcher const watcher_;
+    int const threads_;
+    Kept kept_;
+    mutable std::mutex guard_;
+    std::condition_variable_any changed_;
+    std::optional<Job> next_;
+    std::int64_t last_ = 0;  ///< number given out
+    std::int64_t ended_ = 0; ///< number of the last job that ended
+    std::stop_source running_{std::nostopstate};
+    std::chrono::steady_clock::time_point asked_to_stop_{};
+    double slowest_stop_s_ = 0.0;
+    std::shared_ptr<pipeline::Made const> latest_; ///< of the job that ended last, if it was made
+    std::jthread thread_;                          ///< the last member: it uses all others
+};
+
+} // namespace thalweg::studio

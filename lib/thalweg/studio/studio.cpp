@@ -1,0 +1,341 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/studio.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <chrono>
+#include <exception>
+#include <filesystem>
+#include <mutex>
+#include <optional>
+#include <thread>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/report/live_page.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/engine.hpp>
+#include <thalweg/studio/internal/messages.hpp>
+
+namespace thalweg::studio {
+namespace {
+
+namespace fs = std::filesystem;
+
+using Clock = std::chrono::steady_clock;
+
+/// A word of a shell, whatever it holds.
+std::string quoted(std::string const& text) {
+    std::string out = "'";
+    for (char const c : text) {
+        out += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return out + "'";
+}
+
+std::string type_of(std::string const& name) {
+    static constexpr std::pair<std::string_view, char const*> types[] = {{".html", "text/html; charset=utf-8"},
+                                                                         {".json", "application/json"},
+                                                                         {".svg", "image/svg+xml"},
+                                                                         {".png", "image/png"},
+                                                                         {".tif", "image/tiff"},
+                                                                         {".toml", "application/toml"}};
+    std::string const ending = fs::path(name).extension().string();
+    auto const* const found = std::ranges::find(types, ending, [](auto const& type) { return type.first; });
+    return found == std::end(types) ? "application/octet-stream" : found->second;
+}
+
+Job job_of(Document const& document, bool is_saved) {
+    return {0, document.revision, is_saved, document.recipe, document.toml};
+}
+
+} // namespace
+
+/// Document, engine and server. The server's thread edits, the engine's tells what comes of it, a third one writes.
+class Desk {
+public:
+    explicit Desk(StudioParams params)
+        : params_(std::move(params)), folder_(params_.folder),
+          server_(params_.serve, {.get = [this](std::string const& path) { return answer(path); },
+                                  .opened = [this](serve::Client client) { welcome(client); },
+                                  .text = [this](serve::Client client, std::string_view text) { hear(client, text); }}),
+          engine_(watcher(), params_.threads) {}
+
+    std::string address() const { return server_.address(); }
+
+    void run(std::stop_token const& stop) {
+        engine_.make(job_of(folder_.document(), true));
+        server_.run(stop);
+        writing_ = {}; // asked to stop, and waited for
+        engine_.stop();
+    }
+
+private:
+    // On the server's thread.
+
+    std::optional<serve::Answer> answer(std::string const& path) {
+        if (path.empty()) {
+            pipeline::LivePage page = pipeline::live_page(pipeline::title_of(folder_.document().recipe),
+                                                          page_parameters(fs::absolute(params_.folder).string()));
+            return serve::Answer{std::move(page.html), "text/html; charset=utf-8", std::move(page.policy)};
+        }
+        constexpr std::string_view files = "files/";
+        constexpr std::int64_t largest = std::int64_t{1} << 31;
+        std::scoped_lock const lock(guard_);
+        if (!path.starts_with(files) ||
+            std::ranges::find(written_.files, path.substr(files.size())) == written_.files.end()) {
+            return std::nullopt;
+        }
+        std::string const name = path.substr(files.size());
+        return serve::Answer{io::read_text((fs::path(written_.folder) / name).string(), largest), type_of(name)};
+    }
+
+    void welcome(serve::Client client) {
+        std::scoped_lock const lock(guard_);
+        server_.send_text(client, document_words());
+        for (std::string const& words : folder_.notes()) {
+            server_.send_text(client, say_message(words));
+        }
+        if (!cluster_.empty()) {
+            server_.send_text(client, cluster_);
+        }
+        for (std::optional<Shown> const* shown : {&coarse_, &full_}) {
+            if (*shown) {
+                server_.send_binary(client, heights_message(shown_by_, **shown, nullptr));
+            }
+        }
+        if (!scene_.empty()) {
+            server_.send_text(client, scene_);
+        }
+        server_.send_text(client, state_.empty() ? idle_message({}, 0.0) : state_);
+    }
+
+    void hear(serve::Client client, std::string_view text) {
+        std::int64_t id = 0;
+        try {
+            id = id_of(text);
+            obey(client, request_of(text));
+        } catch (Error const& error) {
+            server_.send_text(client, refused_message(id, error.what()));
+        } catch (std::exception const& error) {
+            server_.send_text(client, refused_message(id, fmt::format("this failed: {}", error.what())));
+        }
+    }
+
+    void obey(serve::Client client, Request const& request) {
+        switch (request.kind) {
+        case Request::Kind::edit:
+            folder_.edit(request.edit);
+            changed();
+            break;
+        case Request::Kind::undo:
+            folder_.undo();
+            changed();
+            break;
+        case Request::Kind::redo:
+            folder_.redo();
+            changed();
+            break;
+        case Request::Kind::attempt:
+            engine_.make(job_of(apply(folder_.document(), request.edit).document, false));
+            is_trying_ = true;
+            break;
+        case Request::Kind::stop: engine_.stop(); break;
+        case Request::Kind::write: write(client, request); return; // answers when it is done
+        }
+        server_.send_text(client, done_message(request.id, folder_.document().revision));
+    }
+
+    void changed() {
+        is_trying_ = false;
+        std::scoped_lock const lock(guard_);
+        server_.send_text(serve::everyone, document_words());
+        engine_.make(job_of(folder_.document(), true));
+    }
+
+    std::string document_words() const { return document_message(folder_.document(), folder_.history(), command()); }
+
+    /// The command that makes the terrain shown.
+    std::string command() const {
+        std::string const recipe = (fs::absolute(params_.folder) / "recipe.toml").lexically_normal().string();
+        return fmt::format("thalweg make {} -o OUT", quoted(recipe));
+    }
+
+    void write(serve::Client client, Request const& request) {
+        refuse_if<BadInput>(is_writing_, "studio.export: the last export is still being written; wait for it");
+        if (is_trying_) {
+            changed();
+        }
+        is_writing_ = true;
+        writing_ =
+            std::jthread([this, client, request, revision = folder_.document().revision](std::stop_token const& stop) {
+                try {
+                    Written const written = written_now(request.file, stop);
+                    server_.send_text(client, written_message(request.id, revision, written));
+                } catch (std::exception const& error) {
+                    server_.send_text(client, refused_message(request.id, error.what()));
+                }
+                is_writing_ = false;
+            });
+    }
+
+    // On the thread that writes.
+
+    Written written_now(std::string const& file, std::stop_token const& stop) {
+        auto const made = engine_.wait(stop);
+        refuse_if<BadInput>(made == nullptr, "studio.export: there is no terrain of this recipe to write");
+        bool const is_whole = file.empty();
+        fs::path const below = params_.export_folder.empty() ? params_.folder : params_.export_folder;
+        fs::path const folder = is_whole ? below / "terrain" : fs::path(params_.folder) / ".terrain";
+        fs::create_directories(below);
+        Run run;
+        run.stop = stop;
+        run.threads = params_.threads;
+        Written written;
+        written.files = pipeline::write_terrain(*made, folder.string(), io::Existing::replace, run);
+        written.folder = fs::absolute(folder).lexically_normal().string();
+        refuse_if<BadInput>(!is_whole && std::ranges::find(written.files, file) == written.files.end(),
+                            "studio.export: make writes no {} of this recipe", file);
+        written.url = is_whole ? "" : "files/" + file;
+        std::scoped_lock const lock(guard_);
+        written_ = written;
+        return written;
+    }
+
+    // On the engine's thread.
+
+    Watcher watcher() {
+        return {.at = [this](Job const& job, std::string_view stage, double share) { tell_share(job, stage, share); },
+                .said = [this](Job const&, std::string_view line) { tell_warning(line); },
+                .rivers = [this](Job const& job, pipeline::Plan const& plan, pipeline::Planform const& planform,
+                                 Run const& run) { show_rivers(job, plan, planform, run); },
+                .heights = [this](Job const& job, Grid const& grid, Raster<float> const& dem,
+                                  bool is_finished) { show_heights(job, grid, dem, is_finished); },
+                .made = [this](Job const& job, pipeline::Made const& made) { show_scene(job, "land", made); },
+                .measured =
+                    [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
+                        show_scene(job, "measured", *made);
+                        end(idle_message(job, seconds_since(begun_)));
+                    },
+                .failed = [this](Job const& job, std::string_view error) { end(failed_message(job, error)); },
+                .stopped = [this](Job const& job) { end(idle_message(job, seconds_since(begun_))); }};
+    }
+
+    static double seconds_since(Clock::time_point begin) {
+        return std::chrono::duration<double>(Clock::now() - begin).count();
+    }
+
+    void tell_share(Job const& job, std::string_view stage, double share) {
+        constexpr double often_s = 0.1;
+        bool const is_new = job.number != told_job_ || stage != told_stage_;
+        if (job.number != told_job_) {
+            begun_ = Clock::now();
+        }
+        if (is_new || seconds_since(told_at_) > often_s) {
+            told_job_ = job.number;
+            told_stage_ = stage;
+            told_at_ = Clock::now();
+            end(busy_message(job, stage, share));
+        }
+    }
+
+    void tell_warning(std::string_view line) {
+        if (line.starts_with("warning")) {
+            server_.send_text(serve::everyone, say_message(line));
+        }
+    }
+
+    void show_rivers(Job const& job, pipeline::Plan const& plan, pipeline::Planform const& planform, Run const& run) {
+        constexpr std::int64_t side = 256;
+        std::string scene = scene_message(
+            job, "rivers", pipeline::live_scene(pipeline::rivers_to_be(plan, planform), job.toml, command(), run));
+        std::string cluster = cluster_message(job, pipeline::cluster_arms(plan, side, run));
+        std::scoped_lock const lock(guard_);
+        server_.send_text(serve::everyone, std::move(scene));
+        cluster_ = cluster;
+        server_.send_text(serve::everyone, std::move(cluster));
+    }
+
+    void show_heights(Job const& job, Grid const& grid, Raster<float> const& dem, bool is_finished) {
+        std::optional<pipeline::LiveHeights> heights = pipeline::live_heights(dem, grid);
+        if (!heights) {
+            return;
+        }
+        Shown shown{grid, is_finished, std::move(*heights)};
+        std::optional<Shown>& before = is_finished ? full_ : coarse_;
+        std::scoped_lock const lock(guard_);
+        server_.send_binary(serve::everyone, heights_message(job, shown, before ? &*before : nullptr));
+        before = std::move(shown);
+        shown_by_ = job;
+    }
+
+    void show_scene(Job const& job, char const* level, pipeline::Made const& made) {
+        std::string scene = scene_message(job, level, pipeline::live_scene(made, job.toml, command()));
+        std::scoped_lock const lock(guard_);
+        scene_ = scene;
+        server_.send_text(serve::everyone, std::move(scene));
+    }
+
+    void end(std::string state) {
+        std::scoped_lock const lock(guard_);
+        state_ = state;
+        server_.send_text(serve::everyone, std::move(state));
+    }
+
+    StudioParams const params_;
+    DocumentFolder folder_;
+    bool is_trying_ = false;
+    std::atomic<bool> is_writing_ = false;
+
+    std::mutex guard_; ///< of what follows: sent to all and to who comes later
+    std::string cluster_;
+    std::string scene_;
+    std::string state_;
+    std::optional<Shown> coarse_;
+    std::optional<Shown> full_;
+    Job shown_by_;
+    Written written_;
+
+    Clock::time_point begun_{}; ///< of the engine's thread, like what follows
+    Clock::time_point told_at_{};
+    std::int64_t told_job_ = 0;
+    std::string told_stage_;
+
+    serve::Server server_;
+    Engine engine_;        ///< after the server, which it tells
+    std::jthread writing_; ///< the last member: it uses all others
+};
+
+std::string document_for(std::string const& input, std::string const& folder, Run const& run) {
+    constexpr char const* usual = "studio";
+    std::string const meant = !input.empty() ? input : folder.empty() ? usual : folder;
+    if (is_document(meant)) {
+        return meant;
+    }
+    std::string fresh = folder.empty() ? usual : folder;
+    std::error_code unknown;
+    for (int number = 2; folder.empty() && fs::exists(fresh, unknown) && !fs::is_empty(fresh, unknown); ++number) {
+        fresh = fmt::format("{}-{}", usual, number);
+    }
+    new_document(fresh, input, run);
+    return fresh;
+}
+
+Studio::Studio(StudioParams params) : desk_(std::make_unique<Desk>(std::move(params))) {}
+Studio::~Studio() = default;
+
+std::string Studio::address() const {
+    return desk_->address();
+}
+
+void Studio::run(std::stop_token const& stop) {
+    desk_->run(stop);
+}
+
+} // namespace thalweg::studio

@@ -1,0 +1,364 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/engine.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <condition_variable>
+#include <cstdint>
+#include <map>
+#include <memory>
+#include <mutex>
+#include <optional>
+#include <random>
+#include <set>
+#include <string>
+#include <utility>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/studio/document.hpp>
+
+namespace engine_test {
+
+using namespace thalweg;
+using namespace thalweg::studio;
+
+namespace {
+
+std::string const forest = "[grid]\nwidth = 96\nheight = 80\n[network]\nsource = \"forest\"\nprune = 6\n"
+                           "[network.forest]\noutlet_spacing = 40\nspacing = 8\n[surface]\n";
+std::string const cluster = "[grid]\nwidth = 90\nheight = 90\n[network]\nsource = \"dla\"\nprune = 5\n"
+                            "[network.dla]\nparticles = 1200\n[surface]\nmethod = \"dilate\"\n";
+std::string const tree = "[grid]\nwidth = 80\nheight = 80\n[network]\nsource = \"tokunaga\"\n"
+                         "[network.tokunaga]\norder = 3\n[surface]\nmethod = \"diffuse\"\n";
+std::string const numbers = "[grid]\nwidth = 64\nheight = 64\n[statistics]\nmean = 500\nstd = 80\n";
+
+/// An engine that notes what happens.
+class Watched {
+public:
+    /// What an engine said of one job.
+    struct Told {
+        std::set<std::string> stages; ///< that ran
+        std::vector<std::pair<Raster<float>, bool>> heights;
+        int rivers = 0;
+        int made = 0;
+        std::shared_ptr<pipeline::Made const> measured;
+        std::string failed;
+        bool stopped = false;
+    };
+
+    Engine& engine() { return engine_; }
+
+    std::int64_t begin(Document const& document) {
+        return engine_.make({0, document.revision, true, document.recipe, document.toml});
+    }
+    /// What becomes of a document.
+    Told make(Document const& document) {
+        std::int64_t const number = begin(document);
+        engine_.wait();
+        return told(number);
+    }
+    Told told(std::int64_t number) {
+        std::unique_lock lock(guard_);
+        changed_.wait(lock, [&] { return ended_.contains(number); });
+        return jobs_[number];
+    }
+    /// Waits until a job runs a stage.
+    void wait_for(std::int64_t number, std::string const& stage) {
+        std::unique_lock lock(guard_);
+        changed_.wait(lock, [&] { return jobs_[number].stages.contains(stage) || ended_.contains(number); });
+    }
+
+private:
+    template <class Note> void note(Job const& job, Note const& what) {
+        std::scoped_lock const lock(guard_);
+        what(jobs_[job.number]);
+        changed_.notify_all();
+    }
+    void end(Job const& job) {
+        std::scoped_lock const lock(guard_);
+        ended_.insert(job.number);
+        changed_.notify_all();
+    }
+
+    Watcher watcher() {
+        return {.at = [this](Job const& job, std::string_view stage,
+                             double) { note(job, [&](Told& told) { told.stages.emplace(stage); }); },
+                .rivers = [this](Job const& job, pipeline::Plan const&, pipeline::Planform const&,
+                                 Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
+                .heights =
+                    [this](Job const& job, Grid const&, Raster<float> const& dem, bool is_finished) {
+                        note(job, [&](Told& told) { told.heights.emplace_back(dem, is_finished); });
+                    },
+                .made = [this](Job const& job, pipeline::Made const&) { note(job, [](Told& told) { ++told.made; }); },
+                .measured =
+                    [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
+                        note(job, [&](Told& told) { told.measured = made; });
+                        end(job);
+                    },
+                .failed =
+                    [this](Job const& job, std::string_view error) {
+                        note(job, [&](Told& told) { told.failed = error; });
+                        end(job);
+                    },
+                .stopped =
+                    [this](Job const& job) {
+                        note(job, [](Told& told) { told.stopped = true; });
+                        end(job);
+                    }};
+    }
+
+    std::mutex guard_;
+    std::condition_variable changed_;
+    std::map<std::int64_t, Told> jobs_;
+    std::set<std::int64_t> ended_;
+    Engine engine_{watcher(), 2};
+};
+
+Document edited(Document const& document, std::string const& key, std::string const& value) {
+    return apply(document, {"", {SetKey{key, value}}}).document;
+}
+
+/// Whether two terrains are the same in all that make writes of them.
+testing::AssertionResult are_same(pipeline::Made const& a, pipeline::Made const& b) {
+    if (a.terrain.surface.has_value() != b.terrain.surface.has_value() ||
+        (a.terrain.surface && !test::same_bits(a.terrain.surface->dem, b.terrain.surface->dem))) {
+        return testing::AssertionFailure() << "other heights";
+    }
+    StreamNetwork const& one = a.terrain.rivers.network.planform;
+    StreamNetwork const& other = b.terrain.rivers.network.planform;
+    bool same = one.arc_count() == other.arc_count() &&
+                a.terrain.rivers.network.arc_z == b.terrain.rivers.network.arc_z &&
+                a.terrain.areas.ds_area_m2 == b.terrain.areas.ds_area_m2;
+    for (ArcId arc = 0; same && arc < one.arc_count(); ++arc) {
+        same = one.arc(arc).line == other.arc(arc).line && one.arc(arc).type == other.arc(arc).type;
+    }
+    if (!same) {
+        return testing::AssertionFailure() << "other rivers";
+    }
+    bool checks = a.assessment.checks.size() == b.assessment.checks.size();
+    for (std::size_t i = 0; checks && i < a.assessment.checks.size(); ++i) {
+        checks = a.assessment.checks[i].name == b.assessment.checks[i].name &&
+                 test::same_bits(a.assessment.checks[i].value, b.assessment.checks[i].value);
+    }
+    if (!checks || pipeline::write_recipe(a.recipe) != pipeline::write_recipe(b.recipe)) {
+        return testing::AssertionFailure() << "other checks or recipe";
+    }
+    return testing::AssertionSuccess();
+}
+
+/// Pearson's r of heights on coarse cells and those of the finished terrain in the middle of each.
+double correlation(Raster<float> const& coarse, Raster<float> const& fine) {
+    double n = 0.0;
+    double sx = 0.0;
+    double sy = 0.0;
+    double sxx = 0.0;
+    double syy = 0.0;
+    double sxy = 0.0;
+    for (std::int64_t i = 0; i < coarse.cells(); ++i) {
+        Cell const at = fine.grid().cell_of(coarse.grid().centre(coarse.grid().at(i)));
+        if (!fine.grid().contains(at) || std::isnan(coarse[i]) || std::isnan(fine[at])) {
+            continue;
+        }
+        double const x = coarse[i];
+        double const y = fine[at];
+        n += 1.0;
+        sx += x;
+        sy += y;
+        sxx += x * x;
+        syy += y * y;
+        sxy += x * y;
+    }
+    return (n * sxy - sx * sy) / std::sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
+}
+
+/// A value that a key may get; nothing: it is left alone here.
+std::optional<std::string> value_for(pipeline::KeyHelp const& key, std::optional<std::string> const& now,
+                                     std::mt19937_64& random) {
+    auto const uniform = [&](double low, double high) {
+        return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
+    };
+    static std::set<std::string> const larger{"grid.width",
+                                              "grid.height",
+                                              "network.dla.particles",
+                                              "network.forest.particles",
+                                              "network.tokunaga.order",
+                                              "network.forest.seeds"};
+    if (key.is_file || larger.contains(key.path) || key.path == "grid.cell") {
+        return std::nullopt;
+    }
+    if (!key.choices.empty()) {
+        return key.choices[random() % key.choices.size()];
+    }
+    if (key.type == "yes/no") {
+        return random() % 2 == 0 ? "true" : "false";
+    }
+    if (key.type != "number" && key.type != "integer") {
+        return std::nullopt;
+    }
+    double const present = now ? std::stod(*now) : uniform(0.1, 2.0);
+    double value = present == 0.0 ? uniform(0.0, 2.0) : present * uniform(0.6, 1.6);
+    value = std::clamp(value, key.least.value_or(value), key.most.value_or(value));
+    return key.type == "integer" ? std::to_string(static_cast<std::int64_t>(value)) : std::to_string(value);
+}
+
+/// The document after a random edit that is not refused.
+Document with_random_edit(Document const& document, std::mt19937_64& random, std::string& what) {
+    std::vector<pipeline::KeyHelp> const keys = pipeline::recipe_keys();
+    for (;;) {
+        auto const values = pipeline::key_values(document.recipe);
+        pipeline::KeyValue const& one = values[random() % values.size()];
+        auto const key = std::ranges::find(keys, one.path, &pipeline::KeyHelp::path);
+        if (key == keys.end()) {
+            continue;
+        }
+        try {
+            if (random() % 8 == 0 && key->path.find('.') != std::string::npos) {
+                what = "unset " + one.path;
+                return apply(document, {"", {UnsetKey{one.path}}}).document;
+            }
+            if (auto const value = value_for(*key, one.text, random)) {
+                what = one.path + " = " + *value;
+                return edited(document, one.path, *value);
+            }
+        } catch (BadParameter const&) { // as it may
+        }
+    }
+}
+
+/// Makes a document and others that come of it, with the engine and anew.
+void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t seed) {
+    Watched watched;
+    std::mt19937_64 random(seed);
+    Document document = document_of(recipe);
+    std::string what = "as it begins";
+    std::string all;
+    for (int i = 0; i <= edits; ++i) {
+        all += what + "\n";
+        SCOPED_TRACE(testing::Message() << "seed " << seed << ", after\n" << all);
+        Watched::Told const told = watched.make(document);
+        std::optional<pipeline::Made> fresh;
+        std::string const error = test::error_of([&] { fresh = pipeline::make(document.recipe); });
+        ASSERT_EQ(told.measured != nullptr, fresh.has_value()) << told.failed << " / " << error;
+        if (fresh) {
+            ASSERT_TRUE(are_same(*told.measured, *fresh));
+        }
+        document = with_random_edit(document, random, what);
+    }
+}
+
+} // namespace
+
+TEST(Engine, MakesWhatMakeMakes) {
+    for (std::string const& recipe : {forest, cluster, tree, numbers}) {
+        expect_same_after_edits(recipe, 6, 1);
+    }
+}
+
+TEST(SoakEngine, MakesWhatMakeMakesAfterRandomEdits) {
+    std::uint64_t const seed = std::random_device()();
+    for (std::string const& recipe : {forest, cluster, tree, numbers}) {
+        expect_same_after_edits(recipe, 60, seed);
+    }
+}
+
+TEST(Engine, RunsTheStagesThatAnEditTouches) {
+    Watched watched;
+    Document const first = document_of(cluster);
+    std::set<std::string> const all = watched.make(first).stages;
+    EXPECT_TRUE(all.contains("grow") && all.contains("prune") && all.contains("fill") && all.contains("drain"));
+
+    Document const pruned = edited(first, "network.prune", "9");
+    Watched::Told const second = watched.make(pruned);
+    EXPECT_FALSE(second.stages.contains("grow")) << "the cluster is kept";
+    EXPECT_TRUE(second.stages.contains("prune") && second.stages.contains("fill"));
+
+    Watched::Told const third = watched.make(edited(pruned, "surface.drain", "fill"));
+    EXPECT_FALSE(third.stages.contains("prune") || third.stages.contains("fill")) << "only drainage differs";
+    EXPECT_TRUE(third.stages.contains("drain"));
+
+    EXPECT_FALSE(watched.make(edited(pruned, "surface.relief", "300")).stages.contains("prune"));
+    Watched::Told const other_arm = watched.make(edited(pruned, "network.dla.branch", "north"));
+    EXPECT_TRUE(other_arm.stages.contains("thin"));
+
+    Watched::Told const undone = watched.make(pruned);
+    EXPECT_TRUE(undone.stages.empty()) << "the whole terrain is kept";
+    EXPECT_EQ(undone.heights.size(), 1U);
+    EXPECT_TRUE(are_same(*undone.measured, *second.measured));
+}
+
+TEST(Engine, ShowsTheCoarseTerrainThatTheFinishedRefines) {
+    Watched watched;
+    Document const document =
+        document_of("[grid]\nwidth = 512\nheight = 448\ncell = 30\n[network]\nsource = \"forest\"\nprune = "
+                    "20\n[network.forest]\noutlet_spacing = 200\nspacing = 25\n[surface]\n");
+    Watched::Told const told = watched.make(document);
+    ASSERT_EQ(told.heights.size(), 2U);
+    auto const& [coarse, is_coarse_finished] = told.heights[0];
+    auto const& [fine, is_finished] = told.heights[1];
+    EXPECT_FALSE(is_coarse_finished);
+    EXPECT_TRUE(is_finished);
+    EXPECT_EQ(coarse.width(), 256);
+    EXPECT_EQ(coarse.height(), 224);
+    EXPECT_GE(correlation(coarse, fine), 0.95);
+    auto const range = [](Raster<float> const& dem) { return *std::ranges::max_element(dem.values()); };
+    EXPECT_NEAR(range(coarse) / range(fine), 1.0, 0.1) << "no jump";
+    EXPECT_TRUE(test::same_bits(fine, told.measured->terrain.surface->dem));
+    EXPECT_EQ(told.rivers, 1);
+    EXPECT_EQ(told.made, 1);
+}
+
+TEST(Engine, StopsForALaterJob) {
+    Watched watched;
+    Document const slow = document_of("[grid]\nwidth = 700\nheight = 700\n[network]\nsource = \"forest\"\n[surface]\n");
+    std::int64_t const first = watched.begin(slow);
+    watched.wait_for(first, "fill");
+    std::int64_t const second = watched.begin(document_of(forest));
+    EXPECT_EQ(second, first + 1);
+    EXPECT_TRUE(watched.told(first).stopped);
+    Watched::Told const told = watched.told(second);
+    ASSERT_NE(told.measured, nullptr);
+    EXPECT_EQ(watched.engine().wait(), told.measured);
+    EXPECT_GT(watched.engine().slowest_stop_s(), 0.0);
+}
+
+TEST(Engine, StopsWhenItIsTold) {
+    Watched watched;
+    std::int64_t const first =
+        watched.begin(document_of("[grid]\nwidth = 700\nheight = 700\n[network]\nsource = \"forest\"\n[surface]\n"));
+    watched.wait_for(first, "fill");
+    watched.engine().stop();
+    EXPECT_TRUE(watched.told(first).stopped);
+    EXPECT_EQ(watched.engine().wait(), nullptr);
+    EXPECT_NE(watched.make(document_of(forest)).measured, nullptr) << "it goes on";
+}
+
+TEST(Engine, SaysWhyARecipeCannotBeMade) {
+    Watched watched;
+    Document const broken = document_of("[grid]\nwidth = 60\nheight = 60\n[network]\nsource = \"dla\"\nprune = 1e6\n"
+                                        "[network.dla]\nparticles = 500\n[surface]\n");
+    Watched::Told const told = watched.make(broken);
+    EXPECT_EQ(told.measured, nullptr);
+    EXPECT_EQ(told.failed.empty(), test::error_of([&] { pipeline::make(broken.recipe); }).empty());
+    EXPECT_NE(watched.make(document_of(forest)).measured, nullptr) << "it goes on";
+}
+
+TEST(Engine, KeepsNoMoreThanItMay) {
+    Kept kept(100);
+    kept.keep("a", std::make_shared<int>(1), 60);
+    kept.keep("b", std::make_shared<int>(2), 30);
+    EXPECT_NE(kept.find("a"), nullptr);
+    kept.keep("c", std::make_shared<int>(3), 40); // "b" was used before "a"
+    EXPECT_EQ(kept.find("b"), nullptr);
+    EXPECT_NE(kept.find("a"), nullptr);
+    EXPECT_EQ(kept.bytes(), 100);
+    kept.keep("large", std::make_shared<int>(4), 1000);
+    EXPECT_NE(kept.find("large"), nullptr) << "the newest stays";
+    EXPECT_EQ(kept.find("a"), nullptr);
+}
+
+} // namespace engine_test

@@ -1,0 +1,229 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/studio.hpp>
+
+#include <cstdint>
+#include <filesystem>
+#include <stop_token>
+#include <string>
+#include <thread>
+#include <utility>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <serve/raw_client.hpp>
+#include <support.hpp>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/studio/document_folder.hpp>
+
+namespace studio_test {
+
+using namespace thalweg;
+using namespace thalweg::studio;
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::json;
+
+std::string const land = "[grid]\nwidth = 72\nheight = 64\n[network]\nsource = \"forest\"\nprune = 6\n"
+                         "[network.forest]\noutlet_spacing = 40\nspacing = 8\n[surface]\n";
+
+/// A studio that runs.
+class Running {
+public:
+    explicit Running(StudioParams params)
+        : token_(params.serve.token), studio_(std::move(params)),
+          thread_([this](std::stop_token const& stop) { studio_.run(stop); }) {}
+
+    int port() const {
+        std::string const address = studio_.address();
+        return std::stoi(address.substr(address.rfind(':') + 1));
+    }
+    std::string head(std::string const& target, std::string const& lines = "") const {
+        return "GET " + target + " HTTP/1.1\r\nHost: 127.0.0.1:" + std::to_string(port()) + "\r\n" + lines + "\r\n";
+    }
+    std::string with_token(std::string const& path) const { return path + "?token=" + token_; }
+    std::string ask(std::string const& target) const {
+        RawClient client(port());
+        client.send(head(target));
+        return client.read_all();
+    }
+
+private:
+    std::string const token_;
+    Studio studio_;
+    std::jthread thread_;
+};
+
+/// A window on a studio.
+class Window {
+public:
+    explicit Window(Running const& studio) : client_(studio.port()) {
+        client_.send(studio.head(studio.with_token("/"),
+                                 "Upgrade: websocket\r\nConnection: Upgrade\r\nSec-WebSocket-Version: 13\r\n"
+                                 "Sec-WebSocket-Key: dGhlIHNhbXBsZSBub25jZQ==\r\n"));
+        EXPECT_TRUE(client_.read_until("\r\n\r\n").starts_with("HTTP/1.1 101 "));
+    }
+
+    /// The next text message of a type; null: the connection ended.
+    json next(std::string const& type) {
+        for (;;) {
+            Frame const frame = client_.read_message();
+            if (frame.opcode == -1 || frame.opcode == 8) {
+                return nullptr;
+            }
+            json message = frame.opcode == 1 ? json::parse(frame.payload) : json();
+            if (frame.opcode == 1 && message["type"] == type) {
+                return message;
+            }
+        }
+    }
+    /// Waits until the terrain of a revision is there.
+    void wait_for(std::int64_t revision) {
+        json idle = next("idle");
+        while (!idle.is_null() && (idle["revision"] != revision || idle["job"] == 0)) {
+            idle = next("idle");
+        }
+        EXPECT_FALSE(idle.is_null());
+    }
+    void send(std::string const& text) const { client_.send(text_frame(text)); }
+    json ask(std::string const& text) {
+        send(text);
+        return next("reply");
+    }
+    json set(std::string const& key, std::string const& value, std::string const& how = "edit") {
+        return ask(json{{"id", 1}, {"do", how}, {"edit", {{"steps", {{{"set", key}, {"value", value}}}}}}}.dump());
+    }
+
+private:
+    RawClient client_;
+};
+
+class Studios : public testing::Test {
+protected:
+    Studios() {
+        test::write(at("land.toml"), land);
+        new_document(at("doc"), at("land.toml"));
+    }
+    std::string at(std::string const& name) const { return (folder_.path() / name).string(); }
+    StudioParams params() const { return {.folder = at("doc"), .threads = 2}; }
+    std::string recipe() const { return test::bytes_of(at("doc/recipe.toml")); }
+
+    io::TemporaryFolder folder_{"thalweg-studio"};
+};
+
+} // namespace
+
+TEST_F(Studios, EditUndoAndRedo) {
+    Running const studio(params());
+    Window window(studio);
+    json const first = window.next("document");
+    EXPECT_EQ(first["recipe"], recipe());
+    EXPECT_EQ(first["undo"], "");
+
+    EXPECT_EQ(window.set("network.prune", "9")["ok"], true);
+    std::string const edited = recipe();
+    EXPECT_NE(edited, first["recipe"]) << "saved before it is answered";
+    Window other(studio);
+    EXPECT_EQ(other.next("document")["recipe"], edited) << "a second window joins";
+
+    EXPECT_EQ(other.ask(R"({"id": 2, "do": "undo"})")["ok"], true);
+    json const undone = window.next("document");
+    EXPECT_EQ(undone["recipe"], first["recipe"]) << "and each hears of the other";
+    EXPECT_EQ(recipe(), first["recipe"]);
+    EXPECT_EQ(undone["redo"], "network.prune = 9");
+    EXPECT_EQ(window.ask(R"({"id": 3, "do": "redo"})")["ok"], true);
+    EXPECT_EQ(recipe(), edited);
+}
+
+TEST_F(Studios, TriesSaveNothing) {
+    Running const studio(params());
+    Window window(studio);
+    std::string const before = recipe();
+    EXPECT_EQ(window.set("network.prune", "9", "try")["ok"], true);
+    EXPECT_EQ(recipe(), before);
+}
+
+TEST_F(Studios, RefuseInWords) {
+    Running const studio(params());
+    Window window(studio);
+    std::string const before = recipe();
+    json const unknown = window.set("network.prunes", "9");
+    EXPECT_EQ(unknown["ok"], false);
+    EXPECT_TRUE(test::has(unknown["error"].get<std::string>(), "unknown key", "network.prune"));
+    EXPECT_TRUE(test::has(window.set("network.dla.sticking", "9")["error"].get<std::string>(), "network.dla.sticking"));
+    EXPECT_TRUE(test::has(window.set("surface.mask", "/etc/passwd")["error"].get<std::string>(), "inputs/"));
+    EXPECT_EQ(window.ask("no JSON")["ok"], false);
+    EXPECT_EQ(window.ask(R"({"id": 5, "do": "export", "file": "../history.jsonl"})")["ok"], false);
+    EXPECT_EQ(recipe(), before);
+}
+
+TEST_F(Studios, ExportWhatMakeMakes) {
+    StudioParams wanted = params();
+    wanted.export_folder = at("out");
+    Running const studio(wanted);
+    Window window(studio);
+    window.set("seed", "11");
+    json const written = window.ask(R"({"id": 7, "do": "export"})");
+    ASSERT_EQ(written["ok"], true) << written;
+    EXPECT_EQ(written["folder"], at("out/terrain"));
+    pipeline::run_make({.input = at("doc/recipe.toml"), .output = at("made")});
+    for (json const& name : written["files"]) {
+        std::string const file = name.get<std::string>();
+        if (file != "report.json" && file != "report.html") { // they hold times
+            EXPECT_EQ(test::bytes_of(at("out/terrain/" + file)), test::bytes_of(at("made/" + file))) << file;
+        }
+    }
+    EXPECT_EQ(window.ask(R"({"id": 8, "do": "export"})")["ok"], true) << "and again over it";
+
+    json const one = window.ask(R"({"id": 9, "do": "export", "file": "dem.tif"})");
+    ASSERT_EQ(one["ok"], true) << one;
+    std::string const answer = studio.ask(studio.with_token("/" + one["url"].get<std::string>()));
+    EXPECT_TRUE(answer.ends_with(test::bytes_of(at("made/dem.tif"))));
+    EXPECT_TRUE(studio.ask(studio.with_token("/files/../recipe.toml")).find(" 200 ") == std::string::npos);
+    EXPECT_TRUE(studio.ask(studio.with_token("/files/history.jsonl")).starts_with("HTTP/1.1 404"));
+    EXPECT_TRUE(studio.ask("/" + one["url"].get<std::string>()).starts_with("HTTP/1.1 403"));
+}
+
+TEST_F(Studios, ServeThePage) {
+    Running const studio(params());
+    std::string const answer = studio.ask(studio.with_token("/"));
+    EXPECT_TRUE(answer.starts_with("HTTP/1.1 200"));
+    EXPECT_TRUE(test::has(answer, "connect-src 'self'", "frame-ancestors 'none'", "network.dla.sticking"));
+    EXPECT_EQ(answer.find("@@"), std::string::npos) << "every marker is filled";
+    EXPECT_TRUE(studio.ask("/").starts_with("HTTP/1.1 403"));
+}
+
+TEST_F(Studios, LateWindowsSeeTheTerrain) {
+    Running const studio(params());
+    Window first(studio);
+    first.wait_for(0);
+    Window second(studio);
+    EXPECT_EQ(second.next("scene")["level"], "measured");
+}
+
+TEST_F(Studios, RefuseADocumentThatIsOpen) {
+    Running const studio(params());
+    EXPECT_TRUE(test::has(test::error_of([&] { Studio twice(params()); }), "open"));
+}
+
+TEST_F(Studios, FindTheDocumentMeant) {
+    EXPECT_EQ(document_for(at("doc"), ""), at("doc"));
+    EXPECT_EQ(document_for(at("land.toml"), at("fresh")), at("fresh"));
+    EXPECT_TRUE(fs::exists(at("fresh/recipe.toml")));
+    EXPECT_EQ(document_for("", at("fresh")), at("fresh")) << "it is there";
+    EXPECT_FALSE(test::error_of([&] { document_for(at("land.toml"), at("fresh")); }).empty())
+        << "what is there is not replaced";
+    fs::path const before = fs::current_path();
+    fs::current_path(folder_.path());
+    EXPECT_EQ(document_for("land.toml", ""), "studio");
+    EXPECT_EQ(document_for("", ""), "studio") << "opened";
+    EXPECT_EQ(document_for("land.toml", ""), "studio-2");
+    fs::current_path(before);
+}
+
+} // namespace studio_test
