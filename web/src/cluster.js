@@ -2,9 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The DLA cluster with its arms coloured, of which one becomes the valley.
 import { make } from './elements.js';
+import { bytesOf } from './unpack.js';
 
 const arms = ['north', 'east', 'south', 'west'];
-const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148]];
+const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148], [128, 128, 128]]; // the last: in no arm
 
 /** choose(arm): an arm was clicked. choices: of the key. Gives {element, show(message or null), mark(branch)}. */
 export function clusterPicture(choices, choose) {
@@ -27,10 +28,9 @@ export function clusterPicture(choices, choose) {
   let branch = '';
 
   function read({ arms: base64, width, height }) {
-    const text = atob(base64);
-    const bytes = Uint8Array.from(text, (c) => c.charCodeAt(0));
+    const bytes = bytesOf(base64, width * height);
     const box = { c0: width, c1: 0, r0: height, r1: 0 };
-    const size = [0, 0, 0, 0];
+    const size = [0, 0, 0, 0, 0];
     for (let r = 0, i = 0; r < height; ++r) {
       for (let c = 0; c < width; ++c, ++i) {
         if (!bytes[i]) continue;
@@ -42,7 +42,7 @@ export function clusterPicture(choices, choose) {
       }
     }
     const side = Math.max(1, box.c1 - box.c0 + 1, box.r1 - box.r0 + 1);
-    return { bytes, width, height, side, c0: (box.c0 + box.c1 + 1 - side) / 2, r0: (box.r0 + box.r1 + 1 - side) / 2, largest: arms[size.indexOf(Math.max(...size))] };
+    return { bytes, width, height, side, c0: (box.c0 + box.c1 + 1 - side) / 2, r0: (box.r0 + box.r1 + 1 - side) / 2, largest: arms[size.indexOf(Math.max(...size.slice(0, 4)))] };
   }
 
   function draw() {
@@ -56,7 +56,7 @@ export function clusterPicture(choices, choose) {
     const step = Math.max(1, Math.floor(per / 3));
     for (let y = 0; y < pixels; ++y) {
       for (let x = 0; x < pixels; ++x) {
-        const most = [0, 0, 0, 0];
+        const most = [0, 0, 0, 0, 0];
         let seen = 0;
         for (let r = Math.floor(r0 + y * per); r < Math.max(Math.floor(r0 + y * per) + 1, r0 + (y + 1) * per); r += step) {
           for (let c = Math.floor(c0 + x * per); c < Math.max(Math.floor(c0 + x * per) + 1, c0 + (x + 1) * per); c += step) {
@@ -84,7 +84,7 @@ export function clusterPicture(choices, choose) {
     for (let r = Math.max(0, Math.floor(y) - reach); r <= Math.min(cells.height - 1, y + reach); ++r) {
       for (let c = Math.max(0, Math.floor(x) - reach); c <= Math.min(cells.width - 1, x + reach); ++c) {
         const d = (c - x) ** 2 + (r - y) ** 2;
-        if (d < least && cells.bytes[r * cells.width + c]) {
+        if (d < least && arms[cells.bytes[r * cells.width + c] - 1]) {
           least = d;
           found = cells.bytes[r * cells.width + c];
         }
