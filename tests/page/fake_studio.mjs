@@ -172,7 +172,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
     for (const s of to) s.write(Buffer.isBuffer(message) ? frame(2, message) : frame(1, Buffer.from(JSON.stringify(message))));
   };
   const document = () => ({ type: 'document', revision, recipe: toml(), values, sections: [...new Set(Object.keys(values).map((k) => k.split('.').slice(0, -1).join('.')).filter(Boolean))],
-    undo: done.at(-1)?.name ?? '', redo: undone.at(-1)?.name ?? '', command: "thalweg make '/tmp/studio/recipe.toml' -o out" });
+    undo: done.at(-1)?.name ?? '', redo: undone.at(-1)?.name ?? '', command: "thalweg make 'studio/recipe.toml' -o out" });
   const rest = () => new Promise((ok) => setTimeout(ok, pause));
 
   async function make(of, to = sockets, whole = false) {
@@ -245,7 +245,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
       make(next);
       return undefined;
     } else if (what === 'export') {
-      return reply({ folder: '/tmp/studio/export', files: file ? [file] : ['dem.tif', 'network.gpkg', 'recipe.toml', 'report.html'], ...(file ? { url: `files/${file}?${revision}` } : {}) });
+      return reply({ folder: 'studio/export', files: file ? [file] : ['dem.tif', 'network.gpkg', 'recipe.toml', 'report.html'], ...(file ? { url: `files/${file}?${revision}` } : {}) });
     } else {
       ++job;
       return reply({});
@@ -265,10 +265,10 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
       asked.push({ get: url.pathname });
       response.writeHead(200, { 'Content-Type': 'application/octet-stream' }).end('contents');
     } else {
-      const about = JSON.stringify({ version: '0.2.0', folder: '/tmp/studio', keys }).replaceAll('<', '\\u003c');
+      const about = JSON.stringify({ version: '0.2.0', folder: 'studio', keys }).replaceAll('<', '\\u003c');
       let html = fs.readFileSync(path.join(web, 'dist/report.html'), 'utf8');
       for (const [marker, text] of [['@@TITLE@@', 'studio'], ['@@DATA@@', ''], ['@@HEIGHTS@@', ''], ['@@LINES@@', ''], ['@@WATER@@', ''], ['@@STUDIO@@', about]]) html = html.replace(marker, () => text);
-      html = html.replace("connect-src 'none'", "connect-src 'self'");
+      html = html.replace(/(http-equiv="Content-Security-Policy" content="[^"]*)/, "$1; connect-src 'self'");
       response.writeHead(200, { 'Content-Type': 'text/html; charset=utf-8', 'Content-Security-Policy': "connect-src 'self'; frame-ancestors 'none'" }).end(html);
     }
   });

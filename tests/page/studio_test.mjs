@@ -1,9 +1,9 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// The page as `thalweg studio` serves it, in Debian's Chromium, with a server that only speaks as the program does.
-// THALWEG_EXE names the program that makes the lands.
+// The page of the studio in Debian's Chromium: with a server that only speaks as `thalweg studio` does, and with that
+// itself. THALWEG_EXE names the program.
 import assert from 'node:assert/strict';
-import { execFileSync } from 'node:child_process';
+import { execFileSync, spawn } from 'node:child_process';
 import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
@@ -282,7 +282,7 @@ describe('the studio', () => {
     await page.click('text=Export…');
     await page.click('text=Export everything');
     await page.waitForSelector('#export .done');
-    assert.match(await page.textContent('#export'), /4 files in.*\/tmp\/studio\/export.*thalweg make/s);
+    assert.match(await page.textContent('#export'), /4 files in.*studio\/export.*thalweg make/s);
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export .one button')]);
     assert.equal(fs.readFileSync(await download.path(), 'utf8'), 'contents');
     assert.ok(server.asked.some((m) => m.get === '/files/dem.tif'));
@@ -401,5 +401,90 @@ describe('for everybody', () => {
     }));
     assert.equal(refused, 'connect-src');
     await report.close();
+  });
+});
+
+describe('thalweg studio itself', () => {
+  const folder = path.join(place, 'document');
+  let program;
+  before(async () => {
+    const recipe = path.join(place, 'small.toml');
+    fs.writeFileSync(recipe, '[grid]\nwidth = 200\nheight = 150\n[network]\nsource = "dla"\nprune = 6\n[network.dla]\nparticles = 4000\n[surface]\n');
+    program = spawn(exe, ['studio', recipe, '-o', folder, '--no-browser', '-q'], { stdio: ['ignore', 'pipe', 'inherit'] });
+    const url = await new Promise((done, failed) => {
+      let text = '';
+      program.on('exit', () => failed(new Error('thalweg studio has ended')));
+      program.stdout.on('data', (bytes) => {
+        text += bytes;
+        if (text.includes('\n')) done(text.trim());
+      });
+    });
+    server = { close() {} };
+    page = await gl.newPage({ viewport: { width: 1280, height: 720 } });
+    complaints = [];
+    page.on('console', (message) => ['error', 'warning'].includes(message.type()) && complaints.push(message.text()));
+    page.on('pageerror', (error) => complaints.push(String(error)));
+    await page.goto(url);
+    await settled();
+  });
+  after(() => program?.kill('SIGINT'));
+
+  /** The heights that `thalweg make` gives from the document's recipe. */
+  const made = () => {
+    const out = path.join(place, 'again');
+    fs.rmSync(out, { recursive: true, force: true });
+    execFileSync(exe, ['make', path.join(folder, 'recipe.toml'), '-o', out, '-q']);
+    return landOf(out);
+  };
+
+  test('shows the heights that make writes, to the bit, and after edits those of the new recipe', async () => {
+    await sameHeights(made());
+    await run({ set: 'network.prune', value: '24' });
+    await settled();
+    await sameHeights(made());
+    assert.equal(await page.inputValue('#L'), '24');
+    await page.click('.arms [data-arm=west]');
+    await settled();
+    await sameHeights(made());
+    const most = await page.evaluate(() => window.__thalweg.water.areas.reduce((a, b) => Math.max(a, b)));
+    assert.ok(most * 900 >= 0.999 * Math.max(...made().data.rivers.arcs.ds_area));
+    await page.keyboard.press('Control+z');
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => document.getElementById('L').value === '6');
+    await settled();
+    await sameHeights(made());
+    assert.ok((await page.locator('.cluster canvas').evaluate((c) => c.getContext('2d').getImageData(0, 0, c.width, c.height).data.filter((v, i) => i % 4 === 3 && v > 0).length)) > 200);
+    await assert.rejects(run({ set: 'network.purne', value: '3' }), /purne/);
+    assert.deepEqual(complaints, []);
+  });
+
+  test('tries while a slider is drawn, and forgets them', async () => {
+    const first = await heights();
+    await page.$eval('#L', (input) => {
+      input.value = 40;
+      input.dispatchEvent(new Event('input'));
+    });
+    await settled();
+    assert.notDeepEqual(await heights(), first);
+    assert.equal(await page.evaluate(() => window.__thalweg.recipe().includes('prune = 40')), false);
+    await page.$eval('#L', (input) => {
+      input.value = 6;
+      input.dispatchEvent(new Event('input'));
+      input.dispatchEvent(new Event('pointerup'));
+    });
+    await page.waitForTimeout(100);
+    await settled();
+    assert.deepEqual(await heights(), first);
+  });
+
+  test('writes a file, and says when it has ended', async () => {
+    await page.click('text=Export…');
+    await page.selectOption('#one-file', 'recipe.toml');
+    const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export .one button')]);
+    assert.match(fs.readFileSync(await download.path(), 'utf8'), /prune = 6/);
+    await page.keyboard.press('Escape');
+    program.kill('SIGINT');
+    await page.waitForFunction(() => /has ended; start it again and reload/.test(document.getElementById('message').textContent), null, { timeout: 30000 });
+    await page.close();
   });
 });

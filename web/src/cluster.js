@@ -5,7 +5,7 @@ import { make } from './elements.js';
 import { bytesOf } from './unpack.js';
 
 const arms = ['north', 'east', 'south', 'west'];
-const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148], [130, 130, 130]]; // the last: no arm
+const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148], [128, 128, 128]]; // the last: in no arm
 
 /** choose(arm): an arm was clicked. choices: of the key. Gives {element, show(message or null), mark(branch)}. */
 export function clusterPicture(choices, choose) {
@@ -28,7 +28,7 @@ export function clusterPicture(choices, choose) {
   let branch = '';
 
   function read({ arms: base64, width, height }) {
-    const bytes = bytesOf(base64);
+    const bytes = bytesOf(base64, width * height);
     const box = { c0: width, c1: 0, r0: height, r1: 0 };
     const size = [0, 0, 0, 0, 0];
     for (let r = 0, i = 0; r < height; ++r) {
@@ -84,13 +84,13 @@ export function clusterPicture(choices, choose) {
     for (let r = Math.max(0, Math.floor(y) - reach); r <= Math.min(cells.height - 1, y + reach); ++r) {
       for (let c = Math.max(0, Math.floor(x) - reach); c <= Math.min(cells.width - 1, x + reach); ++c) {
         const d = (c - x) ** 2 + (r - y) ** 2;
-        if (d < least && cells.bytes[r * cells.width + c]) {
+        if (d < least && arms[cells.bytes[r * cells.width + c] - 1]) {
           least = d;
           found = cells.bytes[r * cells.width + c];
         }
       }
     }
-    return arms[found - 1] ?? null;
+    return found ? arms[found - 1] : null;
   }
   canvas.addEventListener('pointermove', (event) => {
     const arm = cells && armAt(event.offsetX, event.offsetY);

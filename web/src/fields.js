@@ -121,7 +121,7 @@ export function field(key, path, act) {
   } else {
     const figure = /^(integer|number)$/.test(key.type);
     const text = input(figure ? { type: 'number', step: 'any' } : { type: 'text' });
-    text.placeholder = key.is_file ? 'no file' : figure ? plain(key.standard).split(' ')[0] : '';
+    text.placeholder = key.is_file ? 'no file' : figure ? plain(key.standard).split(' ')[0] || 'left out' : '';
     text.addEventListener('change', () => set(text.value.trim()));
     text.addEventListener('keydown', (event) => event.key === 'Escape' && (write(plain(shown)), event.stopPropagation()));
     const walk = scale(key);
@@ -174,18 +174,18 @@ export function field(key, path, act) {
   }
 
   back.addEventListener('click', () => settle(act.unset(path)));
-  /** value: as it stands in the recipe; undefined where it has none. */
+  /** value: as it stands in the recipe; null where the key is left out, undefined where it has no effect. */
   function show(value) {
-    shown = value === undefined ? '' : plain(value);
+    shown = plain(value);
     write(shown);
-    const changed = value !== undefined && shown !== '' && !isStandard(key, value);
+    const changed = shown !== '' && !isStandard(key, value);
     element.classList.toggle('changed', changed);
     back.style.visibility = changed ? '' : 'hidden';
   }
   return {
     element, path, key,
     show(value) {
-      say(null);
+      if (plain(value) !== shown) say(null); // a refusal stays until the key is another
       show(value);
     },
     get changed() {

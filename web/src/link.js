@@ -77,8 +77,9 @@ export class Link {
   #frame(buffer) {
     const size = new DataView(buffer).getUint32(0, true);
     const header = JSON.parse(new TextDecoder().decode(new Uint8Array(buffer, 4, size)));
-    if (header.kind !== 'heights' || this.#late(header)) return;
-    this.on.heights(header, this.#rasters[header.level].take(header, new Float32Array(buffer, 4 + size)));
+    if (header.kind !== 'heights') return;
+    const values = this.#rasters[header.level].take(header, new Float32Array(buffer, 4 + size)); // late ones too: later tiles lie beside them
+    if (!this.#late(header)) this.on.heights(header, values);
   }
 
   get job() {

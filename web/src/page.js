@@ -440,9 +440,10 @@ export function createPage(first, state, keys = []) {
     scene = next;
     ({ data, land, rivers, water } = next);
     if (report && land === before.land && rivers === before.rivers && water === before.water) {
+      const written = JSON.stringify(names);
       fill(false);
       fillReport();
-      view.redraw();
+      if (JSON.stringify(names) !== written) view.redraw();
       return;
     }
     const afresh = before.land.level !== land.level || ['width', 'height', 'cell_m'].some((key) => before.data.grid[key] !== data.grid[key]);

@@ -53,6 +53,7 @@ export function openStudio(about, state) {
   bar.setAttribute('aria-hidden', 'true');
   $('stage').append(bar, doing, spoken);
   let fading;
+  let done = {}; // of the stage that runs
   function tell(text, { bad = false, running = false, stay = 4000 } = {}) {
     clearTimeout(fading);
     words.textContent = text;
@@ -74,8 +75,8 @@ export function openStudio(about, state) {
   // ── What the page asks, and whether it waits for an answer.
   let unanswered = 0;
   let working = false;
-  let awaited = -1; // revision whose land is to come
-  let finished = -1; // revision whose land is there
+  let awaited = 0; // job whose end is to come
+  let finished = 0; // job that ended last
   let sent = null; // the last edit: {at, job}, for the times
   state.times = { first: null, full: null };
   Object.defineProperty(state, 'busy', { get: () => unanswered > 0 || working || trial.waits || awaited > finished });
@@ -93,11 +94,12 @@ export function openStudio(about, state) {
     begins();
     changes();
     trial.drop();
-    const revision = state.revision ?? -1;
+    const { revision = -1 } = state;
+    const { job } = link;
     ++unanswered;
     try {
       const reply = await link.ask(question);
-      if (reply.revision > revision) awaited = Math.max(awaited, reply.revision);
+      if (reply.revision > revision) awaited = reply.job ?? job + 1;
       return reply;
     } finally {
       --unanswered;
@@ -120,7 +122,9 @@ export function openStudio(about, state) {
       this.next = null;
       this.waits = true;
       changes();
-      await link.ask({ do: 'try', edit: { name: '', steps: [step] } }).catch((error) => tell(error.message, { bad: true }));
+      const { job } = link;
+      await link.ask({ do: 'try', edit: { name: '', steps: [step] } })
+        .then((reply) => (awaited = reply.job ?? job + 1), (error) => tell(error.message, { bad: true }));
       this.waits = false;
       if (this.next) this.send();
     },
@@ -189,7 +193,7 @@ export function openStudio(about, state) {
     },
     changed(value) {
       drawnL = false;
-      if (Number(value) === Number(plain(current.values['network.prune']))) act.trying('network.prune', value);
+      if (Number(value) === Number(plain(current.values['network.prune'] ?? now?.data.rivers.prune))) act.trying('network.prune', value);
       else quietly(act.set('network.prune', value));
     },
   };
@@ -203,9 +207,10 @@ export function openStudio(about, state) {
     redo.title = `Redo${current.redo ? `: ${current.redo}` : ''} (Ctrl+Shift+Z, Ctrl+Y)`;
     seed.value = plain(values.seed ?? '');
     source.value = plain(values['network.source'] ?? '');
-    source.parentElement.hidden = values['network.source'] === undefined;
+    source.parentElement.hidden = !('network.source' in values);
     cluster.mark(plain(values[branchPath()] ?? 'largest'));
-    const prune = values['network.prune'];
+    // Left out, it is what the rivers were pruned at.
+    const prune = 'network.prune' in values ? values['network.prune'] ?? String(now?.data.rivers.prune ?? 0) : undefined;
     L.least = Number(prune) < 1 ? 0 : 1;
     lengths.hidden = !page || prune === undefined;
     if (!drawnL) page?.bindLength(prune === undefined ? null : L, prune === undefined ? undefined : Number(plain(prune)));
@@ -318,7 +323,7 @@ export function openStudio(about, state) {
     compare.setAttribute('aria-pressed', String(on));
     root.dataset.before = on ? 'on' : 'off';
     page.replace(on ? before : now, { report: false });
-    if (on) page.bindLength(null, before.data.rivers.prune);
+    if (on) page.bindLength({ least: L.least, changing() {}, changed() {} }, before.data.rivers.prune);
     else above();
   }
   for (const [kind, on] of [['pointerdown', true], ['pointerup', false], ['pointerleave', false], ['pointercancel', false], ['blur', false]]) compare.addEventListener(kind, () => hold(on));
@@ -335,9 +340,9 @@ export function openStudio(about, state) {
     } else if (letter === 'b' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target.tagName !== 'SELECT') hold(true);
   });
 
-  const ends = ({ revision }) => {
+  const ends = ({ job }) => {
     working = false;
-    finished = Math.max(finished, revision ?? -1);
+    finished = job;
     bar.classList.remove('on');
   };
   const link = new Link({
@@ -349,7 +354,7 @@ export function openStudio(about, state) {
     lost(attempts) {
       side.inert = true;
       working = false;
-      awaited = finished;
+      awaited = finished = 0;
       bar.classList.remove('on');
       tell('');
       tellAll(attempts > 3 ? 'thalweg studio has ended; start it again and reload' : 'The connection to thalweg studio was lost; trying again…');
@@ -362,15 +367,17 @@ export function openStudio(about, state) {
       above();
       command.replaceChildren(copyable(message.command, 'the command'));
     },
-    busy({ stage, share }) {
+    busy({ job, stage, share }) {
       working = true;
+      // A stage of several passes does not run backwards.
+      done = done.job === job && done.stage === stage ? { ...done, share: Math.max(done.share, share) } : { job, stage, share };
       bar.classList.add('on');
-      bar.firstElementChild.style.width = `${(100 * share).toFixed(1)}%`;
-      tell(`${stage.replace(/_/g, ' ')}${share > 0 && share < 1 ? ` ${Math.round(100 * share)}\u00a0%` : ''}`, { running: true });
+      bar.firstElementChild.style.width = `${(100 * done.share).toFixed(1)}%`;
+      tell(`${stage.replace(/_/g, ' ')}${done.share > 0 && done.share < 1 ? ` ${Math.round(100 * done.share)}\u00a0%` : ''}`, { running: true });
     },
     idle(message) {
       ends(message);
-      tell(`done in ${seconds(message.seconds)}`);
+      tell(state.busy || !page ? '' : `done in ${seconds(message.seconds)}`); // one that a later job ended is not done
     },
     failed(message) {
       ends(message);

@@ -3,11 +3,12 @@
 // The two packed blocks of the page; README.md says how they are written.
 import { unzlibSync } from 'fflate';
 
-export function bytesOf(base64) {
+/** The bytes of a zlib stream; of as many as are wanted, also plain ones. */
+export function bytesOf(base64, wanted) {
   const text = atob(base64.trim());
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return unzlibSync(bytes);
+  return text.length === wanted ? bytes : unzlibSync(bytes);
 }
 
 /** Heights as their 16-bit numbers, 0 where there is none. */
