@@ -62,6 +62,9 @@ public:
         raster("erodibility.asc", 100, 60, 498000, 4998000, [](int c, int r) { return (c / 9 + r / 7) % 2 + 0.5; });
         auto const hills = [](int c, int r) { return 50.0 + 40.0 * std::sin(r / 4.0) * std::cos(c / 5.0); };
         raster("patch.asc", 24, 30, 500600, 4998700, hills);
+        raster("hills.asc", 64, 30, 500000, 4998080, hills);
+        raster("other_hills.asc", 64, 30, 500000, 4998080, [&](int c, int r) { return hills(r, c); });
+        raster("valley.asc", 64, 30, 499980, 4999995, [&](int c, int r) { return hills(c, r) - 4.0 * r; });
         raster("other_patch.asc", 24, 30, 500600, 4998700, [&](int c, int r) { return 2.0 * hills(r, c); });
         two_layers("rivers.gpkg", "rivers", "second");
         two_layers("strokes.gpkg", "strokes", "one_stroke");

@@ -11,6 +11,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
+#include <pipeline/ascii_grid.hpp>
 #include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <support.hpp>
 #include <sys/wait.h>
@@ -151,6 +152,27 @@ TEST_F(DocumentFolders, BeginWithNothingARecipeRiversOrAFolderOfMake) {
     EXPECT_TRUE(has(error_of([&] { new_document(at("made"), at("land.toml")); }), "BadInput"));
     EXPECT_TRUE(has(error_of([&] { new_document(at("no"), at("nowhere")); }), "BadInput"));
     EXPECT_FALSE(fs::exists(at("no")));
+}
+
+TEST_F(DocumentFolders, BeginWithADem) {
+    write_ascii_grid(at("dem.asc"), {30, 20, 10, 500000, 4000000}, [](int c, int r) { return c + 0.3 * r; });
+    new_document(at("d"), at("dem.asc"));
+    DocumentFolder document(at("d"));
+    pipeline::Recipe const recipe = document.document().recipe;
+    EXPECT_EQ(recipe.surface->method, pipeline::Method::raster);
+    EXPECT_EQ(recipe.surface->source, "inputs/source/dem.asc");
+    EXPECT_EQ(recipe.grid.width, 30);
+    EXPECT_EQ(recipe.grid.cell_m, 10.0);
+    EXPECT_EQ(bytes_of(at("d/inputs/source/dem.asc")), bytes_of(at("dem.asc")));
+    Raster<float> const dem = pipeline::make(recipe).terrain.surface->dem;
+    EXPECT_EQ((dem[Cell{7, 5}]), 7.0F + 1.5F);
+    document.edit({"coarser", {SetKey{"grid.cell", "20"}, UnsetKey{"grid.width"}, UnsetKey{"grid.height"}}});
+    EXPECT_EQ(pipeline::resolve(document.document().recipe).grid->width, 15);
+    document.edit({"the file's", {UnsetKey{"grid.cell"}}});
+    EXPECT_EQ(pipeline::resolve(document.document().recipe).grid->width, 30);
+    test::write(at("dem.toml"), "[surface]\nmethod = \"raster\"\nsource = \"dem.asc\"\n");
+    new_document(at("e"), at("dem.toml"));
+    EXPECT_EQ(DocumentFolder(at("e")).document().recipe.grid.cell_m, 10.0);
 }
 
 TEST_F(DocumentFolders, InputsAreTakenIn) {

@@ -60,7 +60,7 @@ for command in ([], *([c] for c in spoken.commands())):
 
 assert bash("thalweg", "completion", "") == {"bash", "zsh", "fish"} == fish("thalweg completion ")
 assert bash("thalweg", "help", "rec") == {"recipe"} == fish("thalweg help rec")
-assert bash("thalweg", "make", "") == {"mine.toml", "my rivers.toml", "net.gpkg", "out"}, "recipes and rivers"
+assert bash("thalweg", "make", "") == {"dem.tif", "mine.toml", "my rivers.toml", "net.gpkg", "out"}, "recipes and data"
 assert bash("thalweg", "make", "-q", "my") == {"my rivers.toml"}
 assert bash("thalweg", "make", "-o", "mine.toml", "mi") == {"mine.toml"}, "the value of -o is no recipe"
 assert bash("thalweg", "make", "mine.toml", "") >= {"--set"}, "a second recipe is not offered"

@@ -122,11 +122,11 @@ int make(MakeOptions& options, Session const& session) {
 
 Command add_make(CLI::App& app, Session& session) {
     auto const options = std::make_shared<MakeOptions>();
-    app.add_option(
-           "INPUT", options->params.input,
-           "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or convert. "
-           "Without it, thalweg grows a valley on 1024x1024 cells.")
-        ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
+    app.add_option("INPUT", options->params.input,
+                   "A recipe (TOML), or rivers: any file of lines that GDAL reads, or a folder written by make or "
+                   "convert; or a "
+                   "DEM. Without it, thalweg grows a valley on 1024x1024 cells.")
+        ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)");
     app.add_option("-o,--output", options->params.output, "Write to this folder.")
         ->type_name("DIR")
         ->capture_default_str();
@@ -171,7 +171,8 @@ Command add_make(CLI::App& app, Session& session) {
         "machine. The folder is written completely or not at all.\n\n"
         "Rivers need no recipe: thalweg chooses the grid and its cell size from the data and makes equilibrium "
         "terrain around them. `thalweg recipe --for RIVERS` prints the recipe that it uses. From a folder written "
-        "by make or convert it takes the arcs.\n\n"
+        "by make or convert it takes the arcs. A DEM is taken as the terrain, cell by cell (surface.method = "
+        "raster).\n\n"
         "Examples:\n"
         "  thalweg make\n"
         "  thalweg make samples/dla.toml --seed 8 --set network.prune=40 -o out/sparse\n"
@@ -179,7 +180,8 @@ Command add_make(CLI::App& app, Session& session) {
         "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
         "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
         "  thalweg make out/walker --seed 8 -o out/other\n"
-        "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n");
+        "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n"
+        "  thalweg make samples/jacksboro_utm16.tif --set surface.drain=carve -o out/drained\n");
     return [options, &session] { return make(*options, session); };
 }
 

@@ -143,8 +143,8 @@ Command add_recipe(CLI::App& app, Session& session) {
     CLI::Option* const of_rivers =
         app.add_option("--for", *rivers,
                        "Print the recipe that make uses for these rivers: a file of lines, or a folder written by make "
-                       "or convert.")
-            ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)");
+                       "or convert; or for this DEM.")
+            ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)");
     app.add_option("--source-crs", *source_crs, "Read rivers whose file has no CRS in this one, as make does.")
         ->type_name("EPSG:N")
         ->needs(of_rivers);

@@ -103,7 +103,7 @@ void new_document(std::string const& folder, std::string const& input, Run const
     io::OutputFolder out(folder);
     pipeline::Recipe recipe = first_recipe(input);
     pipeline::UserFiles const files(recipe, run);
-    if (recipe.grid.cell_m == 0.0) { // to be chosen from rivers, which no recipe file can say
+    if (recipe.grid.cell_m == 0.0) { // to be chosen from rivers, which no recipe file can say, or from a DEM
         recipe = pipeline::settled_recipe(recipe, run);
     }
     pipeline::check_recipe(recipe);

@@ -446,6 +446,38 @@ TEST(WarpToGrid, OtherCellsLieOnTheGridsLattice) {
     }
 }
 
+TEST(Resample, CellsOfTheSameLatticeAreCutOut) {
+    Raster<float> dem = plane(utm, 0.1, 0.2);
+    dem[7] = std::numeric_limits<float>::quiet_NaN();
+    Grid part = utm;
+    part.west -= 2.0 * utm.cell_m;
+    part.north += 3.0 * utm.cell_m;
+    part.height = 7;
+    Raster<float> const cut = io::resample(dem, part, "test");
+    EXPECT_EQ(cut.grid(), part);
+    for (std::int64_t i = 0; i < part.cells(); ++i) {
+        Cell const c = part.at(i);
+        bool const is_there = c.col >= 2 && c.row >= 3 && c != Cell{9, 3};
+        EXPECT_EQ(std::isnan(cut[i]), !is_there) << i;
+        EXPECT_TRUE(!is_there || (cut[i] == dem[Cell{c.col - 2, c.row - 3}])) << i;
+    }
+    EXPECT_TRUE(std::isnan(io::resample(dem, utm, "test")[7]));
+}
+
+TEST(Resample, OtherCellsAreWarpedToTheGrid) {
+    Grid shifted = utm;
+    shifted.west += 0.5 * utm.cell_m;
+    shifted.width -= 1;
+    Raster<float> const dem = io::resample(plane(utm, 0.1, 0.2), shifted, "test");
+    EXPECT_EQ(dem.grid(), shifted);
+    for (std::int64_t i = 0; i < shifted.cells(); ++i) {
+        Vec2 const p = shifted.centre(shifted.at(i));
+        EXPECT_NEAR(dem[i], 100.0 + 0.1 * (p.x - utm.west) + 0.2 * (utm.north - p.y), 1e-3);
+    }
+    shifted.crs = "";
+    EXPECT_TRUE(has(error_of([&] { io::resample(plane(utm, 0.1, 0.2), shifted, "io.test: a.tif"); }), "BadInput"));
+}
+
 TEST(WarpToGrid, RealLandComesIntoItsZone) {
     Raster<float> const srtm = io::read_dem(THALWEG_SOURCE_DIR "/samples/jacksboro_srtm3.tif");
     EXPECT_EQ(io::metric_crs(srtm.grid(), "srtm"), "EPSG:32616");

@@ -195,6 +195,47 @@ TEST(ClipLines, WhatLiesBeyondIsSecondary) {
     EXPECT_EQ(network::clip_lines(lines_of({{{-5, 0, 1}, {0, -5, 0}}}), ten).secondary.size(), 1U);
 }
 
+// Law: every metre is inside or beyond, and no vertex lies in a cell that is not marked.
+TEST(ClipLines, CutsWhereTheLandEnds) {
+    Mask land(Grid{10, 10, 1.0, 0.0, 10.0, ""}, 1);
+    for (std::int64_t row = 0; row < 10; ++row) {
+        land[Cell{4, row}] = land[Cell{5, row}] = 0;
+    }
+    auto const lines = lines_of({{{0.5, 5.5, 9}, {9.5, 5.5, 0}},
+                                 {{4.2, 3.5, 1}, {4.2, 1.5, 0}},
+                                 {{9.5, 9.5, 1}, {6, 9, 0}},
+                                 {{8, 3, 2}, {7, 2, 1}, {6, 1.5, 0}, {5.5, 1, 0}}});
+    RiverLines const out = network::clip_lines(lines, land);
+    ASSERT_EQ(out.lines.size(), 4U);
+    EXPECT_EQ(out.lines[0].vertices.front(), (Vec3{0.5, 5.5, 9}));
+    EXPECT_NEAR(out.lines[0].vertices.back().x, 3.5, 1e-9);
+    EXPECT_NEAR(out.lines[1].vertices.front().x, 6.5, 1e-9);
+    EXPECT_NEAR(out.lines[1].vertices.front().z, 3.0, 1e-9);
+    EXPECT_EQ(out.lines[2].vertices, lines.lines[2].vertices);
+    double metres = 0.0;
+    for (RiverLine const& line : out.lines) {
+        metres += length_in_plan(line.vertices);
+        for (Vec3 const& v : line.vertices) {
+            EXPECT_NE(land[land.grid().cell_of(in_plan(v))], 0) << v.x << " " << v.y;
+        }
+    }
+    EXPECT_EQ(out.secondary.size(), 3U);
+    for (SecondaryLine const& line : out.secondary) {
+        metres += length_in_plan(line.vertices);
+    }
+    double asked = 0.0;
+    for (RiverLine const& line : lines.lines) {
+        asked += length_in_plan(line.vertices);
+    }
+    EXPECT_NEAR(metres, asked, 1e-9);
+    // A vertex on the edge of a cell that is no land leaves the line whole.
+    RiverLines const along = network::clip_lines(lines_of({{{3.5, 8, 3}, {4, 7, 2}, {3.5, 6, 1}}}), land);
+    ASSERT_EQ(along.lines.size(), 1U);
+    EXPECT_EQ(along.lines[0].vertices.front(), (Vec3{3.5, 8, 3}));
+    EXPECT_EQ(along.lines[0].vertices.back(), (Vec3{3.5, 6, 1}));
+    EXPECT_TRUE(along.secondary.empty());
+}
+
 TEST(FillHeights, NothingToFill) {
     EXPECT_EQ(fill_heights({}, 0.01).filled, 0);
     EXPECT_THROW(fill_heights({}, 0.0), BadParameter);

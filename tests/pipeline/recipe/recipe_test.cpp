@@ -277,7 +277,7 @@ TEST(RecipeKeys, WordsStandInTheOrderOfTheirEnumeration) {
          [](Recipe const& r) { return r.skeleton->deviation == skeleton::Deviation::printed; }},
         {"skeleton.falloff", "literal",
          [](Recipe const& r) { return r.skeleton->falloff == skeleton::Falloff::literal; }},
-        {"surface.method", "regress", [](Recipe const& r) { return r.surface->method == Method::regress; }},
+        {"surface.method", "raster", [](Recipe const& r) { return r.surface->method == Method::raster; }},
         {"surface.base", "tin", [](Recipe const& r) { return r.surface->base == Base::tin; }},
         {"surface.metric", "euclid",
          [](Recipe const& r) { return r.surface->dilate.metric == surface::Metric::euclid; }},

@@ -140,11 +140,10 @@ TEST(GivenRivers, WhatHoldsNoRiversIsRefused) {
     place.write("empty.gpkg", "");
     place.write("words.txt", "The quick brown fox\n");
     fs::create_directories(place / "folder");
-    fs::copy_file(samples + "bigtujunga_srtm1.tif", place / "dem.tif");
     place.write("point.geojson", test::geojson(test::line("[500000,4000000],[500000,4000000]")));
     expect_run(place, "make " + samples + "points.toml -q -o dots", 0); // a terrain without rivers
     expect_refused(place, "make -o out",
-                   {"nothing.gpkg", "empty.gpkg", "words.txt", "folder", "dem.tif", "point.geojson", "dots"});
+                   {"nothing.gpkg", "empty.gpkg", "words.txt", "folder", "point.geojson", "dots"});
 }
 
 TEST(GivenRivers, ARecipeOfAnyNameIsARecipe) {

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Land from numbers and from points, as the command line makes it.
 #include <cmath>
+#include <cstdint>
 #include <string>
 
 #include <gtest/gtest.h>
 #include <support.hpp>
+
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include "command.hpp"
 
@@ -26,6 +29,51 @@ TEST(Land, EverySampleIsMadeAgainWithAnyNumberOfThreads) {
         EXPECT_TRUE(fs::exists(place / "out/report.html"));
         expect_run(place, "replay out --threads 2", 0);
     }
+}
+
+TEST(Land, ADemIsTheTerrain) {
+    Workplace const place;
+    std::string const dem = samples + "jacksboro_utm16.tif";
+    expect_run(place, "make " + dem + " -q -o out", 0);
+    auto const given = thalweg::io::read_dem(dem);
+    auto const made = thalweg::io::read_dem((place / "out/dem.tif").string());
+    EXPECT_EQ(made.grid(), given.grid());
+    for (std::int64_t i = 0; i < given.cells(); ++i) {
+        ASSERT_TRUE(made[i] == given[i] || (std::isnan(made[i]) && std::isnan(given[i]))) << i;
+    }
+    EXPECT_TRUE(fs::exists(place / "out/inputs/source/jacksboro_utm16.tif"));
+    fs::rename(place / "out", place / "moved");
+    expect_run(place, "replay moved --verify", 0);
+    place.write("again.toml", expect_run(place, "recipe --for " + dem, 0).out);
+    expect_run(place, "make again.toml -q -o again --set output.title=jacksboro", 0);
+    EXPECT_EQ(file_bytes(place / "again/dem.tif"), file_bytes(place / "moved/dem.tif"));
+}
+
+TEST(Land, RiversDrainADem) {
+    Workplace const place;
+    std::string const dem = samples + "jacksboro_srtm3.tif"; // in degrees
+    expect_run(place, "make " + dem + " -o out --set network.source=forest --set network.prune=20 --set grid.cell=120",
+               0, "is resampled from 403x344 cells", "cells of rivers cut");
+    expect_checks_hold(report_of(place / "out"));
+    EXPECT_EQ(report_of(place / "out")["dem"]["pit_cells"], 0);
+    expect_run(place, "check out -q", 0);
+    expect_run(place, "replay out --verify", 0);
+}
+
+TEST(Land, WhatIsNoDemIsRefused) {
+    Workplace const place;
+    place.write("rivers.geojson", test::geojson(test::line("[500000,5000000],[500300,5000000]")));
+    place.write("text.asc", "no raster");
+    place.write("empty.asc", "ncols 2\nnrows 1\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n-9 -9\n");
+    place.shell("printf 'P6\\n2 2\\n255\\n123456789012' > photo.ppm");
+    expect_refused(place, "make -q -o out", {"text.asc", "empty.asc", "photo.ppm", "none.tif"});
+    std::string const raster = "[surface]\nmethod = \"raster\"\n";
+    place.write("alone.toml", raster);
+    for (std::string const name : {"rivers.geojson", "empty.asc", "none.tif"}) {
+        place.write(name + ".toml", raster + "source = \"" + name + "\"\n");
+        expect_refused(place, "make -q -o out", {name + ".toml"});
+    }
+    expect_refused(place, "make -q -o out", {"alone.toml"});
 }
 
 TEST(Land, RealReliefGivesARecipeThatHasItsStatistics) {

@@ -210,6 +210,12 @@ bool same_size(Grid const& a, Grid const& b) {
     return std::fabs(a.cell_m - b.cell_m) <= 1e-6 * b.cell_m;
 }
 
+bool same_lattice(Grid const& a, Grid const& b) {
+    constexpr double most_cells = 0.01;
+    auto const is_whole = [&](double m) { return std::fabs(m / a.cell_m - std::round(m / a.cell_m)) <= most_cells; };
+    return same_size(a, b) && is_whole(a.west - b.west) && is_whole(a.north - b.north);
+}
+
 bool same_cells(Grid const& a, Grid const& b) {
     double const most = 0.01 * a.cell_m;
     return a.width == b.width && a.height == b.height && std::fabs(a.west - b.west) <= most &&

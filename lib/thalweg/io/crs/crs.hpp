@@ -61,6 +61,11 @@ bool same_crs(std::string const& a, std::string const& b, std::string const& of_
 /// \return whether cells have the same side, to a millionth
 bool same_size(Grid const& a, Grid const& b);
 
+/// Compares the lattices of two grids.
+/// \param a,b grids; their CRS do not matter
+/// \return whether cells of one are cells of the other where both lie, to a hundredth of a cell
+bool same_lattice(Grid const& a, Grid const& b);
+
 /// Compares the cells of two grids.
 /// \param a,b grids; their CRS do not matter
 /// \return whether all cells have the same positions, to a hundredth of a cell

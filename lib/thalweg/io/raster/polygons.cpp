@@ -244,7 +244,7 @@ void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, st
     }
 }
 
-Dataset in_memory(Raster<std::int32_t> const& numbers, std::string const& what) {
+Dataset numbers_in_memory(Raster<std::int32_t> const& numbers, std::string const& what) {
     require_size(numbers.grid(), what);
     Dataset dataset(GetGDALDriverManager()->GetDriverByName("MEM")->Create(
         "", static_cast<int>(numbers.width()), static_cast<int>(numbers.height()), 1, GDT_Int32, nullptr));
@@ -282,7 +282,7 @@ std::vector<std::vector<Polygon>> polygonise(Raster<std::int32_t> const& numbers
     std::string const what = "io.polygonise";
     require_numbers(numbers, count, what);
     Driver const driver;
-    Dataset const source = in_memory(numbers, what);
+    Dataset const source = numbers_in_memory(numbers, what);
     Dataset const drawn(GetGDALDriverManager()->GetDriverByName("Memory")->Create("", 0, 0, 0, GDT_Unknown, nullptr));
     OGRLayer* const layer = drawn->CreateLayer("polygons", nullptr, wkbPolygon, nullptr);
     OGRFieldDefn field("number", OFTInteger);

@@ -73,6 +73,23 @@ Mask read_mask(Source const& source, Grid const& grid, Run const& run = {});
 /// memory
 Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run = {});
 
+/// Finds the cells of a lattice that a DEM covers.
+/// \param dem [m] by cell
+/// \param lattice a grid, whose cells go on beyond its edges, in any CRS
+/// \param what as in warp_to_grid
+/// \return the smallest grid of such cells around the DEM
+/// \throws BadInput when the DEM cannot be warped or becomes larger than memory
+Grid grid_around(Raster<float> const& dem, Grid const& lattice, std::string const& what);
+
+/// Resamples a DEM to the cells of a grid.
+/// \param dem [m] by cell; NaN: no data
+/// \param grid in any CRS
+/// \param what as in warp_to_grid
+/// \return bit for bit where the grid's cells are cells of the DEM; else warped (bilinear, means if cells become
+/// larger); NaN: no data, or beyond the DEM
+/// \throws BadInput naming both when only one of them has a CRS; when the DEM cannot be warped
+Raster<float> resample(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run = {});
+
 /// Writes heights as a new cloud-optimised GeoTIFF: Float32, tiles of 512, DEFLATE with the floating-point predictor,
 /// nodata -9999 for NaN, overviews by mean. The same bytes for the same raster and any number of threads.
 /// \param dem [m] by cell; NaN: no data

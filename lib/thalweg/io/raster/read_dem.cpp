@@ -343,16 +343,26 @@ Grid frame_for(GDALDataset& source, Grid const& grid, std::string const& wkt, st
     return frame;
 }
 
-} // namespace
-
-Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {
-    if (same_crs(dem.grid().crs, grid.crs, what, "the grid") && same_size(dem.grid(), grid)) {
-        return dem;
+/// The cells of a grid that are cells of a DEM too.
+Raster<float> cut(Raster<float> const& dem, Grid const& grid) {
+    Raster<float> part(grid, std::numeric_limits<float>::quiet_NaN());
+    Grid const& own = dem.grid();
+    constexpr double far_away = 1e12; // [cells]
+    auto const shift = [&](double m) { return std::llround(std::clamp(m / own.cell_m, -far_away, far_away)); };
+    std::int64_t const east = shift(grid.west - own.west);
+    std::int64_t const south = shift(own.north - grid.north);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const here = grid.at(i);
+        Cell const there{here.col + east, here.row + south};
+        part[i] = own.contains(there) ? dem[there] : part[i];
     }
+    return part;
+}
+
+Raster<float> warped(Raster<float> const& dem, Grid const& frame, std::string const& what, Run const& run) {
     Driver const driver;
     Dataset const source = in_memory(dem, what);
-    std::string const wkt = wkt_of(grid.crs);
-    Grid const frame = frame_for(*source, grid, wkt, what, driver);
+    std::string const wkt = wkt_of(frame.crs);
     CPLStringList words;
     auto const digits = [](double v) { return fmt::format("{:.17g}", v); };
     // Each position is transformed exactly (-et 0), not interpolated along a row.
@@ -371,23 +381,40 @@ Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::stri
     std::unique_ptr<GDALWarpAppOptions, decltype(&GDALWarpAppOptionsFree)> const options(
         GDALWarpAppOptionsNew(words.List(), nullptr), &GDALWarpAppOptionsFree);
     if (options == nullptr) {
-        throw BadInput(fmt::format("{} cannot be warped to cells of {}: {}", what, grid.cell_m, driver.take()));
+        throw BadInput(fmt::format("{} cannot be warped to cells of {}: {}", what, frame.cell_m, driver.take()));
     }
     GDALWarpAppOptionsSetProgress(options.get(), &GdalProgress::step, &gdal_progress);
     GDALDatasetH from = GDALDataset::ToHandle(source.get());
-    Dataset const warped(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));
+    Dataset const made(GDALDataset::FromHandle(GDALWarp("", nullptr, 1, &from, options.get(), nullptr)));
     gdal_progress.settle();
-    if (warped == nullptr) {
-        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, grid.crs, driver.take()));
+    if (made == nullptr) {
+        throw BadInput(fmt::format("{} cannot be reprojected to {:.60}: {}", what, frame.crs, driver.take()));
     }
     Raster<float> result(frame);
-    int const width = warped->GetRasterXSize();
-    int const height = warped->GetRasterYSize();
-    refuse_if<IoError>(warped->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, result.values().data(), width,
-                                                          height, GDT_Float32, 0, 0, nullptr) != CE_None,
+    int const width = made->GetRasterXSize();
+    int const height = made->GetRasterYSize();
+    refuse_if<IoError>(made->GetRasterBand(1)->RasterIO(GF_Read, 0, 0, width, height, result.values().data(), width,
+                                                        height, GDT_Float32, 0, 0, nullptr) != CE_None,
                        "{}: the warped heights cannot be read", what);
     driver.check(what);
     return result;
+}
+
+} // namespace
+
+Grid grid_around(Raster<float> const& dem, Grid const& lattice, std::string const& what) {
+    Driver const driver;
+    return frame_for(*in_memory(dem, what), lattice, wkt_of(lattice.crs), what, driver);
+}
+
+Raster<float> resample(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {
+    bool const is_same = same_crs(dem.grid().crs, grid.crs, what, "the grid");
+    return is_same && same_lattice(dem.grid(), grid) ? cut(dem, grid) : warped(dem, grid, what, run);
+}
+
+Raster<float> warp_to_grid(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run) {
+    bool const is_same = same_crs(dem.grid().crs, grid.crs, what, "the grid");
+    return is_same && same_size(dem.grid(), grid) ? dem : warped(dem, grid_around(dem, grid, what), what, run);
 }
 
 } // namespace thalweg::io

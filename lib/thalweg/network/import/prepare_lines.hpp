@@ -20,6 +20,12 @@ namespace thalweg::network {
 /// is added to `secondary`.
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
 
+/// Cuts lines where they leave the marked cells of a grid.
+/// \param lines polylines [m], which clip_lines has cut at the grid's edge
+/// \param land 0: no river may run there
+/// \return as above; new vertices lie in the middle of what a line runs through the last marked cell
+RiverLines clip_lines(RiverLines const& lines, Mask const& land);
+
 /// A line without loops and spikes.
 struct CutLine {
     std::vector<Vec3> line;

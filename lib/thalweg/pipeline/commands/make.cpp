@@ -73,7 +73,7 @@ Forecast forecast_make(MakeParams const& params, Run const& run) {
 Recipe recipe_for(std::string const& rivers, std::string const& source_crs, Run const& run) {
     refuse_if<BadInput>(!is_utf8(std::filesystem::absolute(rivers).string()),
                         "pipeline.recipe_for: the path of {} is not UTF-8, and recipes are: rename it", rivers);
-    Recipe recipe = rivers_recipe(rivers);
+    Recipe recipe = data_recipe(rivers);
     if (!source_crs.empty()) {
         set_key(recipe, "network.lines.source_crs=" + source_crs);
     }

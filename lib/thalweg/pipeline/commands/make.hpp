@@ -16,7 +16,7 @@ namespace thalweg::pipeline {
 
 /// Options of run_make().
 struct MakeParams {
-    std::string input = {};        ///< a recipe or rivers, as for recipe_from(); "": a recipe that suits the keys
+    std::string input = {}; ///< a recipe, rivers or a DEM, as for recipe_from(); "": a recipe that suits the keys
     std::string output = "valley"; ///< a folder
     io::Existing existing = io::Existing::refuse;
     std::vector<std::string> set = {}; ///< KEY=VALUE: keys of the recipe, in order
@@ -36,8 +36,8 @@ Made run_make(MakeParams const& params, Run const& run = {});
 /// \throws Error as run_make()
 Forecast forecast_make(MakeParams const& params, Run const& run = {});
 
-/// Runs `thalweg recipe --for`: settles the recipe that make uses for rivers.
-/// \param rivers as for rivers_recipe()
+/// Runs `thalweg recipe --for`: settles the recipe that make uses for rivers or a DEM.
+/// \param rivers as for data_recipe()
 /// \param source_crs of rivers whose file has no CRS; "": none
 /// \return as settled_recipe()
 /// \throws BadInput as settled_recipe(), and for a path that is not UTF-8

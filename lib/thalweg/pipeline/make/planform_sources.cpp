@@ -387,9 +387,18 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     return rivers;
 }
 
-} // namespace
+/// Land where a raster has heights: rivers end at its holes as at the sea.
+Mask with_data(Mask land, Raster<float> const& raster) {
+    for (std::int64_t i = 0; i < raster.cells(); ++i) {
+        if (std::isnan(raster[i])) {
+            land = land.cells() > 0 ? std::move(land) : Mask(raster.grid(), 1);
+            land[i] = 0;
+        }
+    }
+    return land;
+}
 
-SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run) {
+SourceRivers rivers_by_source(Plan const& plan, StageLog& stage_log, Run const& run) {
     switch (plan.recipe.network->source) {
     case Source::dla: return rivers_of_cluster(plan, stage_log, run);
     case Source::tokunaga: return rivers_of_tree(plan, stage_log, run);
@@ -397,6 +406,14 @@ SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& 
     case Source::lines: break;
     }
     return rivers_of_lines(plan, stage_log, run);
+}
+
+} // namespace
+
+SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run) {
+    SourceRivers rivers = rivers_by_source(plan, stage_log, run);
+    rivers.land = with_data(std::move(rivers.land), plan.raster);
+    return rivers;
 }
 
 } // namespace thalweg::pipeline

@@ -2,6 +2,15 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/rivers.hpp>
 
+#include <algorithm>
+#include <cmath>
+#include <limits>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/network/channels/channels.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -46,7 +55,59 @@ Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types) {
     return {std::move(network), std::move(types), std::move(orders), std::move(streams)};
 }
 
+namespace {
+
+/// The heights of a DEM in the cells of rivers, cut until each cell lies below those upstream.
+Valley bed_of(Channels const& channels, Raster<float> const& dem, std::string const& source) {
+    constexpr float none = std::numeric_limits<float>::infinity();
+    Valley valley{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
+    std::vector<float> most(channels.cell.size(), none);
+    for (std::size_t i = channels.cell.size(); i-- > 0;) { // donors before their receivers
+        CellIndex const cell = channels.cell[i];
+        if (std::isnan(dem[cell])) {
+            Vec2 const at = dem.grid().centre(dem.grid().at(cell));
+            throw BadInput(
+                fmt::format("surface.source = \"{}\" has no height at ({:.1f}, {:.1f}), where a river runs: "
+                            "set grid.clip = true, which cuts rivers where the DEM has no data, or fill the hole "
+                            "(gdal_fillnodata.py)",
+                            source, at.x, at.y));
+        }
+        float const z = std::min(dem[cell], most[i]);
+        valley.z[cell] = z;
+        if (channels.receiver[i] >= 0) {
+            float& below = most[channels.receiver[i]];
+            below = std::min(below, std::nextafterf(z, -none));
+        }
+    }
+    return valley;
+}
+
+/// Rivers in the cells of the DEM that is the terrain.
+RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run const& run) {
+    network::ChannelsOfArcs drawn = network::channels(planform.network, planform.grid, {}, run);
+    RaisedRivers laid;
+    laid.valley = bed_of(drawn.channels, plan.raster, plan.recipe.surface->source);
+    Raster<float> cut = plan.raster;
+    for (CellIndex const cell : drawn.channels.cell) {
+        double const by_m = static_cast<double>(cut[cell]) - static_cast<double>(laid.valley.z[cell]);
+        laid.statistics.lowered_cells += by_m > 0.0 ? 1 : 0;
+        laid.statistics.max_lowered_m = std::max(laid.statistics.max_lowered_m, by_m);
+        cut[cell] = laid.valley.z[cell];
+    }
+    laid.network = network::elevate_from_dem(planform.network, drawn.channels, cut);
+    laid.notes = std::move(drawn.notes);
+    return laid;
+}
+
+} // namespace
+
 RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
+    if (heights_follow_raster(plan.recipe)) {
+        RaisedRivers laid = stage_log.stage("raise", [&] { return laid_on_raster(plan, planform, run); });
+        stage_log.say(fmt::format("{} cells of rivers cut, by up to {:.3g} m", laid.statistics.lowered_cells,
+                                  laid.statistics.max_lowered_m));
+        return laid;
+    }
     Elevated raised = stage_log.stage("raise", [&] { return elevated(plan, planform, run); });
     network::Rasterised cells = network::rasterise(raised.network, planform.grid);
     return {std::move(raised.network), std::move(cells.valley),

@@ -121,14 +121,19 @@ struct Ground {
     bool whole;         ///< all of them
 };
 
-/// A surface over the skeleton's triangles. Valley cells keep their heights.
-Raster<float> over_triangles(Ground const& ground, Run const& run) {
-    Raster<float> dem = surface::rasterise_tin(*ground.tin, ground.valley.z.grid(),
-                                               {surface::RasteriseTinParams::Outside::nearest}, run);
+/// A surface with the heights of valley cells.
+Raster<float> with_valley(Raster<float> dem, Valley const& valley) {
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        dem[i] = std::isnan(ground.valley.z[i]) ? dem[i] : ground.valley.z[i];
+        dem[i] = std::isnan(valley.z[i]) ? dem[i] : valley.z[i];
     }
     return dem;
+}
+
+/// A surface over the skeleton's triangles. Valley cells keep their heights.
+Raster<float> over_triangles(Ground const& ground, Run const& run) {
+    return with_valley(surface::rasterise_tin(*ground.tin, ground.valley.z.grid(),
+                                              {surface::RasteriseTinParams::Outside::nearest}, run),
+                       ground.valley);
 }
 
 void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams const& params, Run const& run) {
@@ -192,8 +197,9 @@ Filled diffused(Plan const& plan, Ground const& ground, Run const& run) {
 
 Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
     SurfaceRecipe const& wanted = *plan.recipe.surface;
-    if (wanted.method == Method::tin) {
-        Raster<float> dem = over_triangles(ground, run);
+    if (wanted.method == Method::tin || wanted.method == Method::raster) {
+        Raster<float> dem =
+            wanted.method == Method::tin ? over_triangles(ground, run) : with_valley(plan.raster, ground.valley);
         for (std::int64_t i = 0; i < ground.inside.cells(); ++i) {
             dem[i] = ground.inside[i] != 0 ? dem[i] : std::numeric_limits<float>::quiet_NaN();
         }
@@ -207,6 +213,7 @@ std::string about(Plan const& plan, Filled const& filled) {
     switch (wanted.method) {
     case Method::dilate: return fmt::format("{}, {} levels", wanted.dilate.increment.increment, filled.surface.levels);
     case Method::diffuse: return fmt::format("diffused, {} iterations", filled.diffusion->iterations);
+    case Method::raster: return "of the DEM";
     case Method::equilibrium:
     case Method::tin:
     case Method::regress: break;
@@ -284,6 +291,7 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     Rivers rivers = balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types);
     Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
     Remarks remarks = std::move(solved.remarks);
+    append(remarks.notes, std::move(raised.notes));
     Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley);
     std::optional<FeaturePoints> own;
     if (scatters_points(recipe)) {
@@ -481,7 +489,7 @@ Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run)
     flow::ContributingAreas areas =
         has_rivers ? flow::areas_d8(made.rivers.network.planform, drainage, run) : flow::ContributingAreas{};
     return {.grid = has_rivers ? planform.grid : *plan.grid,
-            .land = planform.land,
+            .land = on_raster(plan.recipe) ? Mask{} : planform.land, // what has no data need not be sea
             .rivers = std::move(made.rivers),
             .valley = std::move(made.valley),
             .areas = std::move(areas),

@@ -74,7 +74,7 @@ struct DetailStatistics {
 /// A surface, the rivers with the heights that they have in it, and the water that drains over it.
 struct Terrain {
     Grid grid;
-    Mask land;     ///< as Planform
+    Mask land;     ///< as Planform; without cells where the surface is a raster
     Rivers rivers; ///< without perched tips, with side valleys where they are asked for; without arcs where the recipe
                    ///< has no [network]
     Valley valley; ///< the cells under them

@@ -352,8 +352,12 @@ DetailedTerrain detail_alone(Plan const& plan, Grid const& grid, Run const& run)
 
 namespace {
 
-/// Removes the heights of cells outside the mask of [surface].
-Raster<float> left_out(Raster<float> land, Recipe const& recipe) {
+/// Removes the heights of cells without data in a raster, and of those outside the mask of [surface].
+Raster<float> left_out(Raster<float> land, Plan const& plan) {
+    Recipe const& recipe = plan.recipe;
+    for (std::int64_t i = 0; i < plan.raster.cells(); ++i) {
+        land[i] = std::isnan(plan.raster[i]) ? plan.raster[i] : land[i];
+    }
     if (!recipe.surface || recipe.surface->mask.empty()) {
         return land;
     }
@@ -375,11 +379,27 @@ struct Coarse {
     std::vector<Check> checks = {};
 };
 
-/// It goes through points or is random.
+/// The cells of a raster that coarse cells lie over; at its eastern and southern edge the last ones.
+Raster<float> every_cell(Raster<float> const& raster, Grid const& coarse, int levels) {
+    Raster<float> dem(coarse);
+    auto const at = [&](std::int64_t i, std::int64_t side) { return std::min(i << levels, side - 1); };
+    for (std::int64_t i = 0; i < coarse.cells(); ++i) {
+        Cell const c = coarse.at(i);
+        dem[i] = raster[Cell{at(c.col, raster.width()), at(c.row, raster.height())}];
+    }
+    return dem;
+}
+
+/// It is that of a raster, goes through points or is random.
 Coarse with_coarse_terrain(Plan const& plan, Grid const& grid, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     int const levels = levels_of(recipe);
     Grid const coarse = coarse_grid(grid, levels);
+    if (on_raster(recipe)) {
+        Coarse result{stage_log.stage("land", [&] { return every_cell(plan.raster, coarse, levels); })};
+        stage_log.say(fmt::format("{}x{} cells of the DEM", coarse.width, coarse.height));
+        return result;
+    }
     if (recipe.statistics && recipe.statistics->skeleton != Prior::points) {
         Coarse result{stage_log.stage(
             "land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); })};
@@ -429,7 +449,7 @@ SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run cons
         stage_log.say(fmt::format("midpoint displacement, {} levels", levels));
     }
     if (!plan.recipe.statistics) {
-        return {.dem = left_out(std::move(dem), plan.recipe),
+        return {.dem = left_out(std::move(dem), plan),
                 .tin = std::move(coarse.tin),
                 .diffusion = coarse.diffusion,
                 .detail = detail,

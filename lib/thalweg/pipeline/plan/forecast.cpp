@@ -109,6 +109,9 @@ std::vector<std::string> stages_of(Plan const& plan) {
     auto const append = [&](std::vector<std::string> const& more) {
         stages.insert(stages.end(), more.begin(), more.end());
     };
+    if (on_raster(recipe)) {
+        stages.emplace_back("raster");
+    }
     if (recipe.network) {
         append(stages_of_rivers(plan));
     }

@@ -15,8 +15,10 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 namespace thalweg::pipeline {
@@ -92,14 +94,48 @@ Recipe rivers_recipe(std::string const& path) {
     return recipe;
 }
 
+namespace {
+
+bool is_raster(std::string const& path) {
+    std::error_code ignored;
+    try {
+        return !fs::is_directory(path, ignored) && io::content_of(path).kind == io::FileContent::Kind::raster;
+    } catch (BadInput const&) { // it holds nothing of use
+        return false;
+    }
+}
+
+} // namespace
+
+Recipe raster_recipe(std::string const& path) {
+    Recipe recipe;
+    recipe.grid.cell_m = 0.0;
+    SurfaceRecipe& surface = recipe.surface.emplace();
+    surface.method = Method::raster;
+    surface.source = path;
+    recipe.output.title = title_of_path(path);
+    return recipe;
+}
+
+Recipe data_recipe(std::string const& path) {
+    try {
+        return rivers_recipe(path);
+    } catch (BadInput const&) {
+        if (is_raster(path)) {
+            return raster_recipe(path);
+        }
+        throw;
+    }
+}
+
 Recipe recipe_from(std::string const& path) {
     if (!has_toml_name(path) && !begins_like_toml(path)) {
         try {
-            return rivers_recipe(path);
+            return data_recipe(path);
         } catch (BadInput const& why) {
             throw BadInput(fmt::format(
-                "pipeline.recipe_from: {}; give a recipe (TOML), a file of river lines, or a folder that make or "
-                "convert wrote",
+                "pipeline.recipe_from: {}; give a recipe (TOML), a DEM, a file of river lines, or a folder that make "
+                "or convert wrote",
                 why.what()));
         }
     }
@@ -110,8 +146,9 @@ Recipe recipe_from(std::string const& path) {
 
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     check_recipe(wanted);
+    Recipe const on_grid = on_raster(wanted) ? settle_on_raster(wanted, run).recipe : wanted;
     bool const on_lines = wanted.network && wanted.network->source == Source::lines;
-    return with_absolute_files(on_lines ? settle_on_lines(wanted, read_lines(wanted, run), run).recipe : wanted);
+    return with_absolute_files(on_lines ? settle_on_lines(on_grid, read_lines(on_grid, run), run).recipe : on_grid);
 }
 
 } // namespace thalweg::pipeline

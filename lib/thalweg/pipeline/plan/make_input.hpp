@@ -10,9 +10,8 @@
 namespace thalweg::pipeline {
 
 /// Reads or creates the recipe of a path.
-/// \param path a recipe (a name that ends in .toml, or a text that begins like TOML), or rivers as io::find_rivers
-/// finds them
-/// \return the recipe; for rivers rivers_recipe()
+/// \param path a recipe (a name that ends in .toml, or a text that begins like TOML), or data as for data_recipe()
+/// \return the recipe
 /// \throws BadParameter with all faults of a recipe
 /// \throws BadInput when the path is neither, with its content
 Recipe recipe_from(std::string const& path);
@@ -23,8 +22,20 @@ Recipe recipe_from(std::string const& path);
 /// \throws BadInput as io::find_rivers
 Recipe rivers_recipe(std::string const& path);
 
-/// Sets in a recipe what make_terrain() would choose from its rivers: CRS and cell size; paths become absolute.
-/// \param recipe with rivers
+/// Creates the recipe for terrain as a DEM has it.
+/// \param path of a raster that GDAL reads
+/// \return surface.method is "raster"; grid.cell is 0: that of the DEM
+Recipe raster_recipe(std::string const& path);
+
+/// Creates the recipe for a file of data.
+/// \param path rivers as for rivers_recipe(), or a raster without lines
+/// \return as these
+/// \throws BadInput when the path is neither, with its content
+Recipe data_recipe(std::string const& path);
+
+/// Sets in a recipe what make_terrain() would choose from its rivers and its DEM: CRS, cell size and, from a DEM, the
+/// frame; paths become absolute.
+/// \param recipe any
 /// \return the recipe
 /// \throws Error as make_terrain()
 Recipe settled_recipe(Recipe const& recipe, Run const& run = {});

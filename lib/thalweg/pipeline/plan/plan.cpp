@@ -58,6 +58,10 @@ bool heights_follow_terrain(Recipe const& recipe) {
     return in_equilibrium(recipe) && recipe.network->heights == Heights::graded;
 }
 
+bool heights_follow_raster(Recipe const& recipe) {
+    return on_raster(recipe) && recipe.network && recipe.network->heights == Heights::automatic;
+}
+
 bool scatters_points(Recipe const& recipe) {
     return recipe.skeleton && recipe.skeleton->scatter > 0;
 }
@@ -203,9 +207,12 @@ Recipe on_crs_of_region(Recipe recipe) {
 }
 
 // The land of a recipe with its CRS (the region's polygons, an island, or all of the grid) and its outlets.
-ForestLand forest_land(Recipe const& recipe, StageLog& stage_log, Run const& run) {
+ForestLand forest_land(Recipe const& recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     ForestLand found;
     found.land = stage_log.stage("shape", [&] { return land_of(recipe, run); });
+    for (std::int64_t i = 0; i < raster.cells(); ++i) {
+        found.land[i] = std::isnan(raster[i]) ? 0 : found.land[i];
+    }
     found.outlets = outlets_of(recipe, found.land, found.notes, run);
     found.has_sea = std::ranges::any_of(found.land.values(), [](std::uint8_t v) { return v == 0; });
     return found;
@@ -302,22 +309,27 @@ Plan plan_cluster(Recipe recipe) {
     return plan;
 }
 
-Plan plan_forest(Recipe recipe, StageLog& stage_log, Run const& run) {
+Plan plan_forest(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     Plan plan;
     plan.recipe = on_crs_of_region(std::move(recipe));
-    plan.forest = forest_land(plan.recipe, stage_log, run);
+    plan.forest = forest_land(plan.recipe, raster, stage_log, run);
     plan.grid = plan.forest->land.grid();
     return plan;
 }
 
-/// Clips lines to their grid.
-RiverLines clipped(RiverLines lines, Grid const& grid) {
+/// Clips lines to their grid, and to the cells of a raster that have heights.
+RiverLines clipped(RiverLines lines, Grid const& grid, Raster<float> const& raster) {
     lines = network::clip_lines(lines, grid);
+    if (raster.cells() > 0) {
+        Mask land(grid);
+        std::ranges::transform(raster.values(), land.values().begin(), [](float z) { return std::isnan(z) ? 0 : 1; });
+        lines = network::clip_lines(lines, land);
+    }
     refuse_if<BadInput>(lines.lines.empty(), "grid: no river of {} runs inside the grid", lines.name);
     return lines;
 }
 
-Plan plan_lines(Recipe recipe, StageLog& stage_log, Run const& run) {
+Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     RiverLines lines = stage_log.stage("read", [&] { return read_lines(recipe, run); });
     stage_log.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
     OnLines settled = settle_on_lines(std::move(recipe), lines, run);
@@ -326,12 +338,12 @@ Plan plan_lines(Recipe recipe, StageLog& stage_log, Run const& run) {
     Grid const grid = frame_lines(lines, plan.recipe.grid);
     run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why));
     plan.grid = grid;
-    plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid) : std::move(lines);
+    plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid, raster) : std::move(lines);
     LinesRecipe const& wanted = plan.recipe.network->lines;
     if (wanted.orientation == network::Orientation::automatic) {
         plan.line_dem = read_dem_in(file_in(plan.recipe, wanted.dem), grid.crs, "network.lines.dem", {}, run);
     }
-    if (plan.recipe.network->heights == Heights::automatic && plan.lines.has_z) {
+    if (plan.recipe.network->heights == Heights::automatic && plan.lines.has_z && !on_raster(plan.recipe)) {
         plan.heights_of_file = true;
         plan.recipe.network->heights = Heights::file;
     }
@@ -366,14 +378,14 @@ Plan plan_points(Recipe recipe, Run const& run) {
 }
 
 /// Plans by the source of rivers and terrain.
-Plan by_source(Recipe const& recipe, StageLog& stage_log, Run const& run) {
+Plan by_source(Recipe const& recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     if (!recipe.network) {
         return plan_points(recipe, run);
     }
     switch (recipe.network->source) {
     case Source::dla: return plan_cluster(recipe);
-    case Source::forest: return plan_forest(recipe, stage_log, run);
-    case Source::lines: return plan_lines(recipe, stage_log, run);
+    case Source::forest: return plan_forest(recipe, raster, stage_log, run);
+    case Source::lines: return plan_lines(recipe, raster, stage_log, run);
     case Source::tokunaga: break;
     }
     return recipe.network->tokunaga.strokes.empty() ? plan_tree(recipe, stage_log, run)
@@ -392,7 +404,7 @@ Plan with_rivers_settled(Plan plan, Run const& run) {
         return plan;
     }
     NetworkRecipe& rivers = *plan.recipe.network;
-    if (rivers.heights == Heights::automatic) {
+    if (rivers.heights == Heights::automatic && !on_raster(plan.recipe)) {
         rivers.heights = in_equilibrium(plan.recipe) ? Heights::graded : Heights::straight_repaired;
     }
     bool const all_over = rivers.source == Source::dla || rivers.source == Source::forest;
@@ -432,12 +444,28 @@ void require_fit(Plan const& plan) {
     }
 }
 
+/// The DEM that is the surface, if there is one, on the grid that it settles.
+OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) {
+    if (!on_raster(recipe)) {
+        return {recipe, {}};
+    }
+    require_files(recipe);
+    OnRaster on = stage_log.stage("raster", [&] { return settle_on_raster(recipe, run); });
+    Grid const& grid = on.dem.grid();
+    auto const without = std::ranges::count_if(on.dem.values(), [](float z) { return std::isnan(z); });
+    stage_log.say(fmt::format("{}x{} cells of {:.6g} m{}", grid.width, grid.height, grid.cell_m,
+                              without > 0 ? fmt::format(", {} without data", without) : ""));
+    return on;
+}
+
 } // namespace
 
 Plan resolve(Recipe const& recipe, Run const& run) {
     check_recipe(recipe);
     StageLog stage_log(run);
-    Plan plan = by_source(recipe, stage_log, run);
+    OnRaster on = with_raster(recipe, stage_log, run);
+    Plan plan = by_source(on.recipe, on.dem, stage_log, run);
+    plan.raster = std::move(on.dem);
     plan = with_rivers_settled(std::move(plan), run);
     plan = with_surface_settled(std::move(plan));
     require_files(plan.recipe);

@@ -36,6 +36,7 @@ struct Plan {
     std::optional<Grid> grid;     ///< empty: it depends on rivers that must be grown first
     RiverLines lines;             ///< of network.lines.path, inside the grid; or strokes
     Raster<float> line_dem;       ///< of network.lines.dem, in the CRS of the lines; without cells: none
+    Raster<float> raster;         ///< of surface.source, on the grid; without cells: none
     bool heights_of_file = false; ///< used because the lines have them, not because they are requested
     std::optional<Polygons> region;            ///< that a Tokunaga tree fills
     std::optional<network::TokunagaTree> tree; ///< fills the region or the grid, whose size it may determine
@@ -44,9 +45,9 @@ struct Plan {
     Timings timings_s;                         ///< of reading and growing
 };
 
-/// Checks a recipe and its input files and resolves everything that depends on them. Rivers, strokes, regions, outlets
-/// and points are read here only; files for the surface (masks, fields, lakes, patches) must exist, and are read when
-/// the surface is drawn.
+/// Checks a recipe and its input files and resolves everything that depends on them. Rivers, strokes, regions, outlets,
+/// points and a DEM that is the surface are read here only; other files for the surface (masks, fields, lakes, patches)
+/// must exist, and are read when the surface is drawn.
 /// \param recipe any
 /// \return the same plan for the same recipe and files, with any Run
 /// \throws BadParameter naming keys that contradict one another, and every key that is set and has no effect

@@ -20,6 +20,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
+#include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -208,6 +209,90 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) 
     recipe.grid.cell_m = chosen.cell_m;
     warn_of_crowding(chosen, run);
     return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
+}
+
+namespace {
+
+/// The same heights in another frame of as many cells.
+Raster<float> framed_by(Raster<float> const& dem, Grid const& grid) {
+    Raster<float> framed(grid);
+    std::ranges::copy(dem.values(), framed.values().begin());
+    return framed;
+}
+
+/// The grid of a recipe, where a DEM settles what it leaves open: its own cells, or as large ones in another coordinate
+/// system, from its north-western corner to its south-eastern one.
+Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::string const& what) {
+    Grid const& own = dem.grid();
+    bool const is_same = io::same_crs(own.crs, wanted.crs, what, "the grid");
+    Grid grid = own;
+    grid.crs = wanted.crs;
+    grid.cell_m = wanted.cell_m > 0.0 ? wanted.cell_m : is_same ? own.cell_m : io::ground_cell(own).side_m;
+    if (!is_same) {
+        grid.west = wanted.origin ? (*wanted.origin)[0] : 0.0;
+        grid.north = wanted.origin ? (*wanted.origin)[1] : 0.0;
+        grid = io::grid_around(dem, grid, what);
+    }
+    double const east = grid.west + static_cast<double>(grid.width) * (is_same ? own.cell_m : grid.cell_m);
+    double const south = grid.north - static_cast<double>(grid.height) * (is_same ? own.cell_m : grid.cell_m);
+    if (wanted.origin) {
+        grid.west = (*wanted.origin)[0];
+        grid.north = (*wanted.origin)[1];
+    }
+    constexpr double least_cells = 0.01; // as in io::same_lattice
+    auto const whole = [&](double m) { return std::floor(m / grid.cell_m + least_cells); };
+    double const width = wanted.width > 0 ? static_cast<double>(wanted.width) : whole(east - grid.west);
+    double const height = wanted.height > 0 ? static_cast<double>(wanted.height) : whole(grid.north - south);
+    refuse_if<BadInput>(!(width >= 1.0 && height >= 1.0),
+                        "{} holds no cell of {} m from ({}, {}) to the east and south: it reaches to ({}, {})", what,
+                        grid.cell_m, grid.west, grid.north, east, south);
+    refuse_if<BadInput>(!(width <= 1e6 && height <= 1e6),
+                        "{} has {:.3g} x {:.3g} cells of {} m: give a larger grid.cell", what, width, height,
+                        grid.cell_m);
+    grid.width = static_cast<std::int64_t>(width);
+    grid.height = static_cast<std::int64_t>(height);
+    return grid;
+}
+
+std::string words_for_cells(Grid const& grid) {
+    return fmt::format("{}x{} cells of {:.6g} in {:.60}", grid.width, grid.height, grid.cell_m, grid.crs);
+}
+
+} // namespace
+
+OnRaster settle_on_raster(Recipe recipe, Run const& run) {
+    std::string const what = fmt::format("surface.source = \"{}\"", recipe.surface->source);
+    Raster<float> given = io::read_dem(file_in(recipe, recipe.surface->source), run);
+    GridRecipe& wanted = recipe.grid;
+    bool const is_nowhere = given.grid().crs.empty();
+    if (wanted.crs.empty()) {
+        wanted.crs = is_nowhere ? "EPSG:32631" : io::metric_crs(given.grid(), what);
+    }
+    wanted.crs = io::projected_crs(wanted.crs);
+    if (is_nowhere) {
+        run.tell("note", fmt::format("{} has no coordinate system: its cells count as metres in {:.60}",
+                                     recipe.surface->source, wanted.crs));
+        Grid placed = given.grid();
+        placed.crs = wanted.crs;
+        given = framed_by(given, placed);
+    }
+    Grid const own = given.grid();
+    Grid const grid = grid_of_raster(given, wanted, what);
+    check_memory(grid.width, grid.height);
+    wanted.width = grid.width;
+    wanted.height = grid.height;
+    wanted.cell_m = grid.cell_m;
+    wanted.origin = {grid.west, grid.north};
+    OnRaster settled{std::move(recipe), io::resample(given, grid, what, run)};
+    refuse_if<BadInput>(std::ranges::all_of(settled.dem.values(), [](float z) { return std::isnan(z); }),
+                        "{} has no height within the grid, which reaches from ({}, {}) to ({}, {}) in {:.60}: leave "
+                        "grid.origin, width and height out, or move them to the DEM",
+                        what, grid.west, grid.south(), grid.east(), grid.north, grid.crs);
+    if (!io::same_crs(own.crs, grid.crs, what, "the grid") || !io::same_lattice(own, grid)) {
+        run.tell("note", fmt::format("{} is resampled from {} to {}", settled.recipe.surface->source,
+                                     words_for_cells(own), words_for_cells(grid)));
+    }
+    return settled;
 }
 
 void require_metres(Grid const& grid, std::string const& path, char const* who) {

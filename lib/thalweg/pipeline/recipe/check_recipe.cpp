@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 
 #include <algorithm>
+#include <array>
 
 #include <fmt/format.h>
 #include <fmt/ranges.h>
@@ -16,6 +17,10 @@ namespace thalweg::pipeline {
 
 bool in_equilibrium(Recipe const& recipe) {
     return recipe.network && recipe.surface && recipe.surface->method == Method::equilibrium;
+}
+
+bool on_raster(Recipe const& recipe) {
+    return recipe.surface && recipe.surface->method == Method::raster;
 }
 
 bool replaces_rivers(Recipe const& recipe) {
@@ -197,9 +202,9 @@ void check_land(Recipe const& recipe, bool has_points, Faults& faults) {
            "statistics.skeleton = \"points\" needs skeleton.points or skeleton.scatter");
     add_if(recipe.statistics && recipe.statistics->skeleton != Prior::points && has_points, faults,
            "[skeleton] gives points: set statistics.skeleton = \"points\"");
-    add_if(!recipe.statistics && !has_points, faults,
-           "the recipe describes no terrain: give [network], [statistics], skeleton.points or "
-           "skeleton.scatter");
+    add_if(!recipe.statistics && !has_points && !on_raster(recipe), faults,
+           "the recipe describes no terrain: give [network], [statistics], skeleton.points, "
+           "skeleton.scatter or surface.source");
     bool const is_drawn =
         !recipe.statistics || recipe.statistics->skeleton == Prior::points || recipe.set_at.contains("surface.method");
     add_if(is_drawn && (method == Method::dilate || method == Method::equilibrium) && recipe.surface, faults,
@@ -223,6 +228,21 @@ void check_surface(Recipe const& recipe, Faults& faults) {
            "or call surface::dilate with it");
 }
 
+void check_raster(Recipe const& recipe, Faults& faults) {
+    if (!on_raster(recipe)) {
+        return;
+    }
+    add_if(recipe.surface->source.empty(), faults,
+           "surface.source is missing: surface.method = \"raster\" needs a DEM");
+    add_if(recipe.statistics.has_value(), faults,
+           "[statistics] and surface.method = \"raster\" do not go together: statistics would move the DEM's heights");
+    constexpr std::array heights{Heights::straight, Heights::straight_repaired, Heights::along_stream, Heights::rosgen,
+                                 Heights::graded};
+    add_if(recipe.network && std::ranges::count(heights, recipe.network->heights) > 0, faults,
+           "network.heights does not go with surface.method = \"raster\": rivers take the heights of the DEM (auto) or "
+           "those of their file (file)");
+}
+
 void check_patches(Recipe const& recipe, Faults& faults) {
     for (std::size_t i = 0; i < recipe.patches.size(); ++i) {
         if (recipe.patches[i].source.empty()) {
@@ -238,7 +258,7 @@ void check_frame(Recipe const& recipe, Faults& faults) {
            "grid.width and grid.height go together: give both or neither");
     bool const fills_a_frame =
         recipe.network && recipe.network->source == Source::forest && recipe.network->forest.region.empty();
-    bool const is_framed = (recipe.network || has_file_of_points(recipe)) && !fills_a_frame;
+    bool const is_framed = on_raster(recipe) || ((recipe.network || has_file_of_points(recipe)) && !fills_a_frame);
     add_if(recipe.grid.width == 0 && !is_framed, faults,
            "grid.width and grid.height are missing: nothing else gives the size of the grid");
 }
@@ -279,6 +299,7 @@ void check_recipe(Recipe const& recipe) {
            "skeleton.points and skeleton.scatter do not go together: points come from a file or are "
            "drawn at random");
     check_surface(recipe, faults);
+    check_raster(recipe, faults);
     check_patches(recipe, faults);
     check_frame(recipe, faults);
     check_use(recipe, faults);

@@ -29,11 +29,11 @@
 
 namespace thalweg::pipeline {
 
-/// Where the land lies. What is left out is chosen from the network.
+/// Where the land lies. What is left out is chosen from the network, or is as in the raster of the surface.
 struct GridRecipe {
     std::int64_t width = 0;  ///< [cells] 0: the network's box and 5 % around it
     std::int64_t height = 0; ///< [cells] likewise
-    double cell_m = 30.0;    ///< [m] > 0; 0 chooses it from the lines of a file
+    double cell_m = 30.0;    ///< [m] > 0; 0 chooses it from the lines of a file, or the raster of the surface
     std::string crs;         ///< projected, metres; "": the line file's own or its UTM zone, else EPSG:32631
     std::optional<std::array<double, 2>> origin; ///< [m] west and north edge
     bool clip = false;                           ///< cut rivers at the grid's edge instead of refusing them
@@ -95,7 +95,7 @@ struct TokunagaRecipe {
 enum class Source : std::uint8_t { dla, tokunaga, forest, lines };
 
 enum class Heights : std::uint8_t {
-    automatic,
+    automatic, ///< on a raster: those of its cells, made to fall downstream
     straight,
     straight_repaired,
     along_stream,
@@ -155,7 +155,7 @@ struct EquilibriumRecipe {
     double lake_share = 0.0; ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
-enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress };
+enum class Method : std::uint8_t { equilibrium, dilate, diffuse, tin, regress, raster };
 
 enum class Base : std::uint8_t { harmonic, paper, tin };
 
@@ -164,6 +164,7 @@ enum class Interpolation : std::uint8_t { linear, natural };
 /// The keys of section [surface] of a recipe.
 struct SurfaceRecipe {
     Method method = Method::equilibrium;
+    std::string source; ///< DEM that is the surface; "" for none
     EquilibriumRecipe equilibrium;
     Base base = Base::harmonic;
     surface::DilateParams dilate;

@@ -317,7 +317,8 @@ std::optional<Value> Key::take(Recipe const& recipe, std::optional<Item> item) c
         return std::nullopt;
     }
     auto const value = std::visit(Show{*this}, row->field(const_cast<Recipe&>(recipe), item.value_or(count - 1)));
-    return row->extra.left_out_at_zero && value == Value(std::int64_t{0}) ? std::nullopt : value;
+    bool const is_zero = value == Value(std::int64_t{0}) || value == Value(0.0);
+    return row->extra.left_out_at_zero && is_zero ? std::nullopt : value;
 }
 
 std::string Key::place(Item item) const {

@@ -15,7 +15,8 @@ namespace {
 
 /// Rivers fall by network.slope. Where the file of lines is still to be read, it may give them heights.
 bool falls_by_slope(Recipe const& r) {
-    if (!r.network || r.network->heights == Heights::rosgen) {
+    bool const by_raster = on_raster(r) && r.network && r.network->heights == Heights::automatic;
+    if (!r.network || by_raster || r.network->heights == Heights::rosgen) {
         return false;
     }
     bool const may_be_of_file = r.network->heights == Heights::automatic && r.network->source == Source::lines;
@@ -101,7 +102,8 @@ std::span<std::pair<std::string_view, std::string_view> const> named_conditions(
         // around rivers, or between points
         {"by_diffusion", R"(surface.method = "diffuse" and ([network] or (from_points)))"},
         // terrain that is interpolated between points, in a file or random
-        {"from_points", R"(no [network] and (no [statistics] or statistics.skeleton = "points"))"},
+        {"from_points",
+         R"(no [network] and no surface.source and (no [statistics] or statistics.skeleton = "points"))"},
         {"by_dilation", R"([network] and surface.method = "dilate")"},
         {"by_rough_rock", "by_equilibrium and surface.roughness > 0"},
         {"by_equilibrium", R"([network] and surface.method = "equilibrium")"},
@@ -122,22 +124,26 @@ std::span<Row const> recipe_rows() {
             "titles",
             [](Recipe& r, Item) -> Field { return &r.seed; }),
         key("grid.width", integer, "cells", {1, 1e6}, "",
-            "number of columns; left out: the network's extent and a margin of 5 %",
+            "number of columns; left out: the network's extent and a margin of 5 %, or that of the DEM of "
+            "surface.source",
             [](Recipe& r, Item) -> Field { return &r.grid.width; }, {.left_out_at_zero = true}),
         key("grid.height", integer, "cells", {1, 1e6}, "",
-            "number of rows; left out: the network's extent and a margin of 5 %",
+            "number of rows; left out: the network's extent and a margin of 5 %, or that of the DEM of surface.source",
             [](Recipe& r, Item) -> Field { return &r.grid.height; }, {.left_out_at_zero = true}),
         key("grid.cell", number, "m", {0, 1e6, left_open}, "", "cell size",
-            [](Recipe& r, Item) -> Field { return &r.grid.cell_m; }),
+            [](Recipe& r, Item) -> Field { return &r.grid.cell_m; },
+            {.standard = "30, or that of the DEM of surface.source", .left_out_at_zero = true}),
         key("grid.crs", text, "", "EPSG code or WKT; projected, in metres", "",
-            "coordinate system; \"\": that of the line file or its UTM zone, else EPSG:32631",
+            "coordinate system; \"\": that of the line file or the DEM of surface.source, or its UTM zone, else "
+            "EPSG:32631",
             [](Recipe& r, Item) -> Field { return &r.grid.crs; }),
         key("grid.origin", pair, "m", {"[west, north]", is_corner}, "", "north-western corner of the grid",
             [](Recipe& r, Item) -> Field { return &r.grid.origin; },
-            {.standard = "[500000, 5000000], or the line file's box"}),
+            {.standard = "[500000, 5000000], the line file's box, or that of the DEM of surface.source"}),
         key("grid.clip", yes_no, "", {"true", "false"},
             R"(network.source = "lines" or (network.source = "forest" and network.forest.region))",
-            "cut rivers and polygons at the grid's edge instead of refusing those that cross it",
+            "cut rivers and polygons at the grid's edge, and rivers where the DEM of surface.source has no data, "
+            "instead of refusing those that cross it",
             [](Recipe& r, Item) -> Field { return &r.grid.clip; }),
         key("network.source", word, "", {"dla", "tokunaga", "forest", "lines"}, "",
             "where the rivers come from: a DLA cluster, a Tokunaga tree, a forest of trees that grow inland from a "
@@ -150,17 +156,19 @@ std::span<Row const> recipe_rows() {
             {"auto", "straight", "straight_repaired", "along_stream", "rosgen", "graded", "file", "soft", "fixed",
              "ends"},
             "",
-            "elevations of the rivers. auto: file where the lines have Z, else graded with equilibrium and "
-            "straight_repaired otherwise. With equilibrium, soft, fixed and ends take those of the file or "
-            "straight_repaired: as upper bounds, as they are, or only at sources and outlets",
+            "elevations of the rivers. auto: with surface.method = \"raster\" those of the DEM, cut to fall "
+            "downstream; else file where the lines have Z, graded with equilibrium and straight_repaired otherwise. "
+            "With equilibrium, soft, fixed and ends take those of the file or straight_repaired: as upper bounds, as "
+            "they are, or only at sources and outlets",
             [](Recipe& r, Item) -> Field { return choice(r.network->heights); }),
         key("network.slope", number, "m/m", {0, 10, left_open},
-            R"(network.heights other than "rosgen", and other than "graded" with surface.method = "equilibrium", )"
-            "whose rivers are graded with the terrain",
+            R"(network.heights other than "rosgen", other than "graded" with surface.method = "equilibrium", )"
+            R"(whose rivers are graded with the terrain, and other than "auto" with surface.method = "raster")",
             "channel slope s; with graded heights the mean slope of the main stem",
             [](Recipe& r, Item) -> Field { return &r.network->slope; }, {.holds = falls_by_slope}),
         key("network.heights_tolerance", number, "m", {0, 1e4},
-            R"(network.source = "lines" and network.heights = "auto" or "file" or "soft" or "fixed")",
+            R"(network.source = "lines" and (network.heights = "file" or "soft" or "fixed" or )"
+            R"((network.heights = "auto" and no surface.source)))",
             "vertices whose heights in the file dem.tif misses by more, beside what the river falls within a cell, are "
             "counted in a warning",
             [](Recipe& r, Item) -> Field { return &r.network->heights_tolerance_m; }),
@@ -378,11 +386,15 @@ std::span<Row const> recipe_rows() {
             R"(([network] and [surface]) or (from_points and (no [surface] or surface.method = "tin")))",
             "write the TIN of rivers and points: tin.2dm, tin.ply",
             [](Recipe& r, Item) -> Field { return &r.skeleton->tin; }),
-        key("surface.method", word, "", {"equilibrium", "dilate", "diffuse", "tin", "regress"},
-            "[network] or (from_points)",
+        key("surface.method", word, "", {"equilibrium", "dilate", "diffuse", "tin", "regress", "raster"},
+            "[network] or surface.source or (from_points)",
             "how the terrain is made: by landscape evolution around the rivers, by dilation from the valleys, by "
-            "diffusion between rivers, ridges and points, over a TIN, or by regression through points",
+            "diffusion between rivers, ridges and points, over a TIN, by regression through points, or as a DEM has it",
             [](Recipe& r, Item) -> Field { return choice(r.surface->method); }),
+        key("surface.source", file, "", {}, R"(surface.method = "raster")",
+            "DEM that is the terrain; resampled only where [grid] asks for other cells or another coordinate system, "
+            "or where its own is not in metres",
+            [](Recipe& r, Item) -> Field { return &r.surface->source; }),
         key("surface.base", word, "", {"harmonic", "paper", "tin"}, "by_dilation",
             "heights that slopes rise from: a harmonic surface through the rivers, the nearest valley cell as "
             "published, or the TIN of the rivers",
@@ -399,7 +411,7 @@ std::span<Row const> recipe_rows() {
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.relief_m; }),
         key("surface.allow_negative", yes_no, "", {"true", "false"}, "by_dilation", "keep increments below 0",
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.allow_negative; }),
-        key("surface.mask", file, "", {}, "[network] or (from_points and no [statistics])",
+        key("surface.mask", file, "", {}, "[network] or surface.source or (from_points and no [statistics])",
             "raster on the grid: cells with 0 or no data get no height",
             [](Recipe& r, Item) -> Field { return &r.surface->mask; }),
         key("surface.mean_slope", number, "degrees", {0, 60, left_open}, "by_equilibrium and surface.relief = 0",

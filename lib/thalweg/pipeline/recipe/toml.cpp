@@ -11,6 +11,7 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
@@ -218,6 +219,19 @@ Value value_in_toml(std::string const& text) {
     }
 }
 
+/// Leaves the size of cells to the DEM of surface.source where no key gives it.
+void settle_cell(Recipe& recipe) {
+    bool const of_lines = recipe.network && recipe.network->source == Source::lines;
+    if (recipe.set_at.contains("grid.cell")) {
+        return;
+    }
+    if (on_raster(recipe)) {
+        recipe.grid.cell_m = 0.0;
+    } else if (recipe.grid.cell_m == 0.0 && !of_lines) {
+        recipe.grid.cell_m = GridRecipe{}.cell_m;
+    }
+}
+
 constexpr std::size_t most_faults = 20;
 
 /// Whether keys stand in brackets of this path or below it.
@@ -242,6 +256,7 @@ public:
             throw BadParameter(
                 fmt::format("pipeline.read_recipe: {}: {}", name_, fmt::join(faults_, fmt::format("\n{}: ", name_))));
         }
+        settle_cell(recipe_);
         return recipe_;
     }
 
@@ -378,6 +393,7 @@ void remove_section(Recipe& recipe, Section const& section, std::optional<std::s
 void set_key(Recipe& recipe, std::string const& path, std::string const& text) {
     Target const target = target_of(path);
     assign(recipe, key_at(target), target.item, text);
+    settle_cell(recipe);
 }
 
 void set_key(Recipe& recipe, std::string const& assignment) {
@@ -397,6 +413,7 @@ void unset_key(Recipe& recipe, std::string const& path) {
     if (Section const* const section = find_section(whole.path.substr(0, whole.path.size() - 1));
         section != nullptr && !section->name.empty()) {
         remove_section(recipe, *section, whole.item);
+        settle_cell(recipe);
         return;
     }
     Target const of_key = target_of(path);
@@ -406,6 +423,7 @@ void unset_key(Recipe& recipe, std::string const& path) {
     refuse_if<BadParameter>(count == 0 || item >= count, "{}: the recipe has no such section", cut(path));
     key.reset(recipe, item);
     recipe.set_at.erase(key.place(item));
+    settle_cell(recipe);
 }
 
 void require_effect(Recipe const& recipe, std::string const& path) {

@@ -21,6 +21,7 @@ struct RaisedRivers {
     Valley valley;
     HeightsStatistics statistics;
     std::optional<flow::ContributingAreas> areas; ///< by the nearest river, where the heights follow from them
+    std::vector<Finding> notes = {};              ///< on rivers that meet in their cells
 };
 
 /// Assigns heights to rivers by the recipe, or those of their file.

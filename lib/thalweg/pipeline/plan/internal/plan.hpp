@@ -56,6 +56,9 @@ bool has_meanders(Plan const& plan);
 /// Whether rivers take their heights from the terrain.
 bool heights_follow_terrain(Recipe const& recipe);
 
+/// Whether rivers take their heights from a DEM that is the terrain.
+bool heights_follow_raster(Recipe const& recipe);
+
 /// Whether random points lie between the rivers, or in the terrain.
 bool scatters_points(Recipe const& recipe);
 

@@ -50,6 +50,18 @@ struct OnLines {
 };
 OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run);
 
+/// A recipe whose [grid] is settled by the DEM of surface.source as far as it leaves that open, and the DEM on that
+/// grid.
+struct OnRaster {
+    Recipe recipe;
+    Raster<float> dem;
+};
+
+/// Heights of a file without a coordinate system are taken to be in that of the grid. The log says where they are
+/// resampled.
+/// \throws Error as io::read_dem and io::resample; BadInput when no cell of the grid has a height
+OnRaster settle_on_raster(Recipe recipe, Run const& run);
+
 /// The usual mean slope [degrees] of terrain with cells of this size: gentler for coarser cells. Within 6 % of the mean
 /// slopes of Big Tujunga averaged to cells of 75 to 1200 m.
 double usual_slope_deg(double cell_m);

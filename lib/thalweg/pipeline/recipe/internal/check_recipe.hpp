@@ -16,6 +16,9 @@ namespace thalweg::pipeline {
 /// Whether the recipe draws its land in equilibrium with rivers.
 bool in_equilibrium(Recipe const& recipe);
 
+/// Whether the surface is a DEM of a file.
+bool on_raster(Recipe const& recipe);
+
 /// Whether a patch may take the place of rivers.
 bool replaces_rivers(Recipe const& recipe);
 
