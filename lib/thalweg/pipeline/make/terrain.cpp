@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/pipeline/make/internal/made_from.hpp>
+#include <thalweg/pipeline/plan/internal/made_from.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 
 #include <cmath>

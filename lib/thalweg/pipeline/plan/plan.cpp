@@ -11,6 +11,7 @@
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
@@ -23,6 +24,7 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/pipeline/plan/internal/made_from.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
@@ -330,7 +332,14 @@ RiverLines clipped(RiverLines lines, Grid const& grid, Raster<float> const& rast
 }
 
 Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
-    RiverLines lines = stage_log.stage("read", [&] { return read_lines(recipe, run); });
+    RiverLines lines = stage_log.stage("read", [&] {
+        return kept_or_made(
+            run, "lines", [&] { return lines_made_from(recipe); }, [&] { return read_lines(recipe, run); },
+            [](RiverLines const& read) {
+                constexpr std::int64_t of_line = 1024; // vertices and attributes
+                return of_line * static_cast<std::int64_t>(read.lines.size() + read.secondary.size());
+            });
+    });
     stage_log.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
     OnLines settled = settle_on_lines(std::move(recipe), lines, run);
     Plan plan;
@@ -450,7 +459,14 @@ OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) 
         return {recipe, {}};
     }
     require_files(recipe);
-    OnRaster on = stage_log.stage("raster", [&] { return settle_on_raster(recipe, run); });
+    OnRaster on = stage_log.stage("raster", [&] {
+        return kept_or_made(
+            run, "raster", [&] { return raster_made_from(recipe); }, [&] { return settle_on_raster(recipe, run); },
+            [](OnRaster const& made) { return made.dem.cells() * static_cast<std::int64_t>(sizeof(float)); });
+    });
+    GridRecipe const settled = on.recipe.grid;
+    on.recipe = recipe; // what is kept may come from another one
+    on.recipe.grid = settled;
     Grid const& grid = on.dem.grid();
     auto const without = std::ranges::count_if(on.dem.values(), [](float z) { return std::isnan(z); });
     stage_log.say(fmt::format("{}x{} cells of {:.6g} m{}", grid.width, grid.height, grid.cell_m,

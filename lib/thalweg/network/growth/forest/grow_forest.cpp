@@ -314,6 +314,7 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
                 break;
             }
             if (params.sticking >= 1.0 || random.real() < params.sticking) {
+                run.check(); // it takes as long as many walkers
                 growth.add(at);
                 break;
             }

@@ -1,10 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/made_from.hpp>
+#include <thalweg/pipeline/plan/internal/made_from.hpp>
 
 #include <algorithm>
 #include <filesystem>
 #include <system_error>
+#include <utility>
 #include <vector>
 
 #include <fmt/format.h>
@@ -35,12 +36,16 @@ std::string state_of(fs::path const& path) {
     return all;
 }
 
-std::string words_of(Plan const& plan, Recipe const& decisive) {
+std::string words_of(Recipe const& decisive) {
     std::string words = write_recipe(decisive);
     for (NamedFile const& file : files_of(decisive)) {
         words += is_address(file.name) ? file.name : state_of(fs::absolute(file_in(decisive, file.name).path));
     }
-    return words + (plan.heights_of_file ? "heights of the file\n" : "") + plan.recipe.folder;
+    return words + decisive.folder;
+}
+
+std::string words_of(Plan const& plan, Recipe const& decisive) {
+    return words_of(decisive) + (plan.heights_of_file ? "\nheights of the file" : "");
 }
 
 /// A recipe without what only the surface reads.
@@ -50,13 +55,34 @@ Recipe of_rivers(Recipe recipe) {
     recipe.patches.clear();
     recipe.output = {};
     if (recipe.surface) {
-        Method const method = recipe.surface->method;
-        recipe.surface.emplace().method = method;
+        SurfaceRecipe surface;
+        surface.method = recipe.surface->method;
+        surface.source = recipe.surface->source; // rivers end at its holes
+        recipe.surface = std::move(surface);
     }
     return recipe;
 }
 
 } // namespace
+
+std::string lines_made_from(Recipe const& recipe) {
+    Recipe decisive;
+    decisive.grid = recipe.grid;
+    decisive.network.emplace().source = recipe.network->source;
+    decisive.network->lines = recipe.network->lines;
+    decisive.folder = recipe.folder;
+    return words_of(decisive) + fmt::format("\n{}", recipe.network->slope); // of lines without heights
+}
+
+std::string raster_made_from(Recipe const& recipe) {
+    Recipe decisive;
+    decisive.grid = recipe.grid;
+    SurfaceRecipe& surface = decisive.surface.emplace();
+    surface.method = recipe.surface->method;
+    surface.source = recipe.surface->source;
+    decisive.folder = recipe.folder;
+    return words_of(decisive);
+}
 
 std::string cluster_made_from(Plan const& plan) {
     Recipe recipe;

@@ -11,6 +11,12 @@ namespace thalweg::pipeline {
 // What decides the result of a stage, as a text for kept_or_made(): the recipe without the keys that only later stages
 // read, and the state of the files it names.
 
+/// Of lines as their file has them.
+std::string lines_made_from(Recipe const& recipe);
+
+/// Of the DEM that is the surface, and its grid.
+std::string raster_made_from(Recipe const& recipe);
+
 /// Of a cluster, before a branch of it is chosen.
 std::string cluster_made_from(Plan const& plan);
 
