@@ -71,7 +71,7 @@ Command add_studio(CLI::App& app, Session& session) {
     auto const options = std::make_shared<StudioOptions>();
     app.add_option("INPUT", options->input,
                    "The folder of a document; or what a new document begins with: a recipe (TOML), a folder written by "
-                   "make, or rivers, which are copied. Without it, thalweg opens ./studio, or begins it with the "
+                   "make, rivers or a DEM, which are copied. Without it, thalweg opens ./studio, or begins it with the "
                    "terrain of make.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif)");
     app.add_option("-o,--output", options->folder,
@@ -93,7 +93,8 @@ Command add_studio(CLI::App& app, Session& session) {
         "Examples:\n"
         "  thalweg studio\n"
         "  thalweg studio samples/dla.toml -o out/cluster --no-browser\n"
-        "  thalweg studio samples/walker_nhdplus.gpkg\n");
+        "  thalweg studio samples/walker_nhdplus.gpkg\n"
+        "  thalweg studio samples/jacksboro_utm16.tif\n");
     return [options, &session] { return run_studio(*options, session); };
 }
 

@@ -36,7 +36,7 @@ std::string state_of(fs::path const& path) {
     return all;
 }
 
-std::string words_of(Recipe const& decisive) {
+std::string state_in_words(Recipe const& decisive) {
     std::string words = write_recipe(decisive);
     for (NamedFile const& file : files_of(decisive)) {
         words += is_address(file.name) ? file.name : state_of(fs::absolute(file_in(decisive, file.name).path));
@@ -44,8 +44,8 @@ std::string words_of(Recipe const& decisive) {
     return words + decisive.folder;
 }
 
-std::string words_of(Plan const& plan, Recipe const& decisive) {
-    return words_of(decisive) + (plan.heights_of_file ? "\nheights of the file" : "");
+std::string state_in_words(Plan const& plan, Recipe const& decisive) {
+    return state_in_words(decisive) + (plan.heights_of_file ? "\nheights of the file" : "");
 }
 
 /// A recipe without what only the surface reads.
@@ -71,7 +71,7 @@ std::string lines_made_from(Recipe const& recipe) {
     decisive.network.emplace().source = recipe.network->source;
     decisive.network->lines = recipe.network->lines;
     decisive.folder = recipe.folder;
-    return words_of(decisive) + fmt::format("\n{}", recipe.network->slope); // of lines without heights
+    return state_in_words(decisive) + fmt::format("\n{}", recipe.network->slope); // of lines without heights
 }
 
 std::string raster_made_from(Recipe const& recipe) {
@@ -81,7 +81,7 @@ std::string raster_made_from(Recipe const& recipe) {
     surface.method = recipe.surface->method;
     surface.source = recipe.surface->source;
     decisive.folder = recipe.folder;
-    return words_of(decisive);
+    return state_in_words(decisive);
 }
 
 std::string cluster_made_from(Plan const& plan) {
@@ -106,11 +106,11 @@ std::string source_made_from(Plan const& plan) {
     rivers.fill_space = standard.fill_space;
     rivers.support_cells = standard.support_cells;
     rivers.coast_m = standard.coast_m;
-    return words_of(plan, recipe);
+    return state_in_words(plan, recipe);
 }
 
 std::string planform_made_from(Plan const& plan) {
-    return words_of(plan, of_rivers(plan.recipe));
+    return state_in_words(plan, of_rivers(plan.recipe));
 }
 
 std::string surface_made_from(Plan const& plan) {
@@ -124,7 +124,7 @@ std::string surface_made_from(Plan const& plan) {
         recipe.network->fill_space = NetworkRecipe{}.fill_space;
         recipe.network->support_cells = NetworkRecipe{}.support_cells;
     }
-    return words_of(plan, recipe);
+    return state_in_words(plan, recipe);
 }
 
 } // namespace thalweg::pipeline
