@@ -286,6 +286,7 @@ GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, Fore
                         Run const& run) {
     check(region, seeds, params);
     ForestGrowth growth(region, seeds, params.step_cells);
+    run.check();
     ArrivalCounts visits(region.grid(), params.visits);
     GrownForest forest;
     auto const size = [&] { return static_cast<std::int64_t>(growth.particles().size()); };

@@ -216,7 +216,9 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
                            Run const& run) {
     std::vector<Cell> const coast = coast_cells(land);
     check(land, coast, outlets, params);
+    run.check();
     Mask const inland = inland_of(land, params.step_cells);
+    run.check();
     Mouths mouths(land, inland, params.step_cells);
     PlantedForest planted;
     for (Cell const c : outlets) {
@@ -226,7 +228,9 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
                         "an outlet was left out, with no room for its river between others or coasts, at cell"));
         }
     }
+    run.check();
     add_missing(inland, coast, mouths, planted.notes);
+    run.check();
     note_dry_land(land, mouths, planted.notes);
     if (mouths.all().empty()) {
         throw BadInput(fmt::format("network.plant_forest: there is no room for a river: no cell is {} cells away "
@@ -237,6 +241,7 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
     for (Mouth const& mouth : mouths.all()) {
         seeds.push_back(mouth.seed);
     }
+    run.check();
     GrownForest const forest = grow_forest(inland, seeds, params, run);
     planted.network = as_network(forest, land.grid(), mouths.all());
     planted.outlets = static_cast<std::int64_t>(seeds.size());
