@@ -6,7 +6,7 @@
 A command is a line that begins with "$ " in a fenced block marked sh. Each page runs in a folder of its own that
 holds a copy of samples/, with thalweg in PATH; what the commands of a page leave, later ones find. A command whose
 line ends in "# exit N" must exit with N, every other with 0. build/release/bin/thalweg stands for the thalweg in PATH.
-Commands of scripts/ and the compilers' build are run by scripts/test itself and only checked to exist. python3 is Debian's, whose packages the pages speak of; psql, createdb and
+`thalweg studio` is interrupted once it serves. Commands of scripts/ and the compilers' build are run by scripts/test itself and only checked to exist. python3 is Debian's, whose packages the pages speak of; psql, createdb and
 databases "PG:dbname=..." are those of a PostgreSQL of this run's own.
 """
 import contextlib
@@ -14,9 +14,11 @@ import os
 import pathlib
 import re
 import shutil
+import signal
 import subprocess
 import sys
 import tempfile
+import urllib.request
 
 import cluster
 
@@ -39,6 +41,21 @@ def server(wanted):
             yield {"PGHOST": found["host"], "PGUSER": found["user"]}
         finally:
             cluster.stop(state)
+
+
+def served(command, place, environment):
+    """Runs a command that serves until it has printed its address, which is opened, and a SIGINT."""
+    words = ["bash", "-c", f"exec {command.split('#')[0]} --no-browser"]
+    with subprocess.Popen(words, cwd=place, env=environment, text=True, stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                          stdin=subprocess.DEVNULL) as process:
+        said = ""
+        for line in process.stdout:
+            said += line
+            if line.startswith("http://127.0.0.1:"):
+                with urllib.request.urlopen(line.strip()) as answer:
+                    said += f"{len(answer.read())} bytes\n"
+                process.send_signal(signal.SIGINT)
+        return subprocess.CompletedProcess(words, process.wait(), said)
 
 
 pages = [source / "README.md", *sorted((source / "docs").rglob("*.md"))]
@@ -64,8 +81,11 @@ for page in pages:
                     failed += 1
                 continue
             wanted = int((re.search(r"#\s*exit (\d+)\s*$", command) or [0, 0])[1])
-            done = subprocess.run(["bash", "-c", command], cwd=place, env=environment, text=True,
-                                  stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
+            if command.startswith("thalweg studio"):  # it serves until it is interrupted
+                done = served(command, place, environment)
+            else:
+                done = subprocess.run(["bash", "-c", command], cwd=place, env=environment, text=True,
+                                      stdout=subprocess.PIPE, stderr=subprocess.STDOUT, stdin=subprocess.DEVNULL)
             run += 1
             if done.returncode != wanted:
                 failed += 1

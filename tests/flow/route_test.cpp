@@ -15,6 +15,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/flow/internal/condition.hpp>
 
 #include "filled_slowly.hpp"
 
@@ -189,6 +190,44 @@ TEST(Route, BothZerosAreLevel) {
         dem[i] = -0.0F;
     }
     EXPECT_EQ(directions(route(dem)), directions(route(Raster<float>(frame(7, 7), 0.0F))));
+}
+
+TEST(Route, LandThatDrainsIsRoutedAsBesideABowl) {
+    // Alone, each cell has a lower neighbour or is an outlet, and nothing is flooded; the bowl needs a flood.
+    ASSERT_TRUE(rc::check("the same directions and areas, with sinks or without", [] {
+        Raster<float> const rough = *gen_dem(9, 30);
+        Valley ends{Raster<float>(rough.grid(), hole)};
+        std::vector<std::int64_t> sinks;
+        for (int k = *rc::gen::inRange(0, 4).as("sinks"); k > 0; --k) {
+            auto const cell = *rc::gen::inRange<std::int64_t>(0, rough.cells());
+            if (!std::isnan(rough[cell])) {
+                ends.z[cell] = rough[cell];
+                sinks.push_back(cell);
+            }
+        }
+        Raster<float> const dem = flow::fill(rough, ends);
+        std::int64_t const width = dem.width();
+        Raster<float> const both =
+            test::raster_of(frame(width + 4, std::max<std::int64_t>(dem.height(), 3)), [&](Cell c) {
+                bool const in_bowl = c.col > width && c.row < 3;
+                float const bowl = c.col == width + 2 && c.row == 1 ? 0.0F : 9.0F;
+                return c.col < width && c.row < dem.height() ? dem[c] : in_bowl ? bowl : hole;
+            });
+        std::vector<std::int64_t> sinks_of_both;
+        for (std::int64_t const sink : sinks) {
+            sinks_of_both.push_back(both.grid().index(dem.grid().at(sink)));
+        }
+        FlowField const alone = route(dem, sinks);
+        FlowField const beside = route(both, sinks_of_both);
+        RC_ASSERT(alone.pits == 0);
+        RC_ASSERT(alone.pit_volume_m3 == 0.0);
+        RC_ASSERT(alone.depressions.empty());
+        RC_ASSERT(beside.pits == 1);
+        for (std::int64_t i = 0; i < dem.cells(); ++i) {
+            RC_ASSERT(alone.direction[i] == beside.direction[dem.grid().at(i)]);
+            RC_ASSERT(alone.area_cells[i] == beside.area_cells[dem.grid().at(i)]);
+        }
+    }));
 }
 
 TEST(Route, LawsOnAnyDem) {

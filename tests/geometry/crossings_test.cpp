@@ -3,6 +3,7 @@
 #include <thalweg/geometry/crossings.hpp>
 
 #include <algorithm>
+#include <cstdint>
 #include <limits>
 #include <set>
 #include <stop_token>
@@ -11,6 +12,7 @@
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace crossings_test {
@@ -206,6 +208,46 @@ TEST(Crossings, EqualsAllPairs) {
 }
 
 // Law: turning a line round mirrors its entries; the points stay the same bits.
+TEST(Crossings, CrowdsFarApartAreAsEachAlone) {
+    // Alone a grid's cells hold few segments each. Together both crowds are in two cells, and the grid is not used.
+    bool const ok = rc::check([] {
+        auto const seed = *rc::gen::arbitrary<std::uint64_t>();
+        thalweg::RandomStream words(seed, 1, 0);
+        auto const below = [&](std::uint64_t n) { return static_cast<std::int64_t>(words.word() % n); };
+        std::vector<std::vector<Whole>> whole;
+        Lines alone;
+        for (int l = 0; l < 100; ++l) {
+            Whole at{below(100), below(100)};
+            auto& line = whole.emplace_back();
+            auto& drawn = alone.emplace_back();
+            for (int v = 0; v < 3; ++v) {
+                line.push_back(at);
+                drawn.push_back({static_cast<double>(at.x), static_cast<double>(at.y)});
+                at = {at.x + below(4) + 1, at.y + below(7) - 3};
+            }
+        }
+        Lines together = alone;
+        for (auto const& line : alone) {
+            auto& moved = together.emplace_back(line);
+            for (Vec2& p : moved) {
+                p = p + Vec2{1e6, -1e6};
+            }
+        }
+        std::vector<Crossing> const expected = crossings(alone);
+        RC_ASSERT(sorted(entries(expected)) == all_pairs(whole));
+        std::vector<Crossing> const found = crossings(together);
+        RC_ASSERT(found.size() == 2 * expected.size());
+        for (std::size_t k = 0; k < expected.size(); ++k) {
+            RC_ASSERT(found[k] == expected[k]);
+            Crossing const& other = found[k + expected.size()];
+            RC_ASSERT(other.line == expected[k].line + alone.size());
+            RC_ASSERT(other.segment == expected[k].segment);
+            RC_ASSERT(other.along == expected[k].along);
+        }
+    });
+    EXPECT_TRUE(ok);
+}
+
 TEST(Crossings, PointsDoNotDependOnDirection) {
     bool const ok = rc::check([] {
         auto const coordinate = rc::gen::map(rc::gen::inRange(-1000000, 1000000), [](int i) { return i * 1e-3; });

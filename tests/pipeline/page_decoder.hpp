@@ -135,7 +135,7 @@ inline std::string part(std::string_view page, std::string const& marker) {
         std::size_t const end = bare.find("@@", at + 2) + 2;
         std::string const name = bare.substr(at, end - at);
         if (name != "@@TITLE@@" && name != "@@DATA@@" && name != "@@HEIGHTS@@" && name != "@@LINES@@" &&
-            name != "@@WATER@@") {
+            name != "@@WATER@@" && name != "@@STUDIO@@") {
             in_page += at + 2 - in_bare;
             in_bare = at + 2;
             continue;

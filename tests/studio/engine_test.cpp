@@ -19,8 +19,9 @@
 #include <gtest/gtest.h>
 #include <support.hpp>
 
-#include <thalweg/core/run/error.hpp>
 #include <thalweg/studio/document.hpp>
+
+#include "random_edits.hpp"
 
 namespace engine_test {
 
@@ -91,8 +92,8 @@ private:
                 .rivers = [this](Job const& job, pipeline::Plan const&, pipeline::Planform const&,
                                  Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
                 .heights =
-                    [this](Job const& job, Grid const&, Raster<float> const& dem, bool is_finished) {
-                        note(job, [&](Told& told) { told.heights.emplace_back(dem, is_finished); });
+                    [this](Job const& job, Heights const& seen) {
+                        note(job, [&](Told& told) { told.heights.emplace_back(seen.dem, seen.is_finished); });
                     },
                 .made = [this](Job const& job, pipeline::Made const&) { note(job, [](Told& told) { ++told.made; }); },
                 .measured =
@@ -176,60 +177,6 @@ double correlation(Raster<float> const& coarse, Raster<float> const& fine) {
     return (n * sxy - sx * sy) / std::sqrt((n * sxx - sx * sx) * (n * syy - sy * sy));
 }
 
-/// A value that a key may get; nothing: it is left alone here.
-std::optional<std::string> value_for(pipeline::KeyHelp const& key, std::optional<std::string> const& now,
-                                     std::mt19937_64& random) {
-    auto const uniform = [&](double low, double high) {
-        return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
-    };
-    static std::set<std::string> const larger{"grid.width",
-                                              "grid.height",
-                                              "network.dla.particles",
-                                              "network.forest.particles",
-                                              "network.tokunaga.order",
-                                              "network.forest.seeds"};
-    if (key.is_file || larger.contains(key.path) || key.path == "grid.cell") {
-        return std::nullopt;
-    }
-    if (!key.choices.empty()) {
-        return key.choices[random() % key.choices.size()];
-    }
-    if (key.type == "yes/no") {
-        return random() % 2 == 0 ? "true" : "false";
-    }
-    if (key.type != "number" && key.type != "integer") {
-        return std::nullopt;
-    }
-    double const present = now ? std::stod(*now) : uniform(0.1, 2.0);
-    double value = present == 0.0 ? uniform(0.0, 2.0) : present * uniform(0.6, 1.6);
-    value = std::clamp(value, key.least.value_or(value), key.most.value_or(value));
-    return key.type == "integer" ? std::to_string(static_cast<std::int64_t>(value)) : std::to_string(value);
-}
-
-/// The document after a random edit that is not refused.
-Document with_random_edit(Document const& document, std::mt19937_64& random, std::string& what) {
-    std::vector<pipeline::KeyHelp> const keys = pipeline::recipe_keys();
-    for (;;) {
-        auto const values = pipeline::key_values(document.recipe);
-        pipeline::KeyValue const& one = values[random() % values.size()];
-        auto const key = std::ranges::find(keys, one.path, &pipeline::KeyHelp::path);
-        if (key == keys.end()) {
-            continue;
-        }
-        try {
-            if (random() % 8 == 0 && key->path.find('.') != std::string::npos) {
-                what = "unset " + one.path;
-                return apply(document, {"", {UnsetKey{one.path}}}).document;
-            }
-            if (auto const value = value_for(*key, one.text, random)) {
-                what = one.path + " = " + *value;
-                return edited(document, one.path, *value);
-            }
-        } catch (BadParameter const&) { // as it may
-        }
-    }
-}
-
 /// Makes a document and others that come of it, with the engine and anew.
 void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t seed) {
     Watched watched;
@@ -247,7 +194,9 @@ void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t
         if (fresh) {
             ASSERT_TRUE(are_same(*told.measured, *fresh));
         }
-        document = with_random_edit(document, random, what);
+        auto const [edit, after] = random_edit(document, random);
+        what = name_of(edit);
+        document = after;
     }
 }
 

@@ -41,8 +41,7 @@ Parts parts_of(std::string const& message) {
 }
 
 Shown shown(Raster<float> const& dem) {
-    Shown result{dem.grid(), true, *pipeline::live_heights(dem, dem.grid())};
-    return result;
+    return {dem.grid(), true, *pipeline::live_heights(dem, dem.grid()), pipeline::Sea{3.0, true}};
 }
 
 std::string wrong_with(std::string const& request) {
@@ -99,6 +98,7 @@ TEST(HeightMessages, HoldTheTilesThatChanged) {
     EXPECT_EQ(all.head["width"], 100);
     EXPECT_EQ(all.head["height"], 70);
     EXPECT_EQ(all.head["grid"]["cell_m"], 10.0);
+    EXPECT_EQ(all.head["sea"]["level"], 3.0);
     EXPECT_EQ(all.head["tiles"], json({0, 1, 2, 3}));
     ASSERT_EQ(all.values.size(), 7000U);
     EXPECT_EQ(all.values[64 * 64], first[(Cell{64, 0})]) << "the second tile is cut at the edge";

@@ -4,10 +4,12 @@
 
 #include <cstdint>
 #include <filesystem>
+#include <random>
 #include <stop_token>
 #include <string>
 #include <thread>
 #include <utility>
+#include <variant>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -18,6 +20,8 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/studio/document_folder.hpp>
+
+#include "random_edits.hpp"
 
 namespace studio_test {
 
@@ -116,7 +120,66 @@ protected:
     io::TemporaryFolder folder_{"thalweg-studio"};
 };
 
+class SoakStudios : public Studios {};
+
+/// Edits at random through a window, sees now and then that what is exported is what make makes of the saved recipe,
+/// then undoes everything and does it again.
+void edit_at_random(std::string const& folder, int edits, int compare_every, std::uint64_t seed) {
+    SCOPED_TRACE(testing::Message() << "seed " << seed);
+    std::mt19937_64 random(seed);
+    Running const studio({.folder = folder, .threads = 2});
+    Window window(studio);
+    auto const recipe = [&] { return test::bytes_of(folder + "/recipe.toml"); };
+    std::string const first = recipe();
+    int compared = 0;
+    for (int i = 1; i <= edits; ++i) {
+        auto const [edit, after] = random_edit(document_of(recipe()), random);
+        bool const sets = std::holds_alternative<SetKey>(edit.steps.front());
+        json const step = sets ? json{{"set", std::get<SetKey>(edit.steps.front()).key},
+                                      {"value", std::get<SetKey>(edit.steps.front()).value}}
+                               : json{{"unset", std::get<UnsetKey>(edit.steps.front()).key}};
+        json const reply = window.ask(json{{"id", i}, {"do", "edit"}, {"edit", {{"steps", {step}}}}}.dump());
+        ASSERT_EQ(reply["ok"], true) << step << reply;
+        ASSERT_EQ(recipe(), after.toml) << step;
+        if (i % compare_every != 0) {
+            continue;
+        }
+        json const written = window.ask(R"({"id": 0, "do": "export"})");
+        std::string const error = test::error_of([&] {
+            pipeline::run_make(
+                {.input = folder + "/recipe.toml", .output = folder + "/made", .existing = io::Existing::replace});
+        });
+        ASSERT_EQ(written["ok"].get<bool>(), error.empty()) << written << error;
+        for (char const* name : {"dem.tif", "network.gpkg", "recipe.toml"}) {
+            bool const is_there = error.empty() && std::filesystem::exists(folder + "/made/" + name);
+            if (is_there) {
+                ASSERT_EQ(test::bytes_of(folder + "/terrain/" + name), test::bytes_of(folder + "/made/" + name))
+                    << name << " after " << i;
+                ++compared;
+            }
+        }
+    }
+    EXPECT_GT(compared, 0);
+    std::string const last = recipe();
+    for (int i = 0; i < edits; ++i) {
+        ASSERT_EQ(window.ask(R"({"id": 0, "do": "undo"})")["ok"], true);
+    }
+    EXPECT_EQ(recipe(), first);
+    for (int i = 0; i < edits; ++i) {
+        ASSERT_EQ(window.ask(R"({"id": 0, "do": "redo"})")["ok"], true);
+    }
+    EXPECT_EQ(recipe(), last);
+}
+
 } // namespace
+
+TEST_F(Studios, EditsAtRandomAreUndoneAndRedone) {
+    edit_at_random(at("doc"), 10, 5, 2);
+}
+
+TEST_F(SoakStudios, EditsAtRandomAreUndoneAndRedone) {
+    edit_at_random(at("doc"), 200, 10, std::random_device()());
+}
 
 TEST_F(Studios, EditUndoAndRedo) {
     Running const studio(params());

@@ -315,11 +315,8 @@ private:
 
 } // namespace
 
-Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
-    check_drainable(dem, valley);
-    refuse_if<BadInput>(least.grid() != dem.grid(),
-                        "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
-                        least.width(), least.height(), dem.width(), dem.height());
+Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, Raster<float> const& least,
+                                Run const& run) {
     // A pit below a river's banks may have to be partly filled before it is cut. A cut that is cheaper for its lake may
     // make others more expensive, so both strategies are tried on the whole terrain and the cheaper is kept.
     bool const banks =
@@ -340,6 +337,14 @@ Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float
         }
     }
     return *std::move(best);
+}
+
+Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
+    check_drainable(dem, valley);
+    refuse_if<BadInput>(least.grid() != dem.grid(),
+                        "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
+                        least.width(), least.height(), dem.width(), dem.height());
+    return drains(dem, valley.z, run) ? dem : carve_depressions(dem, valley, least, run);
 }
 
 } // namespace thalweg::flow

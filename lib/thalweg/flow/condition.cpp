@@ -2,7 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/flow/condition.hpp>
 
+#include <algorithm>
+#include <array>
+#include <limits>
 #include <utility>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -16,6 +20,43 @@ void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run co
     auto const is_river = [&](std::int64_t i) { return !std::isnan(rivers[i]); };
     auto const rise = [&](float z) { return lakes == Lakes::level ? z : just_above(z); };
     priority_flood(land, is_river, rise, "carve", run);
+}
+
+bool drains(Raster<float> const& dem, Raster<float> const& rivers, Run const& run) {
+    if (dem.width() < 3) {
+        return true;
+    }
+    auto const width = static_cast<std::size_t>(dem.width());
+    std::array<std::vector<float>, 3> lows; // by row modulo 3: the lowest of a cell and those to its left and right
+    lows.fill(std::vector<float>(width));
+    std::vector<float> heights(width);
+    for (std::int64_t r = 0; r < dem.height(); ++r) {
+        if (r % 1024 == 0) {
+            run.check();
+        }
+        auto const row = dem.row(r);
+        for (std::size_t c = 0; c < width; ++c) {
+            heights[c] = std::isnan(row[c]) ? -std::numeric_limits<float>::infinity() : row[c]; // water leaves there
+        }
+        std::vector<float>& low = lows[static_cast<std::size_t>(r % 3)];
+        for (std::size_t c = 1; c + 1 < width; ++c) {
+            low[c] = std::min(std::min(heights[c - 1], heights[c + 1]), heights[c]);
+        }
+        if (r < 2) {
+            continue;
+        }
+        auto const here = dem.row(r - 1);
+        auto const river = rivers.row(r - 1);
+        bool all = true;
+        for (std::size_t c = 1; c + 1 < width; ++c) {
+            float const lowest = std::min(std::min(lows[0][c], lows[1][c]), lows[2][c]);
+            all &= just_above(lowest) <= here[c] || std::isnan(here[c]) || !std::isnan(river[c]);
+        }
+        if (!all) {
+            return false;
+        }
+    }
+    return true;
 }
 
 void check_drainable(Raster<float> const& dem, Valley const& valley) {
@@ -36,6 +77,9 @@ void check_drainable(Raster<float> const& dem, Valley const& valley) {
 
 Raster<float> fill(Raster<float> const& dem, Valley const& valley, Run const& run) {
     check_drainable(dem, valley);
+    if (drains(dem, valley.z, run)) {
+        return dem;
+    }
     Raster<float> level = framed(dem);
     flood(level, framed(valley.z), Lakes::slope, run);
     return unframed(level, dem.grid());

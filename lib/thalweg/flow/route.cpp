@@ -2,6 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/flow/route.hpp>
 
+#include <atomic>
+#include <optional>
+#include <utility>
+
 #include <fmt/format.h>
 
 #include <thalweg/core/numbers/sums.hpp>
@@ -66,6 +70,41 @@ void descend(Raster<float> const& level, Sinks const& sinks, Raster<Direction>& 
             direction[i] = down.direction == Direction::leaves ? direction[i] : down.direction;
         }
     });
+}
+
+/// Directs each cell to its steepest lower neighbour, if all cells have one but those where water leaves: then a flood
+/// would raise none and direct none otherwise.
+std::optional<Raster<Direction>> all_downhill(Raster<float> const& land, Sinks const& sinks, Run const& run) {
+    Raster<Direction> direction(land.grid(), Direction::leaves);
+    auto const offsets = d8_offsets(land.grid());
+    std::atomic<bool> drains = true;
+    parallel_ranges(run, land.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t i = begin; i < end && drains.load(std::memory_order_relaxed); ++i) {
+            if (std::isnan(land[i])) {
+                direction[i] = Direction::no_data;
+                continue;
+            }
+            if (contains(sinks, i)) {
+                continue;
+            }
+            direction[i] = steepest_descent(land[i], [&](std::size_t k) { return land[i + offsets[k]]; }).direction;
+            if (direction[i] == Direction::leaves &&
+                std::none_of(offsets.begin(), offsets.end(),
+                             [&](std::int64_t step) { return std::isnan(land[i + step]); })) {
+                drains.store(false, std::memory_order_relaxed);
+            }
+        }
+    });
+    return drains ? std::optional(std::move(direction)) : std::nullopt;
+}
+
+/// Copies the directions of a framed DEM's inner cells.
+void set_directions(FlowField& drainage, Raster<Direction> const& framed_direction) {
+    for (std::int64_t r = 0; r < drainage.direction.height(); ++r) {
+        auto const row = drainage.direction.row(r);
+        auto const ways = framed_direction.row(r + 1).subspan(1, row.size());
+        std::copy(ways.begin(), ways.end(), row.begin());
+    }
 }
 
 void accumulate(FlowField& drainage, Run const& run) {
@@ -163,8 +202,14 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
     {
         Raster<float> level = framed(dem);
         Sinks const ends = framed_sinks(dem, level.grid(), sinks);
+        if (auto const downhill = all_downhill(level, ends, run)) {
+            set_directions(result, *downhill);
+            accumulate(result, run);
+            return result;
+        }
         Raster<Direction> direction = raise_to_spill(level, ends, run);
         descend(level, ends, direction, run);
+        set_directions(result, direction);
         CompensatedSum raised_m;
         for (std::int64_t r = 0; r < grid.height; ++r) {
             auto const before = dem.row(r);
@@ -175,8 +220,6 @@ FlowField route(Raster<float> const& dem, std::vector<std::int64_t> const& sinks
                     raised_m.add(static_cast<double>(after[c]) - before[c]);
                 }
             }
-            auto const ways = direction.row(r + 1).subspan(1, before.size());
-            std::copy(ways.begin(), ways.end(), result.direction.row(r).begin());
         }
         result.pit_volume_m3 = raised_m.value() * grid.cell_m * grid.cell_m;
         result.depressions = take_depressions(dem, level, run);

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
+#include <cstddef>
 #include <cstdint>
 #include <functional>
 #include <limits>
@@ -161,10 +162,138 @@ void add_boxes(std::vector<Vec2> const& line, std::uint32_t number, std::vector<
     }
 }
 
+// Boxes by the cells of a grid that they touch.
+class BoxGrid {
+public:
+    // Empty, and without use, where the boxes are too uneven for one grid.
+    explicit BoxGrid(std::vector<Box> const& boxes) : boxes_(boxes), spans_(boxes.size()) {
+        if (set_frame() && set_spans()) {
+            fill();
+        }
+    }
+
+    bool is_filled() const { return !numbers_.empty(); }
+
+    // Calls visit(a, b) once for every two boxes that meet.
+    template <class Visit> void each_pair(Visit visit) const {
+        for (std::uint32_t row = 0; row < height_; ++row) {
+            for (std::uint32_t col = 0; col < width_; ++col) {
+                std::size_t const cell = std::size_t{row} * width_ + col;
+                for (std::uint32_t i = first_[cell]; i < first_[cell + 1]; ++i) {
+                    for (std::uint32_t j = i + 1; j < first_[cell + 1]; ++j) {
+                        Span const& a = spans_[numbers_[i]];
+                        Span const& b = spans_[numbers_[j]];
+                        // Of the cells that two boxes share, the first.
+                        if (std::max(a.first_col, b.first_col) == col && std::max(a.first_row, b.first_row) == row &&
+                            meet(boxes_[numbers_[i]], boxes_[numbers_[j]])) {
+                            visit(boxes_[numbers_[i]], boxes_[numbers_[j]]);
+                        }
+                    }
+                }
+            }
+        }
+    }
+
+private:
+    struct Span {
+        std::uint32_t first_col;
+        std::uint32_t last_col;
+        std::uint32_t first_row;
+        std::uint32_t last_row;
+    };
+
+    static bool meet(Box const& a, Box const& b) {
+        return a.min_coord(0) <= b.max_coord(0) && b.min_coord(0) <= a.max_coord(0) &&
+               a.min_coord(1) <= b.max_coord(1) && b.min_coord(1) <= a.max_coord(1);
+    }
+
+    // Cells of at least twice the mean length of a box; about as many as boxes, or four times as many.
+    bool set_frame() {
+        constexpr std::size_t most = 1'000'000; // beyond, memory is worth more
+        if (boxes_.empty() || boxes_.size() > most) {
+            return false;
+        }
+        low_ = {boxes_.front().min_coord(0), boxes_.front().min_coord(1)};
+        Vec2 high = low_;
+        double lengths = 0.0;
+        for (Box const& box : boxes_) {
+            low_ = {std::min(low_.x, box.min_coord(0)), std::min(low_.y, box.min_coord(1))};
+            high = {std::max(high.x, box.max_coord(0)), std::max(high.y, box.max_coord(1))};
+            lengths += std::max(box.max_coord(0) - box.min_coord(0), box.max_coord(1) - box.min_coord(1));
+        }
+        auto const count = static_cast<double>(boxes_.size());
+        Vec2 const extent = high - low_;
+        double const cell = std::max({2.0 * lengths / count, std::sqrt(extent.x * extent.y / (4.0 * count)),
+                                      std::max(extent.x, extent.y) / (4.0 * count)});
+        per_m_ = 1.0 / cell;
+        if (!(per_m_ > 0.0) || !std::isfinite(per_m_) || !std::isfinite(cell)) {
+            return false;
+        }
+        width_ = slot(extent.x) + 1;
+        height_ = slot(extent.y) + 1;
+        return true;
+    }
+
+    std::uint32_t slot(double along) const { return static_cast<std::uint32_t>(along * per_m_); }
+
+    bool set_spans() {
+        std::size_t entries = 0;
+        for (std::size_t k = 0; k < boxes_.size(); ++k) {
+            Box const& box = boxes_[k];
+            Span const span{slot(box.min_coord(0) - low_.x), slot(box.max_coord(0) - low_.x),
+                            slot(box.min_coord(1) - low_.y), slot(box.max_coord(1) - low_.y)};
+            spans_[k] = span;
+            entries += std::size_t{span.last_col - span.first_col + 1} * (span.last_row - span.first_row + 1);
+            if (entries > 8 * boxes_.size() + 64) {
+                return false;
+            }
+        }
+        return true;
+    }
+
+    template <class Visit> void each_cell(Span const& span, Visit visit) const {
+        for (std::uint32_t row = span.first_row; row <= span.last_row; ++row) {
+            for (std::uint32_t col = span.first_col; col <= span.last_col; ++col) {
+                visit(std::size_t{row} * width_ + col);
+            }
+        }
+    }
+
+    void fill() {
+        first_.assign(std::size_t{width_} * height_ + 1, 0);
+        for (Span const& span : spans_) {
+            each_cell(span, [&](std::size_t cell) { ++first_[cell]; });
+        }
+        std::size_t pairs = 0;
+        std::uint32_t entries = 0;
+        for (std::uint32_t& first : first_) {
+            pairs += std::size_t{first} * first / 2;
+            entries += first;
+            first = entries; // its end, until it is filled from there
+        }
+        if (pairs > 64 * boxes_.size() + 4096) {
+            return;
+        }
+        numbers_.resize(entries);
+        for (std::size_t k = spans_.size(); k-- > 0;) {
+            each_cell(spans_[k], [&](std::size_t cell) { numbers_[--first_[cell]] = static_cast<std::uint32_t>(k); });
+        }
+    }
+
+    std::vector<Box> const& boxes_;
+    std::vector<Span> spans_;
+    Vec2 low_;
+    double per_m_ = 0.0; // cells per metre
+    std::uint32_t width_ = 0;
+    std::uint32_t height_ = 0;
+    std::vector<std::uint32_t> first_; // by cell: its first number, and after the last cell the end
+    std::vector<std::uint32_t> numbers_;
+};
+
 // Calls visit once for every two segments whose boxes meet, in an unspecified order. Polylines have finite coordinates;
 // there are fewer than 2^32, of fewer than 2^32 vertices each. Segments of length 0 are skipped, except the first of a
-// polyline that is one repeated point. Throws BadInput when a coordinate is not finite. Source: Zomorodian and
-// Edelsbrunner 2000 (CGAL).
+// polyline that is one repeated point. Throws BadInput when a coordinate is not finite. Source where a grid
+// does not suit: Zomorodian and Edelsbrunner 2000 (CGAL).
 void each_close_pair(std::vector<std::vector<Vec2>> const& lines,
                      std::function<void(LineSegment, LineSegment)> const& visit, Run const& run = {}) {
     std::size_t segments = 0;
@@ -177,12 +306,17 @@ void each_close_pair(std::vector<std::vector<Vec2>> const& lines,
         add_boxes(lines[l], static_cast<std::uint32_t>(l), boxes);
     }
     std::int64_t pairs = 0;
-    CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), [&](Box const& a, Box const& b) {
+    auto const visit_boxes = [&](Box const& a, Box const& b) {
         if ((++pairs & 0xfff) == 0) {
             run.check();
         }
         visit(a.segment(), b.segment());
-    });
+    };
+    if (BoxGrid const grid(boxes); grid.is_filled()) {
+        grid.each_pair(visit_boxes);
+    } else {
+        CGAL::box_self_intersection_d(boxes.begin(), boxes.end(), visit_boxes);
+    }
 }
 
 using Lines = std::vector<std::vector<Vec2>>;
@@ -292,6 +426,9 @@ std::vector<Meeting> meetings(Lines const& lines, std::vector<EndNodes> const& n
         Vec2 const b = lines[s.line][s.segment + 1];
         Vec2 const c = lines[t.line][t.segment];
         Vec2 const d = lines[t.line][t.segment + 1];
+        if (s.line == t.line && s.segment + 1 == t.segment && dot(b - a, d - c) > 0.0) {
+            return; // it goes on without folding back
+        }
         SegmentMeeting meeting = meeting_of(a, b, c, d);
         switch (meeting.kind) {
         case SegmentMeeting::Kind::none: return;

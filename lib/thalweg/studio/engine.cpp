@@ -81,6 +81,11 @@ std::shared_ptr<pipeline::Made const> Engine::wait(std::stop_token const& stop) 
     return ended_ == last_ ? latest_ : nullptr;
 }
 
+std::int64_t Engine::last() const {
+    std::scoped_lock const lock(guard_);
+    return last_;
+}
+
 double Engine::slowest_stop_s() const {
     std::scoped_lock const lock(guard_);
     return slowest_stop_s_;
@@ -124,7 +129,8 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
                 tell(watcher_.rivers, job, made->plan, made->planform, run);
             }
             if (made->terrain.surface) {
-                tell(watcher_.heights, job, made->terrain.grid, made->terrain.surface->dem, true);
+                tell(watcher_.heights, job,
+                     Heights{made->terrain.surface->dem, made->terrain.grid, pipeline::sea_of(made->terrain), true});
             }
         } else {
             auto const fresh = std::make_shared<pipeline::Made>();
@@ -135,8 +141,9 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             }
             run.preview = [&](Raster<float> const& dem, bool is_finished) {
                 run.check();
-                tell(watcher_.heights, job, job.recipe.network ? fresh->planform.grid : *fresh->plan.grid, dem,
-                     is_finished);
+                tell(watcher_.heights, job,
+                     Heights{dem, job.recipe.network ? fresh->planform.grid : *fresh->plan.grid,
+                             pipeline::sea_of(fresh->plan, fresh->planform), is_finished});
             };
             fresh->terrain = pipeline::make_terrain(fresh->plan, fresh->planform, run);
             run.preview = nullptr;

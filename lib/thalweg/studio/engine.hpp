@@ -18,6 +18,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/report/landmarks.hpp>
 
 namespace thalweg::studio {
 
@@ -30,14 +31,21 @@ struct Job {
     std::string toml = {}; ///< the recipe as text
 };
 
+/// A terrain while it is made.
+struct Heights {
+    Raster<float> const& dem;         ///< [m] coarse first
+    Grid const& grid;                 ///< of the result
+    std::optional<pipeline::Sea> sea; ///< that its cells without heights are
+    bool is_finished;                 ///< the DEM is the result
+};
+
 /// Hears what becomes of jobs, one call at a time, on the engine's thread. Each may be empty.
 struct Watcher {
     std::function<void(Job const&, std::string_view stage, double share)> at = {}; ///< [0, 1] of a stage is done
     std::function<void(Job const&, std::string_view line)> said = {};
     /// Before their land. \param run of the job
     std::function<void(Job const&, pipeline::Plan const&, pipeline::Planform const&, Run const& run)> rivers = {};
-    /// \param grid of the terrain; dem: [m] coarse first; is_finished: that of the result
-    std::function<void(Job const&, Grid const& grid, Raster<float> const& dem, bool is_finished)> heights = {};
+    std::function<void(Job const&, Heights const&)> heights = {};
     std::function<void(Job const&, pipeline::Made const&)> made = {}; ///< not yet measured
     /// The end of a job.
     std::function<void(Job const&, std::shared_ptr<pipeline::Made const> const&)> measured = {};
@@ -64,6 +72,8 @@ public:
     std::int64_t make(Job job);
     /// Stops what is running.
     void stop();
+    /// \return the number of the job begun last
+    std::int64_t last() const;
     /// Waits for the terrain of the last job.
     /// \return nothing when it failed, was stopped, or stop ended the wait
     std::shared_ptr<pipeline::Made const> wait(std::stop_token const& stop = {});

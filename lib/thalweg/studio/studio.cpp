@@ -215,8 +215,7 @@ private:
                 .said = [this](Job const&, std::string_view line) { tell_warning(line); },
                 .rivers = [this](Job const& job, pipeline::Plan const& plan, pipeline::Planform const& planform,
                                  Run const& run) { show_rivers(job, plan, planform, run); },
-                .heights = [this](Job const& job, Grid const& grid, Raster<float> const& dem,
-                                  bool is_finished) { show_heights(job, grid, dem, is_finished); },
+                .heights = [this](Job const& job, Heights const& heights) { show_heights(job, heights); },
                 .made = [this](Job const& job, pipeline::Made const& made) { show_scene(job, "land", made); },
                 .measured =
                     [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
@@ -224,7 +223,12 @@ private:
                         end(idle_message(job, seconds_since(begun_)));
                     },
                 .failed = [this](Job const& job, std::string_view error) { end(failed_message(job, error)); },
-                .stopped = [this](Job const& job) { end(idle_message(job, seconds_since(begun_))); }};
+                .stopped =
+                    [this](Job const& job) {
+                        if (job.number == engine_.last()) { // else the later one tells
+                            end(idle_message(job, seconds_since(begun_)));
+                        }
+                    }};
     }
 
     static double seconds_since(Clock::time_point begin) {
@@ -262,13 +266,13 @@ private:
         server_.send_text(serve::everyone, std::move(cluster));
     }
 
-    void show_heights(Job const& job, Grid const& grid, Raster<float> const& dem, bool is_finished) {
-        std::optional<pipeline::LiveHeights> heights = pipeline::live_heights(dem, grid);
+    void show_heights(Job const& job, Heights const& given) {
+        std::optional<pipeline::LiveHeights> heights = pipeline::live_heights(given.dem, given.grid);
         if (!heights) {
             return;
         }
-        Shown shown{grid, is_finished, std::move(*heights)};
-        std::optional<Shown>& before = is_finished ? full_ : coarse_;
+        Shown shown{given.grid, given.is_finished, std::move(*heights), given.sea};
+        std::optional<Shown>& before = given.is_finished ? full_ : coarse_;
         std::scoped_lock const lock(guard_);
         server_.send_binary(serve::everyone, heights_message(job, shown, before ? &*before : nullptr));
         before = std::move(shown);

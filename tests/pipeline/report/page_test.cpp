@@ -138,7 +138,7 @@ Line turns_of(Line const& line, PageLines const& page, Grid const& frame) {
     return turns;
 }
 
-std::string const bare = "@@TITLE@@@@DATA@@@@HEIGHTS@@@@LINES@@@@WATER@@";
+std::string const bare = "@@TITLE@@@@DATA@@@@HEIGHTS@@@@LINES@@@@WATER@@@@STUDIO@@";
 
 } // namespace
 
@@ -147,7 +147,7 @@ TEST(Page, HeightsAndLinesAreThoseOfTheTerrain) {
     Grid const& grid = made.terrain.grid;
     ElevatedNetwork const& rivers = made.terrain.rivers.network;
     std::string const html = page(made, {.contour_interval_m = 25.0, .recipe = "seed = 7\n"});
-    for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@"}) {
+    for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@", "@@STUDIO@@"}) {
         EXPECT_FALSE(test::has(html, marker));
     }
     json const data = data_of(html);
@@ -476,15 +476,15 @@ TEST(PageLines, EveryVertexWithinHalfAStepAndNoDrift) {
 }
 
 TEST(FillPage, EachPartWhereItsMarkerStands) {
-    PageParts const parts{"t", "d", "h", "l", "w"};
-    EXPECT_EQ(fill_page(bare, parts), "tdhlw");
-    EXPECT_EQ(fill_page("0@@LINES@@1@@HEIGHTS@@2@@DATA@@3@@TITLE@@4@@WATER@@5", parts), "0l1h2d3t4w5");
-    EXPECT_EQ(fill_page(bare, {"@@DATA@@", "@@TITLE@@$1\\1", "@@LINES@@", "@@", "w"}),
-              "@@DATA@@@@TITLE@@$1\\1@@LINES@@@@w");
+    PageParts const parts{"t", "d", "h", "l", "w", "s"};
+    EXPECT_EQ(fill_page(bare, parts), "tdhlws");
+    EXPECT_EQ(fill_page("0@@LINES@@1@@HEIGHTS@@2@@DATA@@3@@TITLE@@4@@WATER@@5@@STUDIO@@6", parts), "0l1h2d3t4w5s6");
+    EXPECT_EQ(fill_page(bare, {"@@DATA@@", "@@TITLE@@$1\\1", "@@LINES@@", "@@", "w", "@@WATER@@"}),
+              "@@DATA@@@@TITLE@@$1\\1@@LINES@@@@w@@WATER@@");
 }
 
 TEST(FillPage, AMissingOrSecondMarkerIsAnErrorOfTheBuild) {
-    for (std::string const marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@"}) {
+    for (std::string const marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@", "@@STUDIO@@"}) {
         std::string missing = bare;
         missing.erase(missing.find(marker), marker.size());
         EXPECT_THROW(fill_page(missing, {}), std::logic_error) << marker;

@@ -26,7 +26,7 @@ TEST(ReportPage, EveryMakeLeavesOne) {
     Workplace const place;
     Outcome const o = expect_run(place, small + "out --json", 0);
     std::string const page = file_bytes(place / "out/report.html");
-    for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@"}) {
+    for (char const* marker : {"@@TITLE@@", "@@DATA@@", "@@HEIGHTS@@", "@@LINES@@", "@@WATER@@", "@@STUDIO@@"}) {
         EXPECT_FALSE(test::has(page, marker));
     }
     auto const report = o.json();

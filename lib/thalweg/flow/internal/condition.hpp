@@ -35,6 +35,13 @@ enum class Lakes : std::uint8_t { level, slope };
 /// leaves at the border, into no data and into river cells (those with a height in the framed valley).
 void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run const& run);
 
+/// Tells, by one look at each cell, whether flood() with sloping lakes would change nothing.
+/// \param dem [m] without a frame; NaN: no data; no height is infinite
+/// \param rivers [m] on its grid; NaN: no river
+/// \return true: each cell with data is a river cell, lies at the grid's border or beside no data, or is at least
+/// just_above() its lowest neighbour
+bool drains(Raster<float> const& dem, Raster<float> const& rivers, Run const& run);
+
 /// Checks the input of fill(), carve() and confine_channels().
 /// \throws BadInput when frames differ, there are no cells, a height is infinite, or a river cell has no height
 void check_drainable(Raster<float> const& dem, Valley const& valley);
@@ -62,6 +69,12 @@ Raster<float> fill(Raster<float> const& dem, Valley const& valley, Run const& ru
 ///
 /// Source: Soille 2004; Lindsay 2016 (least-cost breaching); \cite barnes2014.
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run = {});
+
+/// What carve() does where something does not drain yet.
+/// \param dem,valley,least as for carve(), checked
+/// \return as carve(), also of terrain that drains already: that terrain
+Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, Raster<float> const& least,
+                                Run const& run);
 
 struct RaiseBanksParams {
     double margin_m = 0.002; ///< [m] >= 0: tools that work in millimetres (r.watershed) must still see the bank

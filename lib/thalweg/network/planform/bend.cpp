@@ -122,12 +122,25 @@ struct River {
     std::size_t end;
     std::vector<double> const& way_m;
 
-    /// The first point, and the one after the last, within a distance along the river.
-    std::size_t first(double way) const {
-        auto const at = static_cast<std::ptrdiff_t>(begin);
+    /// The first point at least this far along the river; `end`: none. Looks from a point that is near.
+    std::size_t first(double way, std::size_t near) const {
+        std::size_t low = near;
+        std::size_t high = near;
+        if (way_m[near] < way) {
+            for (std::size_t step = 1; high < end && way_m[high] < way; step *= 2) {
+                low = high;
+                high += std::min(step, end - high);
+            }
+        } else {
+            for (std::size_t step = 1; low > begin && !(way_m[low] < way); step *= 2) {
+                high = low;
+                low -= std::min(step, low - begin);
+            }
+        }
+        auto const from = way_m.begin();
         return static_cast<std::size_t>(
-            std::lower_bound(way_m.begin() + at, way_m.begin() + static_cast<std::ptrdiff_t>(end), way) -
-            way_m.begin());
+            std::lower_bound(from + static_cast<std::ptrdiff_t>(low), from + static_cast<std::ptrdiff_t>(high), way) -
+            from);
     }
 };
 
@@ -136,8 +149,8 @@ Vec2 across(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2
             double reach) {
     River const river{stem.begin, stem.end, way_m};
     std::size_t const last = stem.end - 1;
-    std::size_t const up = std::min(river.first(way_m[i] - reach), i > stem.begin ? i - 1 : i);
-    std::size_t const down = std::max(std::min(river.first(way_m[i] + reach), last), std::min(i + 1, last));
+    std::size_t const up = std::min(river.first(way_m[i] - reach, i), i > stem.begin ? i - 1 : i);
+    std::size_t const down = std::max(std::min(river.first(way_m[i] + reach, i), last), std::min(i + 1, last));
     double const length = distance(at[up], at[down]);
     if (!(length > 0.0)) {
         return {};
@@ -202,58 +215,88 @@ std::vector<double> weights(Stems const& stems) {
 
 /// The weighted mean of values within a distance of a point, with parabolic weights; the distance shrinks towards the
 /// ends, so that these stay.
-template <class Value>
-void mean_near(Stem const& stem, std::vector<double> const& way_m, std::vector<double> const& weight, std::size_t i,
-               double reach, Value add) {
-    double const way = way_m[i];
-    double const within = std::min({reach, way - way_m[stem.begin], way_m[stem.end - 1] - way});
-    River const river{stem.begin, stem.end, way_m};
-    double sum = 0.0;
-    std::size_t const first = river.first(way - within);
-    std::size_t last = first;
-    for (; last < stem.end && way_m[last] <= way + within; ++last) {
-        double const t = within > 0.0 ? (way_m[last] - way) / within : 0.0;
-        sum += weight[last] * (1.0 - t * t);
+class MeanNear {
+public:
+    explicit MeanNear(Stems const& stems) : stems_(stems), weight_(weights(stems)) {}
+
+    /// Calls add(point, share) for the points near one.
+    template <class Add> void each(std::size_t i, double reach, Add add) {
+        Stem const& stem = stems_.stems[stems_.stem_of[i]];
+        std::vector<double> const& way_m = stems_.way_m;
+        double const way = way_m[i];
+        double const within = std::min({reach, way - way_m[stem.begin], way_m[stem.end - 1] - way});
+        std::size_t const first = River{stem.begin, stem.end, way_m}.first(way - within, i);
+        std::size_t last = first;
+        while (last < stem.end && way_m[last] <= way + within) {
+            ++last;
+        }
+        parts_.resize(last - first);
+        double const reached = within > 0.0 ? within : 1.0; // 0: only the point itself
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            double const t = (way_m[first + k] - way) / reached;
+            parts_[k] = weight_[first + k] * (1.0 - t * t);
+        }
+        double sum = 0.0;
+        for (double const part : parts_) {
+            sum += part;
+        }
+        if (!(sum > 0.0)) {
+            add(i, 1.0);
+            return;
+        }
+        for (double& part : parts_) {
+            part /= sum;
+        }
+        for (std::size_t k = 0; k < parts_.size(); ++k) {
+            add(first + k, parts_[k]);
+        }
     }
-    if (!(sum > 0.0)) {
-        add(i, 1.0);
-        return;
-    }
-    for (std::size_t j = first; j < last; ++j) {
-        double const t = within > 0.0 ? (way_m[j] - way) / within : 0.0;
-        add(j, weight[j] * (1.0 - t * t) / sum);
-    }
-}
+
+private:
+    Stems const& stems_;
+    std::vector<double> weight_;
+    std::vector<double> parts_; ///< keeps its memory
+};
 
 /// Half waves along a river: extremes of random size, at least `least`, mostly on alternating sides, joined smoothly.
-double noise(double half_waves, double least, double takes_turns, std::uint64_t seed, std::uint64_t stage,
-             std::uint64_t river) {
-    auto const extreme = [&](std::uint64_t k) {
-        auto const words = random_block(seed, stage, river, k);
-        double const size = least + (1.0 - least) * unit(words[0]);
-        bool const odd = (k % 2 == 1) != (unit(words[1]) > takes_turns);
-        return odd ? -size : size;
-    };
-    double const floor = std::floor(half_waves);
-    auto const k = static_cast<std::uint64_t>(floor);
-    double const a = extreme(k);
-    return a + (extreme(k + 1) - a) * smooth_step(half_waves - floor);
-}
+class Noise {
+public:
+    Noise(double least, double takes_turns, std::uint64_t seed, std::uint64_t stage, std::uint64_t river)
+        : least_(least), takes_turns_(takes_turns), seed_(seed), stage_(stage), river_(river) {
+        go_to(0);
+    }
 
-/// By point: the wavelength of its river [m].
-std::vector<double> wavelengths(Stems const& stems, std::vector<double> const& weight, double cell_m) {
-    std::vector<double> own;
-    for (double const area_m2 : stems.area_m2) {
-        double const cells = std::max(area_m2 / (cell_m * cell_m), 1.0);
-        own.push_back(cell_m * std::max(shortest_wave, wave_widths * floor_cells * portable::pow(cells, 0.4)));
+    double operator()(double half_waves) {
+        double const floor = std::floor(half_waves);
+        if (auto const k = static_cast<std::uint64_t>(floor); k != at_) {
+            go_to(k);
+        }
+        return here_ + (next_ - here_) * smooth_step(half_waves - floor);
     }
-    std::vector<double> out(own.size(), 0.0);
-    for (std::size_t i = 0; i < own.size(); ++i) {
-        mean_near(stems.stems[stems.stem_of[i]], stems.way_m, weight, i, own[i],
-                  [&](std::size_t j, double share) { out[i] += share * own[j]; });
+
+private:
+    void go_to(std::uint64_t k) {
+        at_ = k;
+        here_ = extreme(k);
+        next_ = extreme(k + 1);
     }
-    return out;
-}
+
+    double extreme(std::uint64_t k) const {
+        auto const words = random_block(seed_, stage_, river_, k);
+        double const size = least_ + (1.0 - least_) * unit(words[0]);
+        bool const odd = (k % 2 == 1) != (unit(words[1]) > takes_turns_);
+        return odd ? -size : size;
+    }
+
+    double least_;
+    double takes_turns_;
+    std::uint64_t seed_;
+    std::uint64_t stage_;
+    std::uint64_t river_;
+    std::uint64_t at_ = 0; ///< number of the last half wave, with the extremes at its ends
+    double here_ = 0.0;
+    double next_ = 0.0;
+};
 
 /// [0, 1] straightness of a river on both sides of a point: 1 within half a cell of its chord, 0 beyond one and a half.
 double straightness(Stem const& stem, std::vector<double> const& way_m, std::vector<Vec2> const& at, std::size_t i,
@@ -263,8 +306,8 @@ double straightness(Stem const& stem, std::vector<double> const& way_m, std::vec
         return 0.0;
     }
     River const river{stem.begin, stem.end, way_m};
-    std::size_t const up = river.first(way_m[i] - reach);
-    std::size_t const down = river.first(way_m[i] + reach);
+    std::size_t const up = river.first(way_m[i] - reach, i);
+    std::size_t const down = river.first(way_m[i] + reach, i);
     double const length = distance(at[up], at[down]);
     if (!(length > reach)) {
         return 0.0;
@@ -363,14 +406,32 @@ std::vector<Vec2> bend_plain(std::vector<Vec2> at, Raster<std::uint8_t> const& t
     return at;
 }
 
-std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, double cell_m, Rounding rounding) {
-    std::vector<double> const weight = weights(stems);
-    std::vector<double> const wave_m = wavelengths(stems, weight, cell_m);
+std::vector<double> wavelengths(Stems const& stems, double cell_m) {
+    std::vector<double> own(stems.at.size());
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        if (i > 0 && stems.area_m2[i] == stems.area_m2[i - 1]) { // on the same arc
+            own[i] = own[i - 1];
+            continue;
+        }
+        double const cells = std::max(stems.area_m2[i] / (cell_m * cell_m), 1.0);
+        own[i] = cell_m * std::max(shortest_wave, wave_widths * floor_cells * portable::pow(cells, 0.4));
+    }
+    MeanNear mean(stems);
+    std::vector<double> out(own.size(), 0.0);
+    for (std::size_t i = 0; i < own.size(); ++i) {
+        mean.each(i, own[i], [&](std::size_t j, double share) { out[i] += share * own[j]; });
+    }
+    return out;
+}
+
+std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, std::vector<double> const& wave_m,
+                            double cell_m, Rounding rounding) {
+    MeanNear mean_near(stems);
     std::vector<Vec2> out(at.size());
     for (std::size_t i = 0; i < at.size(); ++i) {
         double const reach = rounding == Rounding::river ? 2.5 * cell_m + 0.1 * wave_m[i] : 2.0 * cell_m;
         Vec2 mean;
-        mean_near(stems.stems[stems.stem_of[i]], stems.way_m, weight, i, reach, [&](std::size_t j, double share) {
+        mean_near.each(i, reach, [&](std::size_t j, double share) {
             mean = {mean.x + share * at[j].x, mean.y + share * at[j].y};
         });
         double const far = distance(mean, at[i]);
@@ -386,17 +447,17 @@ std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, dou
     return out;
 }
 
-std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain,
-                                 MeanderKind which, std::uint64_t seed) {
+std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at, std::vector<double> wave_m,
+                                 double cell_m, double gain, MeanderKind which, std::uint64_t seed) {
     bool const bends = which == MeanderKind::bends;
     auto const [stage, least, takes_turns] = kind_of(which);
-    std::vector<double> wave_m = wavelengths(stems, weights(stems), cell_m);
     for (double& wave : wave_m) {
         wave = bends ? wave : std::clamp(wave / 4.0, shortest_wave * cell_m, longest_reach * cell_m);
     }
     std::vector<double> const way_m = which == MeanderKind::straights ? stretched_distances(stems, at) : stems.way_m;
     std::vector<Vec2> out(at.size());
     for (Stem const& stem : stems.stems) {
+        Noise noise(least, takes_turns, seed, stage, stem.source);
         double half_waves = unit(random_word(seed, stage, stem.source, ~0ULL));
         double const end_m = way_m[stem.end - 1];
         for (std::size_t i = stem.begin; i < stem.end; ++i) {
@@ -404,8 +465,7 @@ std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at
             half_waves += 2.0 * step / wave_m[i];
             double const fades = smooth_step((end_m - way_m[i]) / (0.5 * wave_m[i]));
             double const where = which == MeanderKind::straights ? straightness(stem, way_m, at, i, cell_m) : 1.0;
-            double const by = where * fades * gain * amplitude * wave_m[i] *
-                              noise(half_waves, least, takes_turns, seed, stage, stem.source);
+            double const by = where * fades * gain * amplitude * wave_m[i] * noise(half_waves);
             Vec2 const left = across(stem, way_m, at, i, 0.25 * wave_m[i]);
             out[i] = {by * left.x, by * left.y};
         }

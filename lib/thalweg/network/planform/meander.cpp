@@ -11,108 +11,16 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
+#include <thalweg/network/planform/internal/crowding.hpp>
 #include <thalweg/network/planform/internal/meander.hpp>
-#include <thalweg/network/planform/internal/segment_grid.hpp>
 
 namespace thalweg::network {
 namespace {
 
-struct Gap {
-    double gap_m = 0.0;
-    double along_m = 0.0; // positions closer along one river than this may be arbitrarily close
-};
-
-constexpr double kept_share = 0.6; // of a distance below the gap
-
-double inside(Vec2 p, Grid const& grid) {
-    return std::min({p.x - grid.west, grid.east() - p.x, grid.north - p.y, p.y - grid.south()});
-}
-
-Vec2 lowest(std::vector<Vec2> const& at) {
-    Vec2 low = at.front();
-    for (Vec2 const p : at) {
-        low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-    }
-    return low;
-}
-
-Vec2 highest(std::vector<Vec2> const& at) {
-    Vec2 high = at.front();
-    for (Vec2 const p : at) {
-        high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-    }
-    return high;
-}
-
-bool is_sea(Vec2 p, Mask const& land) {
-    Cell const c = land.grid().cell_of(p);
-    return land.grid().contains(c) && land[c] == 0;
-}
-
-// Whether a point, or one that stems_of would insert between it and the next of its river, lies in the sea. land: as
-// for too_near.
-bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i, Mask const& land) {
-    if (land.cells() == 0) {
-        return false;
-    }
-    if (is_sea(at[i], land)) {
-        return true;
-    }
-    if (i + 1 == at.size() || stems.stem_of[i] != stems.stem_of[i + 1]) {
-        return false;
-    }
-    auto const [count, step] = steps_between(at[i], at[i + 1], land.grid().cell_m);
-    for (double k = 1.0; k < count; k += 1.0) {
-        if (is_sea({at[i].x + k * step.x, at[i].y + k * step.y}, land)) {
-            return true;
-        }
-    }
-    return false;
-}
-
-// Points that came too close to a river's segment, and the upper points of these segments: both ascending. land: 1; 0:
-// sea; without cells: all land; was, is: points before and after. A point is too close to a segment of any river, its
-// own included, if their distance is less than the gap and less than 0.6 of what it was; or if it has left the grid or
-// the land, or is closer than a cell to the grid's border.
-std::vector<std::size_t> too_near(Stems const& stems, std::vector<Vec2> const& was, std::vector<Vec2> const& is,
-                                  Grid const& grid, Mask const& land, Gap const& gap) {
-    double const gap_m = gap.gap_m;
-    std::vector<std::size_t> found;
-    SegmentGrid segments(lowest(is), highest(is), 2.0 * gap_m, is.size());
-    for (std::size_t i = 0; i + 1 < is.size(); ++i) {
-        if (stems.stem_of[i] == stems.stem_of[i + 1]) {
-            segments.add(i, {is[i], is[i + 1]});
-        }
-    }
-    for (std::size_t i = 0; i < is.size(); ++i) {
-        if (inside(is[i], grid) < std::min(grid.cell_m, inside(was[i], grid))) {
-            found.push_back(i);
-        }
-        if (leaves_land(stems, is, i, land) && !leaves_land(stems, was, i, land)) {
-            found.insert(found.end(), {i, std::min(i + 1, is.size() - 1)});
-        }
-        segments.near({is[i], is[i]}, gap_m, [&](std::size_t j) {
-            bool const same = stems.stem_of[i] == stems.stem_of[j];
-            if (j == i || j + 1 == i || (same && std::fabs(stems.way_m[i] - stems.way_m[j]) < gap.along_m)) {
-                return true;
-            }
-            double const now = squared_distance(is[i], segments[j]);
-            double const before = squared_distance(was[i], {was[j], was[j + 1]});
-            if (now < (before >= gap_m * gap_m ? gap_m * gap_m : kept_share * kept_share * before)) {
-                found.insert(found.end(), {i, j});
-            }
-            return true;
-        });
-    }
-    std::sort(found.begin(), found.end());
-    found.erase(std::unique(found.begin(), found.end()), found.end());
-    return found;
-}
-
 // Moves points by shares [0,1] of their shifts; rivers that join others follow their mouth.
-std::vector<Vec2> shifted(Stems const& stems, std::vector<Vec2> const& at, std::vector<Vec2> const& shift,
-                          std::vector<double> const& share, double cell_m) {
-    std::vector<Vec2> out(at.size());
+void shifted(Stems const& stems, std::vector<Vec2> const& at, std::vector<Vec2> const& shift,
+             std::vector<double> const& share, double cell_m, std::vector<Vec2>& out) {
+    out.resize(at.size());
     for (Stem const& stem : stems.stems) {
         for (std::size_t i = stem.begin; i < stem.end; ++i) {
             out[i] = {at[i].x + share[i] * shift[i].x, at[i].y + share[i] * shift[i].y};
@@ -131,7 +39,6 @@ std::vector<Vec2> shifted(Stems const& stems, std::vector<Vec2> const& at, std::
         }
         out[stem.end - 1] = mouth;
     }
-    return out;
 }
 
 // Halves the shares of points, and reduces those of their neighbours within a distance along the river by less; small
@@ -248,7 +155,9 @@ public:
     Meandering(StreamNetwork const& network, Grid const& grid, Mask const& land, std::vector<double> const& area_m2,
                MeanderParams const& params, Run const& run)
         : network_(network), area_m2_(area_m2), grid_(grid), land_(land), params_(params), run_(run),
-          to_fixed_(distance_to_fixed(network, grid, land)), stems_(stems_of(network, area_m2, grid.cell_m)) {}
+          to_fixed_(distance_to_fixed(network, grid, land)) {
+        take_points();
+    }
 
     Meandered made() {
         // Reduces the plain's waves until none remain.
@@ -268,19 +177,23 @@ private:
     }
 
     bool try_with(double bend) {
-        base_ = settled(bend_plain(stems_.at, to_fixed_, bend, params_.seed));
+        base_ = bend_plain(stems_.at, to_fixed_, bend, params_.seed);
+        for (std::size_t i = 0; i < base_.size(); ++i) {
+            base_[i] = settled(i, base_[i]);
+        }
         if (!is_proven(base_) || went_to_sea()) {
             return false;
         }
         bool const wanders = params_.gain > 0.0;
         double const cell = grid_.cell_m;
-        move(smoothing(stems_, base_, cell, wanders ? Rounding::river : Rounding::half_a_cell), smoothed_near * cell);
+        move(smoothing(stems_, base_, wave_m_, cell, wanders ? Rounding::river : Rounding::half_a_cell),
+             smoothed_near * cell);
         if (wanders) {
-            move(meander_shifts(stems_, base_, cell, params_.gain, MeanderKind::bends, params_.seed), 0.0);
+            move(meander_shifts(stems_, base_, wave_m_, cell, params_.gain, MeanderKind::bends, params_.seed), 0.0);
             refine();
             move(lean_in(stems_, base_, cell, params_.seed), 0.0);
             for (MeanderKind const which : {MeanderKind::reaches, MeanderKind::straights}) {
-                move(meander_shifts(stems_, base_, cell, params_.gain, which, params_.seed), 0.0);
+                move(meander_shifts(stems_, base_, wave_m_, cell, params_.gain, which, params_.seed), 0.0);
             }
         }
         out_.network = through(base_);
@@ -291,11 +204,18 @@ private:
     /// Moves the points as far as rivers keep apart; not at all if that does not converge.
     void move(std::vector<Vec2> const& shift, double near_m) {
         std::vector<double> share(base_.size(), 1.0);
+        Crowding crowding(stems_, base_, grid_, land_, {params_.gap_cells * grid_.cell_m, near_m});
+        std::vector<Vec2> loose; // before rounding
+        std::vector<Vec2> last;  // the same a round ago
+        std::vector<Vec2> at(base_.size());
         for (int round = 0; round < rounds_of_halving; ++round) {
             run_.check();
-            std::vector<Vec2> at = settled(shifted(stems_, base_, shift, share, grid_.cell_m));
-            std::vector<std::size_t> bad =
-                too_near(stems_, base_, at, grid_, land_, {params_.gap_cells * grid_.cell_m, near_m});
+            shifted(stems_, base_, shift, share, grid_.cell_m, loose);
+            for (std::size_t i = 0; i < at.size(); ++i) {
+                at[i] = round > 0 && loose[i] == last[i] ? at[i] : settled(i, loose[i]);
+            }
+            std::swap(loose, last);
+            std::vector<std::size_t> bad = crowding.points(at);
             if (bad.empty()) {
                 bad = meeting_points(lines_through(stems_, network_, at), network_, run_);
             }
@@ -304,7 +224,8 @@ private:
                 return;
             }
             ++out_.rounds;
-            std::int64_t const eased = ease(stems_, with_mouths(stems_, bad, share), eased_reach * grid_.cell_m, share);
+            std::int64_t const eased =
+                ease(stems_, with_mouths(stems_, std::move(bad), share), eased_reach * grid_.cell_m, share);
             if (eased == 0) {
                 return;
             }
@@ -312,13 +233,8 @@ private:
         }
     }
 
-    /// Points rounded for output. Those that did not move keep every bit.
-    std::vector<Vec2> settled(std::vector<Vec2> at) const {
-        for (std::size_t i = 0; i < at.size(); ++i) {
-            at[i] = at[i] == stems_.at[i] ? at[i] : rounded(at[i]);
-        }
-        return at;
-    }
+    /// A point rounded for output. One that did not move keeps every bit.
+    Vec2 settled(std::size_t point, Vec2 p) const { return p == stems_.at[point] ? stems_.at[point] : rounded(p); }
 
     bool is_proven(std::vector<Vec2> const& at) const {
         return meeting_points(lines_through(stems_, network_, at), network_, run_).empty();
@@ -338,8 +254,13 @@ private:
     void refine() {
         network_ = through(base_);
         measure_shift();
-        stems_ = stems_of(network_, area_m2_, grid_.cell_m);
+        take_points();
         base_ = stems_.at;
+    }
+
+    void take_points() {
+        stems_ = stems_of(network_, area_m2_, grid_.cell_m);
+        wave_m_ = params_.gain > 0.0 ? wavelengths(stems_, grid_.cell_m) : std::vector<double>();
     }
 
     void measure_shift() {
@@ -373,7 +294,8 @@ private:
     Run const& run_;
     Raster<std::uint8_t> to_fixed_;
     Stems stems_;
-    std::vector<Vec2> base_; ///< by point: the last valid positions
+    std::vector<double> wave_m_; ///< by point: wavelengths, where rivers wander
+    std::vector<Vec2> base_;     ///< by point: the last valid positions
     Meandered out_;
 };
 

@@ -4,16 +4,6 @@
 
 namespace thalweg::network {
 
-double squared_distance(Vec2 p, Segment const& s) {
-    double const dx = s.b.x - s.a.x;
-    double const dy = s.b.y - s.a.y;
-    double const length = dx * dx + dy * dy;
-    double const along = length > 0.0 ? std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / length, 0.0, 1.0) : 0.0;
-    double const x = p.x - s.a.x - along * dx;
-    double const y = p.y - s.a.y - along * dy;
-    return x * x + y * y;
-}
-
 double squared_distance(Segment const& s, Segment const& t) {
     double const ta = cross(s.a, s.b, t.a);
     double const tb = cross(s.a, s.b, t.b);

@@ -52,6 +52,19 @@ std::optional<Sea> sea_of(Terrain const& terrain) {
     return !sea && terrain.land.cells() > 0 ? Sea{} : sea;
 }
 
+std::optional<Sea> sea_of(Plan const& plan, Planform const& planform) {
+    Recipe const& recipe = plan.recipe;
+    bool const is_cut = planform.land.cells() > 0;
+    std::optional<surface::Edge> edge;
+    if (recipe.surface && recipe.surface->method == Method::equilibrium) {
+        surface::Edge const by_sea =
+            recipe.network && recipe.network->source == Source::lines ? surface::Edge::mainland : surface::Edge::coast;
+        edge = is_cut ? recipe.surface->equilibrium.edge.value_or(by_sea) : recipe.surface->equilibrium.edge;
+    }
+    std::optional<Sea> const sea = sea_beside(edge);
+    return !sea && is_cut ? Sea{} : sea;
+}
+
 std::optional<Sea> sea_of(Recipe const& made) {
     bool const balanced = made.surface && made.surface->method == Method::equilibrium;
     return balanced ? sea_beside(made.surface->equilibrium.edge) : std::nullopt;

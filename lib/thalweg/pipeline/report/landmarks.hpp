@@ -36,6 +36,10 @@ struct Sea {
 /// \return the sea of a terrain; nothing: cells without data are not the sea
 std::optional<Sea> sea_of(Terrain const& terrain);
 
+/// \param planform rivers of the plan
+/// \return the sea of the terrain that will be made of them, as far as these tell
+std::optional<Sea> sea_of(Plan const& plan, Planform const& planform);
+
 /// \param made recipe as make writes it: it names the edge of terrain in equilibrium
 /// \return the sea of such a terrain; nothing for other ones
 std::optional<Sea> sea_of(Recipe const& made);

@@ -38,10 +38,10 @@ LivePage live_page(std::string const& title, std::string const& studio) {
     parts.studio = without_tags(studio);
     LivePage page;
     page.html = fill_page(page_template(), parts);
+    static constexpr std::string_view nobody = "connect-src 'none'";
+    page.html.replace(page.html.find(nobody), nobody.size(), "connect-src 'self'");
     std::size_t const begin = page.html.find(before) + before.size();
-    page.policy = page.html.substr(begin, page.html.find('"', begin) - begin) + "; connect-src 'self'";
-    page.html.replace(begin, page.policy.size() - std::string_view("; connect-src 'self'").size(), page.policy);
-    page.policy += "; frame-ancestors 'none'";
+    page.policy = page.html.substr(begin, page.html.find('"', begin) - begin) + "; frame-ancestors 'none'";
     return page;
 }
 

@@ -59,6 +59,7 @@ struct Shown {
     Grid grid; ///< of the terrain
     bool is_finished = false;
     pipeline::LiveHeights heights;
+    std::optional<pipeline::Sea> sea;
 };
 
 /// Heights as a binary message.

@@ -62,12 +62,18 @@ Raster<std::uint8_t> distance_to_fixed(StreamNetwork const& network, Grid const&
 std::vector<Vec2> bend_plain(std::vector<Vec2> at, Raster<std::uint8_t> const& to_fixed, double gain,
                              std::uint64_t seed);
 
+/// The wavelength of each point's river, from its area there and nearby.
+/// \return [m] by point
+std::vector<double> wavelengths(Stems const& stems, double cell_m);
+
 /// How far lines are smoothed: by river size, or within half a cell between fixed nodes.
 enum class Rounding : std::uint8_t { river, half_a_cell };
 
 /// Computes the shift of each point [m] to a smoothed line.
+/// \param wave_m from wavelengths; read where lines are smoothed by river size
 /// \return by point; 0 at the ends of rivers
-std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, double cell_m, Rounding rounding);
+std::vector<Vec2> smoothing(Stems const& stems, std::vector<Vec2> const& at, std::vector<double> const& wave_m,
+                            double cell_m, Rounding rounding);
 
 /// A river's bends; smaller ones within them, without which long bends would run straight along the grid; and bends of
 /// parts that are still straight for over 20 cells.
@@ -75,9 +81,10 @@ enum class MeanderKind : std::uint8_t { bends, reaches, straights };
 
 /// Computes the shift of each point [m] across its river, by noise whose wavelength and amplitude grow with drainage
 /// area.
+/// \param wave_m from wavelengths
 /// \return by point; 0 at an outlet and where a river joins another
-std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at, double cell_m, double gain,
-                                 MeanderKind which, std::uint64_t seed);
+std::vector<Vec2> meander_shifts(Stems const& stems, std::vector<Vec2> const& at, std::vector<double> wave_m,
+                                 double cell_m, double gain, MeanderKind which, std::uint64_t seed);
 
 /// Computes the shift of each point [m] that makes tributaries approach the river they join from upstream: those that
 /// would meet it at more than 50 to 80 degrees (random) turn about their mouth, less with distance, up to 40 cells from

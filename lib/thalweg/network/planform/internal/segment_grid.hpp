@@ -21,7 +21,15 @@ struct Segment {
 double squared_distance(Segment const& s, Segment const& t);
 
 /// Square of the distance of a point to a segment [m2].
-double squared_distance(Vec2 p, Segment const& s);
+inline double squared_distance(Vec2 p, Segment const& s) {
+    double const dx = s.b.x - s.a.x;
+    double const dy = s.b.y - s.a.y;
+    double const length = dx * dx + dy * dy;
+    double const along = length > 0.0 ? std::clamp(((p.x - s.a.x) * dx + (p.y - s.a.y) * dy) / length, 0.0, 1.0) : 0.0;
+    double const x = p.x - s.a.x - along * dx;
+    double const y = p.y - s.a.y - along * dy;
+    return x * x + y * y;
+}
 
 /// An index of segments by the grid cells they pass through; segments may be moved.
 class SegmentGrid {

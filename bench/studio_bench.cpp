@@ -1,0 +1,142 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// How soon the land follows an edit, without a page. The terrain is make's default on 1024 x 1024 cells; beside it what
+// make itself needs in the same process: `fill` on 256 x 256 and on 1024 x 1024 cells.
+#include <algorithm>
+#include <chrono>
+#include <cstdint>
+#include <ctime>
+#include <memory>
+#include <mutex>
+#include <string>
+#include <thread>
+
+#include <benchmark/benchmark.h>
+
+#include <thalweg/studio/document.hpp>
+#include <thalweg/studio/engine.hpp>
+
+namespace {
+
+using namespace thalweg;
+using Clock = std::chrono::steady_clock;
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
+}
+
+double process_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_PROCESS_CPUTIME_ID, &now);
+    return static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
+
+double stage_s(pipeline::Made const& made, std::string const& name) {
+    double sum = 0.0;
+    for (auto const& [stage, seconds] : pipeline::timings_of(made)) {
+        sum += stage == name ? seconds : 0.0;
+    }
+    return sum;
+}
+
+double fill_s(std::int64_t side) {
+    return stage_s(pipeline::make(pipeline::default_recipe_on(side, side)), "fill");
+}
+
+/// Times of a job, from the call on.
+struct Times {
+    double first_s = 0.0; ///< first new land
+    double full_s = 0.0;  ///< the finished heights
+};
+
+/// An engine that measures.
+class Timed {
+public:
+    Times make(studio::Document const& document) {
+        {
+            std::scoped_lock const lock(guard_);
+            times_ = {};
+            begun_ = Clock::now();
+        }
+        engine_.make({0, document.revision, true, document.recipe, document.toml});
+        made_ = engine_.wait();
+        std::scoped_lock const lock(guard_);
+        return times_;
+    }
+    studio::Engine& engine() { return engine_; }
+    pipeline::Made const& made() const { return *made_; }
+
+private:
+    void note(bool is_finished) {
+        std::scoped_lock const lock(guard_);
+        double const now = seconds_since(begun_);
+        times_.first_s = times_.first_s > 0.0 ? times_.first_s : now;
+        times_.full_s = is_finished ? now : times_.full_s;
+    }
+
+    std::mutex guard_;
+    Clock::time_point begun_;
+    Times times_;
+    std::shared_ptr<pipeline::Made const> made_;
+    studio::Engine engine_{
+        {.heights = [this](studio::Job const&, studio::Heights const& heights) { note(heights.is_finished); }}};
+};
+
+studio::Document with(studio::Document const& document, char const* key, std::string const& value) {
+    return apply(document, {"", {studio::SetKey{key, value}}}).document;
+}
+
+/// Counts: first and full [ms]; first_over_fill256 and full_over_fill; grown_s: growth and meander of the edit, which
+/// first_over_fill256 leaves out where the seed is new.
+void follow(benchmark::State& state, char const* key, bool is_new_seed) {
+    double const small_s = fill_s(256);
+    studio::Document document = studio::document_of(pipeline::write_recipe(pipeline::default_recipe()));
+    Timed timed;
+    timed.make(document);
+    std::int64_t value = is_new_seed ? 100 : 60;
+    for (auto _ : state) {
+        document = with(document, key, std::to_string(++value));
+        Times const times = timed.make(document);
+        double const grown_s = stage_s(timed.made(), "grow") + stage_s(timed.made(), "meander");
+        double const left_out_s = is_new_seed ? grown_s : 0.0;
+        state.counters["first_ms"] = 1e3 * times.first_s;
+        state.counters["full_ms"] = 1e3 * times.full_s;
+        state.counters["grown_ms"] = 1e3 * grown_s;
+        state.counters["first_over_fill256"] = (times.first_s - left_out_s) / small_s;
+        state.counters["full_over_fill"] = (times.full_s - left_out_s) / stage_s(timed.made(), "fill");
+    }
+}
+
+void BM_studio_prune(benchmark::State& state) {
+    follow(state, "network.prune", false);
+}
+BENCHMARK(BM_studio_prune)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(5);
+
+void BM_studio_seed(benchmark::State& state) {
+    follow(state, "seed", true);
+}
+BENCHMARK(BM_studio_seed)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(5);
+
+/// The longest time [ms] from a new edit to the end of what ran, over 100 moments of a run of 1024 x 1024 cells;
+/// cpu_ms: of the process in that time, at the worst.
+void BM_studio_stop(benchmark::State& state) {
+    studio::Document document = studio::document_of(pipeline::write_recipe(pipeline::default_recipe()));
+    for (auto _ : state) {
+        studio::Engine engine({});
+        double cpu_s = 0.0;
+        for (int moment = 0; moment < 100; ++moment) {
+            document = with(document, "seed", std::to_string(500 + moment));
+            engine.make({0, document.revision, true, document.recipe, document.toml});
+            std::this_thread::sleep_for(std::chrono::milliseconds(37 * moment % 2400));
+            double const before_s = process_seconds();
+            engine.stop();
+            engine.wait();
+            cpu_s = std::max(cpu_s, process_seconds() - before_s);
+        }
+        state.counters["stop_ms"] = 1e3 * engine.slowest_stop_s();
+        state.counters["stop_cpu_ms"] = 1e3 * cpu_s;
+    }
+}
+BENCHMARK(BM_studio_stop)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(1);
+
+} // namespace

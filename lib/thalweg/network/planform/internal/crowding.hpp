@@ -1,0 +1,95 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+#include <utility>
+#include <vector>
+
+#include <thalweg/core/raster.hpp>
+#include <thalweg/network/planform/internal/meander.hpp>
+
+namespace thalweg::network {
+
+/// How close rivers may come.
+struct Gap {
+    double gap_m = 0.0;
+    double along_m = 0.0; ///< positions closer along one river than this may be arbitrarily close
+};
+
+/// Whether a point, or one that stems_of would insert between it and the next of its river, lies in the sea.
+/// \param at positions by point
+/// \param i a point
+/// \param land 0: sea; without cells: all land
+bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i, Mask const& land);
+
+/// Looks round by round for points that came too close to a river's segment, after the first round only where something
+/// has moved since. A point is too close to a segment of any river, its own included, if their distance is less than
+/// the gap and less than 0.6 of what it was; or if it has left the grid or the land, or is closer than a cell to the
+/// grid's border.
+class Crowding {
+public:
+    /// \param was positions by point before any move; kept by reference like the others
+    /// \param land 0: sea; without cells: all land
+    Crowding(Stems const& stems, std::vector<Vec2> const& was, Grid const& grid, Mask const& land, Gap const& gap);
+
+    /// \param is positions by point, now
+    /// \return ascending: points too close, and the upper points of the segments to which they are
+    std::vector<std::size_t> points(std::vector<Vec2> const& is);
+
+private:
+    /// The cells of the index that a box touches.
+    struct Span {
+        std::size_t first_col;
+        std::size_t last_col;
+        std::size_t first_row;
+        std::size_t last_row;
+    };
+
+    /// A segment in a cell of the index.
+    struct Entry {
+        std::uint32_t segment;
+        std::uint32_t next; ///< number of the cell's next entry
+    };
+
+    bool is_segment(std::size_t i) const { return i + 1 < stem_of_.size() && stem_of_[i] == stem_of_[i + 1]; }
+    void cover(std::vector<Vec2> const& is);
+    Span span_of(Vec2 a, Vec2 b, double margin_m) const;
+    void add(std::size_t segment);
+    void remove(std::size_t segment);
+    template <class Visit> void each_near(Vec2 a, Vec2 b, Visit const& visit) const;
+    /// Whether a position is within the gap of the box around a segment. Most segments that the index gives are not.
+    bool is_in_reach(Vec2 p, Vec2 a, Vec2 b) const {
+        return std::min(a.x, b.x) - p.x <= reach_m_ && p.x - std::max(a.x, b.x) <= reach_m_ &&
+               std::min(a.y, b.y) - p.y <= reach_m_ && p.y - std::max(a.y, b.y) <= reach_m_;
+    }
+    void compare(std::size_t point, std::size_t segment);
+    void look_around(std::size_t point);
+    void look_around_segment(std::size_t segment);
+
+    Stems const& stems_;
+    std::vector<std::uint32_t> stem_of_; ///< as in stems_, in half the memory
+    std::vector<Vec2> const& was_;
+    Grid const& grid_;
+    Mask const& land_;
+    Gap gap_;
+    double reach_m_; ///< the gap, and a little for rounding
+    std::vector<Vec2> is_;
+    std::vector<std::uint8_t> moved_;                            ///< by point, in this round
+    std::vector<std::uint8_t> off_;                              ///< by point: it left the grid
+    std::vector<std::uint8_t> off_land_;                         ///< by point: it or what follows left the land
+    std::vector<std::pair<std::uint32_t, std::uint32_t>> close_; ///< point and segment too close; may repeat
+
+    // The index: segments by cells as wide as the gap. Outside, the nearest cell counts.
+    Vec2 low_;
+    double per_m_ = 0.0; ///< cells per metre
+    std::size_t width_ = 0;
+    std::size_t height_ = 0;
+    std::vector<std::uint32_t> first_; ///< by cell: number of its first entry
+    std::vector<Entry> entries_;
+    std::uint32_t free_; ///< first of the entries not in use
+};
+
+} // namespace thalweg::network
