@@ -18,7 +18,7 @@ function contentPolicy() {
         const page = bundle['report.html'];
         page.source = page.source.replace('<!--@@POLICY@@-->', () =>
           `<meta http-equiv="Content-Security-Policy" content="default-src 'none'; script-src ${hashes(page.source, 'script')}; ` +
-          `style-src ${hashes(page.source, 'style')}; img-src data: blob:; base-uri 'none'; form-action 'none'">`);
+          `style-src ${hashes(page.source, 'style')}; img-src data: blob:; connect-src 'none'; base-uri 'none'; form-action 'none'">`);
       },
     },
   };

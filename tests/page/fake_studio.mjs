@@ -268,7 +268,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
       const about = JSON.stringify({ version: '0.2.0', folder: 'studio', keys }).replaceAll('<', '\\u003c');
       let html = fs.readFileSync(path.join(web, 'dist/report.html'), 'utf8');
       for (const [marker, text] of [['@@TITLE@@', 'studio'], ['@@DATA@@', ''], ['@@HEIGHTS@@', ''], ['@@LINES@@', ''], ['@@WATER@@', ''], ['@@STUDIO@@', about]]) html = html.replace(marker, () => text);
-      html = html.replace(/(http-equiv="Content-Security-Policy" content="[^"]*)/, "$1; connect-src 'self'");
+      html = html.replace("connect-src 'none'", "connect-src 'self'");
       response.writeHead(200, { 'Content-Type': 'text/html; charset=utf-8', 'Content-Security-Policy': "connect-src 'self'; frame-ancestors 'none'" }).end(html);
     }
   });

@@ -243,6 +243,10 @@ describe('the studio', () => {
     await page.keyboard.press('PageUp');
     await settled();
     assert.ok(Number(asked('edit').at(-1).edit.steps[0].value) > 15);
+    await run({ set: 'patch.1.gain', value: '2' });
+    await settled();
+    assert.deepEqual(await page.$$eval('[data-path$=".gain"]', (all) => all.map((e) => [e.dataset.path, e.closest('.unused') !== null])), [['patch.1.gain', false], ['patch.2.gain', true]]);
+    await page.focus('[data-path="surface.hillslope"] input[type=range]');
     assert.match(await page.textContent('#key-help'), /surface\.hillslope.*soil creep.*default 15/);
   });
 

@@ -5,7 +5,7 @@ import { make } from './elements.js';
 import { bytesOf } from './unpack.js';
 
 const arms = ['north', 'east', 'south', 'west'];
-const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148], [128, 128, 128]]; // the last: in no arm
+const colours = [[47, 122, 184], [217, 108, 30], [32, 145, 104], [178, 92, 148], [130, 130, 130]]; // the last: no arm
 
 /** choose(arm): an arm was clicked. choices: of the key. Gives {element, show(message or null), mark(branch)}. */
 export function clusterPicture(choices, choose) {
@@ -28,7 +28,7 @@ export function clusterPicture(choices, choose) {
   let branch = '';
 
   function read({ arms: base64, width, height }) {
-    const bytes = bytesOf(base64, width * height);
+    const bytes = bytesOf(base64);
     const box = { c0: width, c1: 0, r0: height, r1: 0 };
     const size = [0, 0, 0, 0, 0];
     for (let r = 0, i = 0; r < height; ++r) {
@@ -90,7 +90,7 @@ export function clusterPicture(choices, choose) {
         }
       }
     }
-    return found ? arms[found - 1] : null;
+    return arms[found - 1] ?? null;
   }
   canvas.addEventListener('pointermove', (event) => {
     const arm = cells && armAt(event.offsetX, event.offsetY);

@@ -93,7 +93,7 @@ export function field(key, path, act) {
   if (key.type === 'yes/no') {
     const box = input({ type: 'checkbox' });
     box.addEventListener('change', () => set(String(box.checked)));
-    write = (value) => (box.checked = value === 'true');
+    write = (value) => (box.checked = (value || plain(key.standard)) === 'true');
     control.append(box);
   } else if (closed(key)) {
     const list = make('select', { id, title });

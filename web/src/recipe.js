@@ -81,7 +81,11 @@ export function recipeForm(keys, act, leave) {
     const all = [...new Set(keys.map((key) => sectionOf(key.path)))].filter(Boolean);
     const inUse = all.flatMap((name) => now.filter((one) => one === name || (one.startsWith(`${name}.`) && /^\d+$/.test(one.slice(name.length + 1)))));
     for (const name of now) if (!inUse.includes(name) && name) inUse.push(name);
-    const others = all.filter((name) => !inUse.some((one) => one === name || keyOf(`${one}.`) === `${name}.`));
+    // Of numbered sections another may be added.
+    const others = all.flatMap((name) => {
+      const numbers = inUse.filter((one) => one !== name && keyOf(`${one}.`) === `${name}.`).map((one) => Number(one.slice(name.length + 1)));
+      return inUse.includes(name) ? [] : numbers.length ? [`${name}.${Math.max(...numbers) + 1}`] : [name];
+    });
     for (const name of [...inUse, ...others]) {
       const { fields, set, more, remove, many } = section(name);
       const isUsed = inUse.includes(name);

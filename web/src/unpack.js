@@ -3,12 +3,11 @@
 // The two packed blocks of the page; README.md says how they are written.
 import { unzlibSync } from 'fflate';
 
-/** The bytes of a zlib stream; of as many as are wanted, also plain ones. */
-export function bytesOf(base64, wanted) {
+export function bytesOf(base64) {
   const text = atob(base64.trim());
   const bytes = new Uint8Array(text.length);
   for (let i = 0; i < text.length; ++i) bytes[i] = text.charCodeAt(i);
-  return text.length === wanted ? bytes : unzlibSync(bytes);
+  return unzlibSync(bytes);
 }
 
 /** Heights as their 16-bit numbers, 0 where there is none. */
