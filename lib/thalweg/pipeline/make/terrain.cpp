@@ -1,8 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/pipeline/plan/internal/made_from.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
+#include <thalweg/pipeline/plan/internal/made_from.hpp>
 
 #include <cmath>
 #include <limits>
