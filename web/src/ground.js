@@ -483,7 +483,9 @@ export class Ground {
     const { land, shore, lift } = this;
     const { width, height } = land;
     const { east, south } = this.slope;
-    const sky = land.level ? null : skyView(land, lift, this.skyValues);
+    // A draft has the sky of the land before it, which is nearly the same and costs nothing.
+    if (!land.level && !(land.draft && this.sky)) this.sky = skyView(land, lift, this.skyValues);
+    const sky = land.level ? null : this.sky;
     let at = { data: new Float32Array(4 * width * height), width, height };
     for (let r = 0, i = 0; r < height; ++r) {
       const v = sky ? Math.min(Math.max(((r + 0.5) * sky.height) / height - 0.5, 0), sky.height - 1) : 0;

@@ -155,6 +155,7 @@ export function createPage(first, state, keys = []) {
   let painted = null;
   let other = null; // heights of another report
   let pinned = -1;
+  let drawn = {}; // lines as they are
   /** Rivers by the orders that the slider leaves, or in the colours of an order. */
   function drawLines() {
     const by = modes[mode].lines;
@@ -164,6 +165,13 @@ export function createPage(first, state, keys = []) {
     });
     const shown = $('show-rivers').checked ? (by === 'hack' ? orders.map((o, k) => (o > 0 ? rivers.arcs.hack[k] : 0)) : orders) : new Int32Array(rivers.count);
     const marked = pinned >= 0 && orders[pinned] > 0 ? rivers.path(pinned).map((k) => rivers.lines[k]) : [];
+    const { grid } = data;
+    const what = [shown.join(), mode, highest, $('show-ridges').checked, pinned, grid.width, grid.height].join(' ');
+    if (rivers === drawn.rivers && what === drawn.what) {
+      view.redraw();
+      return;
+    }
+    drawn = { rivers, what };
     view.showLines({ orders: shown, styles, ridges: $('show-ridges').checked, marked, byClass: Boolean(by), colours: orderColours });
   }
   const can = (name) => ({ water: water.known, rivers: rivers.count > 0, other: !land.level }[modes[name].needs] ?? true);

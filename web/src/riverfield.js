@@ -25,30 +25,42 @@ export class LineField {
     let count = 0;
     for (const { lines } of groups) for (const line of lines) count += Math.max(0, line.length / 2 - 1);
     this.rows = Math.max(1, Math.ceil(count / columns));
-    this.segments = new Float32Array(4 * columns * this.rows);
-    this.styles = new Float32Array(4 * columns * this.rows);
+    const segments = (this.segments = new Float32Array(4 * columns * this.rows));
+    const styles = (this.styles = new Float32Array(4 * columns * this.rows));
     let number = 0;
     for (const { lines, half, pixels, share, kind } of groups) {
       lines.forEach((line, l) => {
         const wide = typeof half === 'function' ? half(l) : half;
         const points = spaced(line, cells);
         for (let i = 2; i < points.length; i += 2) {
-          const [ax, ay, bx, by] = points.slice(i - 2, i + 2);
-          this.segments.set([ax, ay, bx, by], 4 * number);
-          this.styles.set([Math.min(wide, reach - 1), pixels, share, kind], 4 * number);
-          ++number;
+          const ax = points[i - 2];
+          const ay = points[i - 1];
+          const bx = points[i];
+          const by = points[i + 1];
+          const at = 4 * number++;
+          segments[at] = ax;
+          segments[at + 1] = ay;
+          segments[at + 2] = bx;
+          segments[at + 3] = by;
+          styles[at] = Math.min(wide, reach - 1);
+          styles[at + 1] = pixels;
+          styles[at + 2] = share;
+          styles[at + 3] = kind;
           const dx = bx - ax;
           const dy = by - ay;
           const square = dx * dx + dy * dy;
+          const over = square > 0 ? 1 / square : 0;
+          const c0 = Math.max(0, Math.floor(Math.min(ax, bx) - reach));
           const c1 = Math.min(width - 1, Math.ceil(Math.max(ax, bx) + reach));
           const r1 = Math.min(height - 1, Math.ceil(Math.max(ay, by) + reach));
           for (let r = Math.max(0, Math.floor(Math.min(ay, by) - reach)); r <= r1; ++r) {
-            for (let c = Math.max(0, Math.floor(Math.min(ax, bx) - reach)); c <= c1; ++c) {
-              const along = square > 0 ? Math.min(1, Math.max(0, ((c - ax) * dx + (r - ay) * dy) / square)) : 0;
+            let k = r * width + c0;
+            for (let c = c0; c <= c1; ++c, ++k) {
+              let along = ((c - ax) * dx + (r - ay) * dy) * over;
+              along = along < 0 ? 0 : along > 1 ? 1 : along;
               const ex = c - ax - along * dx;
               const ey = r - ay - along * dy;
               const d = ex * ex + ey * ey - 0.05 * kind;
-              const k = r * width + c;
               if (d < away[k] && d <= reach * reach) {
                 away[k] = d;
                 nearest[k] = number;

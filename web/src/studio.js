@@ -82,6 +82,7 @@ export function openStudio(about, state) {
   Object.defineProperty(state, 'busy', { get: () => unanswered > 0 || working || trial.waits || awaited > finished });
   Object.defineProperty(state, 'job', { get: () => link.job });
   function changes() {
+    page?.view.hurry?.(true);
     sent = { at: performance.now(), job: link.job };
     state.times = { first: null, full: null };
   }
@@ -267,9 +268,17 @@ export function openStudio(about, state) {
   }
   const dataOf = (grid, more) => ({ ...noData, version: about.version, title: document.title, seed: Number(current.values.seed) || 0, grid, heights: null, ...more });
 
+  let alone;
   function rivers({ data, lines, job }) {
     const next = { data, job, rivers: new Rivers(data.rivers, data.ridges, lines) };
     pending = next;
+    clearTimeout(alone);
+    if (now) alone = setTimeout(() => pending === next && riversAlone(next), 300); // mostly their land comes before
+    else riversAlone(next);
+  }
+
+  function riversAlone(next) {
+    const { data } = next;
     if (now && !sameGrid(now.data.grid, data.grid)) return; // they wait for their land
     if (now) show({ ...now, rivers: next.rivers, data: { ...now.data, rivers: data.rivers, ridges: data.ridges } }, { report: false });
     else {
@@ -284,6 +293,10 @@ export function openStudio(about, state) {
     const about_ = { width, height, cells, min, max, nodata };
     const land = new Land(grid, about_, values, sea);
     const of = [pending, now].find((one) => one && sameGrid(one.data.grid, grid));
+    if (level === 'coarse' && now && !now.land.level && sameGrid(now.data.grid, grid)) {
+      land.draft = true;
+      land.steepest = now.land.steepness();
+    }
     const data = { ...dataOf(grid, of?.data), heights: about_, sea, lakes: false, summits: [], contour_m: of?.data.contour_m || Number(((max - min) / 40).toPrecision(1)) || 1 };
     show({ data, land, rivers: of?.rivers ?? new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) }, { report: false });
     state.level = level;
@@ -341,6 +354,7 @@ export function openStudio(about, state) {
   });
 
   const ends = ({ job }) => {
+    page?.view.hurry?.(false);
     working = false;
     finished = job;
     bar.classList.remove('on');

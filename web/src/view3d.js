@@ -37,6 +37,8 @@ export class View3d {
   mode = 'webgl2';
   onmap = false;
   marks = []; // places [cells] shown by a ring
+  #hurried = false;
+  #patience;
 
   constructor(parent, land, rivers, options, gl) {
     this.software = gl.software;
@@ -272,11 +274,21 @@ export class View3d {
     this.waiting ??= requestAnimationFrame(() => this.draw());
   }
 
+  /** While more is to come, for a second and a half at most, a renderer in software draws no fine pictures. */
+  hurry(on) {
+    clearTimeout(this.#patience);
+    if (on) {
+      this.resting = undefined; // what waits is drawn later
+      this.#patience = setTimeout(() => this.hurry(false), 1500);
+    } else if (this.#hurried) this.redraw();
+    this.#hurried = on;
+  }
+
   /** Draws; a renderer in software draws coarsely while the view moves, and finely when it rests. */
   draw(fine = !this.software) {
     if (this.waiting) cancelAnimationFrame(this.waiting);
     this.waiting = undefined;
-    const rest = (this.resting = fine ? undefined : {});
+    const rest = (this.resting = fine || this.#hurried ? undefined : {});
     if (rest) {
       // The coarse picture is shown before the fine one is begun.
       const wait = (frames) => {
