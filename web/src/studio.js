@@ -102,6 +102,9 @@ export function openStudio(about, state) {
       const reply = await link.ask(question);
       if (reply.revision > revision) awaited = reply.job ?? job + 1;
       return reply;
+    } catch (error) {
+      page?.view.hurry?.(false);
+      throw error;
     } finally {
       --unanswered;
     }

@@ -181,8 +181,8 @@ std::string scene_message(Job const& job, std::string_view level, std::string co
                        members);
 }
 
-std::string done_message(std::int64_t id, std::int64_t revision) {
-    return text_of({{"type", "reply"}, {"id", id}, {"ok", true}, {"revision", revision}});
+std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t job) {
+    return text_of({{"type", "reply"}, {"id", id}, {"ok", true}, {"revision", revision}, {"job", job}});
 }
 
 std::string refused_message(std::int64_t id, std::string_view error) {

@@ -149,7 +149,7 @@ private:
         case Request::Kind::stop: engine_.stop(); break;
         case Request::Kind::write: write(client, request); return; // answers when it is done
         }
-        server_.send_text(client, done_message(request.id, folder_.document().revision));
+        server_.send_text(client, done_message(request.id, folder_.document().revision, engine_.last()));
     }
 
     void changed() {

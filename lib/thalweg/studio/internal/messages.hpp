@@ -43,7 +43,8 @@ std::string say_message(std::string_view text);
 std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms> const& arms);
 /// \param members as pipeline::live_scene()
 std::string scene_message(Job const& job, std::string_view level, std::string const& members);
-std::string done_message(std::int64_t id, std::int64_t revision);
+/// \param job that was begun last
+std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t job);
 std::string refused_message(std::int64_t id, std::string_view error);
 
 /// What was written on demand.
