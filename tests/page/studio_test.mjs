@@ -481,11 +481,42 @@ describe('thalweg studio itself', () => {
     assert.deepEqual(await heights(), first);
   });
 
+  test('prunes, takes another branch, a new seed and two other keys, undoes two and exports what thalweg check accepts', async () => {
+    await page.fill('#seed', '11');
+    await page.keyboard.press('Enter');
+    await settled();
+    await page.$eval('#L', (input) => {
+      input.value = 9;
+      for (const type of ['input', 'pointerup', 'change']) input.dispatchEvent(new Event(type));
+    });
+    await page.waitForFunction(() => window.__thalweg.recipe().includes('prune = 9.0'));
+    await page.click('.arms [data-arm=east]');
+    await settled();
+    const kept = await page.evaluate(() => window.__thalweg.recipe());
+    await run({ set: 'surface.mean_slope', value: '18' });
+    await run({ set: 'surface.roughness', value: '0.1' });
+    await settled();
+    await page.click('text=Undo');
+    await page.click('text=Undo');
+    await page.waitForFunction((recipe) => window.__thalweg.recipe() === recipe, kept);
+    await settled();
+    await sameHeights(made());
+    await page.click('text=Export…');
+    await page.click('text=Export everything');
+    await page.waitForSelector('#export .done', { timeout: 60000 });
+    await page.keyboard.press('Escape');
+    const terrain = path.join(folder, 'terrain');
+    assert.deepEqual(fs.readFileSync(path.join(terrain, 'dem.tif')), fs.readFileSync(path.join(place, 'again/dem.tif')));
+    execFileSync(exe, ['check', terrain, '--dem', path.join(terrain, 'dem.tif')]); // it exits with 0
+    execFileSync(exe, ['replay', terrain]);
+    assert.deepEqual(complaints, []);
+  });
+
   test('writes a file, and says when it has ended', async () => {
     await page.click('text=Export…');
     await page.selectOption('#one-file', 'recipe.toml');
     const [download] = await Promise.all([page.waitForEvent('download'), page.click('#export .one button')]);
-    assert.match(fs.readFileSync(await download.path(), 'utf8'), /prune = 6/);
+    assert.match(fs.readFileSync(await download.path(), 'utf8'), /prune = 9/);
     await page.keyboard.press('Escape');
     program.kill('SIGINT');
     await page.waitForFunction(() => /has ended; start it again and reload/.test(document.getElementById('message').textContent), null, { timeout: 30000 });
