@@ -68,6 +68,12 @@ public:
         changed_.wait(lock, [&] { return ended_.contains(number); });
         return jobs_[number];
     }
+    /// Holds jobs at a stage; "": lets them go on.
+    void hold_at(std::string stage) {
+        std::scoped_lock const lock(guard_);
+        held_ = std::move(stage);
+        changed_.notify_all();
+    }
     /// Waits until a job runs a stage.
     void wait_for(std::int64_t number, std::string const& stage) {
         std::unique_lock lock(guard_);
@@ -87,8 +93,12 @@ private:
     }
 
     Watcher watcher() {
-        return {.at = [this](Job const& job, std::string_view stage,
-                             double) { note(job, [&](Told& told) { told.stages.emplace(stage); }); },
+        return {.at =
+                    [this](Job const& job, std::string_view stage, double) {
+                        note(job, [&](Told& told) { told.stages.emplace(stage); });
+                        std::unique_lock lock(guard_);
+                        changed_.wait(lock, [&] { return stage != held_; });
+                    },
                 .rivers = [this](Job const& job, pipeline::Plan const&, pipeline::Planform const&,
                                  Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
                 .heights =
@@ -117,6 +127,7 @@ private:
     std::condition_variable changed_;
     std::map<std::int64_t, Told> jobs_;
     std::set<std::int64_t> ended_;
+    std::string held_;
     Engine engine_{watcher(), 2};
 };
 
@@ -263,11 +274,13 @@ TEST(Engine, ShowsTheCoarseTerrainThatTheFinishedRefines) {
 
 TEST(Engine, StopsForALaterJob) {
     Watched watched;
-    Document const slow = document_of("[grid]\nwidth = 700\nheight = 700\n[network]\nsource = \"forest\"\n[surface]\n");
-    std::int64_t const first = watched.begin(slow);
+    watched.hold_at("fill");
+    std::int64_t const first = watched.begin(document_of(forest));
     watched.wait_for(first, "fill");
-    std::int64_t const second = watched.begin(document_of(forest));
+    std::int64_t const second = watched.begin(document_of(cluster));
+    watched.hold_at("");
     EXPECT_EQ(second, first + 1);
+    EXPECT_EQ(watched.engine().last(), second);
     EXPECT_TRUE(watched.told(first).stopped);
     Watched::Told const told = watched.told(second);
     ASSERT_NE(told.measured, nullptr);
@@ -277,10 +290,11 @@ TEST(Engine, StopsForALaterJob) {
 
 TEST(Engine, StopsWhenItIsTold) {
     Watched watched;
-    std::int64_t const first =
-        watched.begin(document_of("[grid]\nwidth = 700\nheight = 700\n[network]\nsource = \"forest\"\n[surface]\n"));
+    watched.hold_at("fill");
+    std::int64_t const first = watched.begin(document_of(forest));
     watched.wait_for(first, "fill");
     watched.engine().stop();
+    watched.hold_at("");
     EXPECT_TRUE(watched.told(first).stopped);
     EXPECT_EQ(watched.engine().wait(), nullptr);
     EXPECT_NE(watched.make(document_of(forest)).measured, nullptr) << "it goes on";

@@ -394,7 +394,7 @@ export function openStudio(about, state) {
     },
     idle(message) {
       ends(message);
-      tell(state.busy || !page ? '' : `done in ${seconds(message.seconds)}`); // one that a later job ended is not done
+      tell(state.busy || !page ? '' : message.stopped ? 'stopped' : `done in ${seconds(message.seconds)}`); // one that a later job ended is not done
     },
     failed(message) {
       ends(message);

@@ -151,8 +151,12 @@ std::string busy_message(Job const& job, std::string_view stage, double share) {
                     {"share", share}});
 }
 
-std::string idle_message(Job const& job, double seconds) {
-    return text_of({{"type", "idle"}, {"job", job.number}, {"revision", job.revision}, {"seconds", seconds}});
+std::string idle_message(Job const& job, double seconds, JobEnd end) {
+    return text_of({{"type", "idle"},
+                    {"job", job.number},
+                    {"revision", job.revision},
+                    {"seconds", seconds},
+                    {"stopped", end == JobEnd::stopped}});
 }
 
 std::string failed_message(Job const& job, std::string_view error) {

@@ -227,7 +227,7 @@ private:
                 .stopped =
                     [this](Job const& job) {
                         if (job.number == engine_.last()) { // else the later one tells
-                            end(idle_message(job, seconds_since(begun_)));
+                            end(idle_message(job, seconds_since(begun_), JobEnd::stopped));
                         }
                     }};
     }

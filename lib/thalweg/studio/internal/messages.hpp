@@ -37,7 +37,8 @@ std::string page_parameters(std::string const& folder);
 
 std::string document_message(Document const& document, History const& history, std::string const& command);
 std::string busy_message(Job const& job, std::string_view stage, double share);
-std::string idle_message(Job const& job, double seconds);
+enum class JobEnd : std::uint8_t { made, stopped };
+std::string idle_message(Job const& job, double seconds, JobEnd end = JobEnd::made);
 std::string failed_message(Job const& job, std::string_view error);
 std::string say_message(std::string_view text);
 std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms> const& arms);
