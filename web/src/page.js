@@ -167,10 +167,7 @@ export function createPage(first, state, keys = []) {
     const marked = pinned >= 0 && orders[pinned] > 0 ? rivers.path(pinned).map((k) => rivers.lines[k]) : [];
     const { grid } = data;
     const what = [shown.join(), mode, highest, $('show-ridges').checked, pinned, grid.width, grid.height].join(' ');
-    if (rivers === drawn.rivers && what === drawn.what) {
-      view.redraw();
-      return;
-    }
+    if (rivers === drawn.rivers && what === drawn.what) return;
     drawn = { rivers, what };
     view.showLines({ orders: shown, styles, ridges: $('show-ridges').checked, marked, byClass: Boolean(by), colours: orderColours });
   }

@@ -282,9 +282,14 @@ private:
 
     void show_scene(Job const& job, char const* level, pipeline::Made const& made) {
         std::string scene = scene_message(job, level, pipeline::live_scene(made, job.toml, command()));
+        std::string const no_cluster = cluster_message(job, {});
         std::scoped_lock const lock(guard_);
         scene_ = scene;
         server_.send_text(serve::everyone, std::move(scene));
+        if (!made.recipe.network) { // else it came with the rivers
+            cluster_ = no_cluster;
+            server_.send_text(serve::everyone, no_cluster);
+        }
     }
 
     void end(std::string state) {
