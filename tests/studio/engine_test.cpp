@@ -221,9 +221,10 @@ TEST(Engine, MakesWhatMakeMakes) {
 
 TEST(SoakEngine, MakesWhatMakeMakesAfterRandomEdits) {
     std::uint64_t const seed = std::random_device()();
-    for (std::string const& recipe : {forest, cluster, tree, numbers}) {
+    for (std::string const& recipe : {forest, cluster, tree}) {
         expect_same_after_edits(recipe, 60, seed);
     }
+    expect_same_after_edits(numbers, 6, seed); // targets at random take minutes
 }
 
 TEST(Engine, RunsTheStagesThatAnEditTouches) {
