@@ -190,14 +190,14 @@ TEST_F(Studios, EditUndoAndRedo) {
 
     EXPECT_EQ(window.set("network.prune", "9")["ok"], true);
     std::string const edited = recipe();
-    EXPECT_NE(edited, first["recipe"]) << "saved before it is answered";
+    EXPECT_NE(first["recipe"], edited) << "saved before it is answered";
     Window other(studio);
     EXPECT_EQ(other.next("document")["recipe"], edited) << "a second window joins";
 
     EXPECT_EQ(other.ask(R"({"id": 2, "do": "undo"})")["ok"], true);
     json const undone = window.next("document");
     EXPECT_EQ(undone["recipe"], first["recipe"]) << "and each hears of the other";
-    EXPECT_EQ(recipe(), first["recipe"]);
+    EXPECT_EQ(first["recipe"], recipe());
     EXPECT_EQ(undone["redo"], "network.prune = 9");
     EXPECT_EQ(window.ask(R"({"id": 3, "do": "redo"})")["ok"], true);
     EXPECT_EQ(recipe(), edited);
