@@ -58,8 +58,7 @@ public:
             times_ = {};
             begun_ = Clock::now();
         }
-        engine_.make({0, document.revision, true, document.recipe, document.toml});
-        made_ = engine_.wait();
+        made_ = engine_.wait(engine_.make({document.revision, document.recipe, document.toml}));
         std::scoped_lock const lock(guard_);
         return times_;
     }
@@ -132,11 +131,11 @@ void BM_studio_stop(benchmark::State& state) {
         double cpu_s = 0.0;
         for (int moment = 0; moment < 100; ++moment) {
             document = with(document, "seed", std::to_string(500 + moment));
-            engine.make({0, document.revision, true, document.recipe, document.toml});
+            std::int64_t const job = engine.make({document.revision, document.recipe, document.toml});
             std::this_thread::sleep_for(std::chrono::milliseconds(37 * moment % 2400));
             double const before_s = process_seconds();
             engine.stop();
-            engine.wait();
+            engine.wait(job);
             double const took_s = process_seconds() - before_s;
             std::scoped_lock const lock(guard);
             worst = took_s > cpu_s ? stage : worst;

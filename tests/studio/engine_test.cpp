@@ -6,6 +6,7 @@
 #include <cmath>
 #include <condition_variable>
 #include <cstdint>
+#include <filesystem>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -19,6 +20,7 @@
 #include <gtest/gtest.h>
 #include <support.hpp>
 
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/studio/document.hpp>
 
 #include "random_edits.hpp"
@@ -55,12 +57,12 @@ public:
     Engine& engine() { return engine_; }
 
     std::int64_t begin(Document const& document) {
-        return engine_.make({0, document.revision, true, document.recipe, document.toml});
+        return engine_.make({document.revision, document.recipe, document.toml});
     }
     /// What becomes of a document.
     Told make(Document const& document) {
         std::int64_t const number = begin(document);
-        engine_.wait();
+        engine_.wait(number);
         return told(number);
     }
     Told told(std::int64_t number) {
@@ -285,7 +287,7 @@ TEST(Engine, StopsForALaterJob) {
     EXPECT_TRUE(watched.told(first).stopped);
     Watched::Told const told = watched.told(second);
     ASSERT_NE(told.measured, nullptr);
-    EXPECT_EQ(watched.engine().wait(), told.measured);
+    EXPECT_EQ(watched.engine().wait(second), told.measured);
     EXPECT_GT(watched.engine().slowest_stop_s(), 0.0);
 }
 
@@ -297,8 +299,52 @@ TEST(Engine, StopsWhenItIsTold) {
     watched.engine().stop();
     watched.hold_at("");
     EXPECT_TRUE(watched.told(first).stopped);
-    EXPECT_EQ(watched.engine().wait(), nullptr);
+    EXPECT_EQ(watched.engine().wait(first), nullptr);
     EXPECT_NE(watched.make(document_of(forest)).measured, nullptr) << "it goes on";
+}
+
+TEST(Engine, TellsOfAJobThatIsStoppedBeforeItBegins) {
+    Watched watched;
+    watched.hold_at("fill");
+    std::int64_t const first = watched.begin(document_of(forest));
+    watched.wait_for(first, "fill");
+    std::int64_t const second = watched.begin(document_of(cluster));
+    watched.engine().stop();
+    watched.hold_at("");
+    EXPECT_TRUE(watched.told(first).stopped);
+    EXPECT_TRUE(watched.told(second).stopped);
+    EXPECT_TRUE(watched.told(second).stages.empty());
+    EXPECT_EQ(watched.engine().wait(second), nullptr);
+}
+
+TEST(Engine, GivesTheTerrainOfTheJobAskedFor) {
+    Watched watched;
+    std::int64_t const first = watched.begin(document_of(numbers));
+    EXPECT_EQ(watched.engine().wait(first), watched.told(first).measured);
+    std::int64_t const second = watched.begin(document_of(cluster));
+    EXPECT_EQ(watched.engine().wait(second), watched.told(second).measured);
+    EXPECT_EQ(watched.engine().wait(first), nullptr) << "not that of another";
+}
+
+TEST(Engine, SeesThatAFileWasChanged) {
+    io::TemporaryFolder const folder("thalweg-engine");
+    Document document = document_of("[grid]\nwidth = 40\nheight = 40\ncell = 1\n[skeleton]\npoints = "
+                                    "\"inputs/points.csv\"\n[surface]\nmethod = \"tin\"\n");
+    document.recipe.folder = folder.path().string();
+    std::filesystem::create_directory(folder.path() / "inputs");
+    auto const written = [&](char const* top) {
+        test::write(folder.path() / "inputs/points.csv", std::string("x,y,z\n500000,5000000,1\n500040,5000000,2\n"
+                                                                     "500000,4999960,3\n500040,4999960,") +
+                                                             top);
+    };
+    Watched watched;
+    written("4\n");
+    auto const low = watched.make(document).measured;
+    written("4000\n");
+    auto const high = watched.make(document).measured;
+    ASSERT_NE(high, nullptr) << watched.told(2).failed;
+    EXPECT_FALSE(test::same_bits(low->terrain.surface->dem, high->terrain.surface->dem));
+    EXPECT_TRUE(are_same(*high, pipeline::make(document.recipe)));
 }
 
 TEST(Engine, SaysWhyARecipeCannotBeMade) {

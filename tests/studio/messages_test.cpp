@@ -89,7 +89,7 @@ TEST(HeightMessages, HoldTheTilesThatChanged) {
     Grid const grid = test::frame(100, 70, 10.0);
     Raster<float> const first =
         test::raster_of(grid, [](Cell c) { return static_cast<float>(c.col) + 0.5F * static_cast<float>(c.row); });
-    Job const job{4, 2};
+    Job const job{.revision = 2, .number = 4};
     Parts const all = parts_of(heights_message(job, shown(first), nullptr));
     EXPECT_EQ(all.head["kind"], "heights");
     EXPECT_EQ(all.head["job"], 4);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/studio/studio.hpp>
 
+#include <chrono>
 #include <cstdint>
 #include <filesystem>
 #include <random>
@@ -267,6 +268,27 @@ TEST_F(Studios, LateWindowsSeeTheTerrain) {
     first.wait_for(0);
     Window second(studio);
     EXPECT_EQ(second.next("scene")["level"], "measured");
+}
+
+TEST_F(Studios, SayHowLongItTookAlsoWhereNothingRan) {
+    Running const studio(params());
+    Window window(studio);
+    window.wait_for(0);
+    window.set("seed", "11");
+    window.wait_for(1);
+    auto const begin = std::chrono::steady_clock::now();
+    window.ask(R"({"id": 2, "do": "undo"})");
+    json const idle = window.next("idle");
+    std::chrono::duration<double> const waited = std::chrono::steady_clock::now() - begin;
+    EXPECT_EQ(idle["revision"], 2);
+    EXPECT_LE(idle["seconds"].get<double>(), waited.count());
+}
+
+TEST_F(Studios, ExportTheDocumentAfterAStop) {
+    Running const studio(params());
+    Window window(studio);
+    window.ask(R"({"id": 1, "do": "stop"})");
+    EXPECT_EQ(window.ask(R"({"id": 2, "do": "export", "file": "dem.tif"})")["ok"], true);
 }
 
 TEST_F(Studios, RefuseADocumentThatIsOpen) {

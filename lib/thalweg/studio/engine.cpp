@@ -7,6 +7,7 @@
 #include <utility>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 namespace thalweg::studio {
 namespace {
@@ -52,22 +53,20 @@ Engine::~Engine() {
 std::int64_t Engine::make(Job job) {
     std::scoped_lock const lock(guard_);
     job.number = ++last_;
+    job.asked = std::chrono::steady_clock::now();
     next_ = std::move(job);
-    if (!running_.stop_requested()) {
-        asked_to_stop_ = std::chrono::steady_clock::now();
-    }
-    running_.request_stop();
-    changed_.notify_all();
+    stops_next_ = false;
+    ask_to_stop();
     return last_;
 }
 
 void Engine::stop() {
     std::scoped_lock const lock(guard_);
-    if (next_) {
-        next_.reset();
-        ended_ = last_;
-        latest_.reset();
-    }
+    stops_next_ = next_.has_value();
+    ask_to_stop();
+}
+
+void Engine::ask_to_stop() {
     if (!running_.stop_requested()) {
         asked_to_stop_ = std::chrono::steady_clock::now();
     }
@@ -75,10 +74,10 @@ void Engine::stop() {
     changed_.notify_all();
 }
 
-std::shared_ptr<pipeline::Made const> Engine::wait(std::stop_token const& stop) {
+std::shared_ptr<pipeline::Made const> Engine::wait(std::int64_t number, std::stop_token const& stop) {
     std::unique_lock lock(guard_);
-    changed_.wait(lock, stop, [this] { return ended_ == last_; });
-    return ended_ == last_ ? latest_ : nullptr;
+    changed_.wait(lock, stop, [&] { return ended_ >= number; });
+    return latest_number_ == number ? latest_ : nullptr;
 }
 
 std::int64_t Engine::last() const {
@@ -96,8 +95,11 @@ void Engine::work(std::stop_token const& ends) {
     while (changed_.wait(lock, ends, [this] { return next_.has_value(); })) {
         Job const job = std::move(*next_);
         next_.reset();
-        latest_.reset();
         running_ = std::stop_source();
+        if (std::exchange(stops_next_, false)) {
+            asked_to_stop_ = std::chrono::steady_clock::now();
+            running_.request_stop();
+        }
         std::stop_token const stop = running_.get_token();
         lock.unlock();
         run(job, stop);
@@ -121,8 +123,9 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
     run.log = [&](std::string_view line) { tell(watcher_.said, job, line); };
     run.stop = stop;
     run.kept = &kept_;
-    std::string const made_from = "made\n" + job.recipe.folder + "\n" + job.toml;
     try {
+        run.check();
+        std::string const made_from = "made\n" + job.toml + pipeline::state_of_files(job.recipe);
         auto made = std::static_pointer_cast<pipeline::Made const>(kept_.find(made_from));
         if (made) {
             if (job.recipe.network) {
@@ -157,6 +160,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
         {
             std::scoped_lock const lock(guard_);
             latest_ = made;
+            latest_number_ = job.number;
         }
         tell(watcher_.measured, job, made);
     } catch (Cancelled const&) {

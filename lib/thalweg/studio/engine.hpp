@@ -24,11 +24,11 @@ namespace thalweg::studio {
 
 /// A recipe to be made.
 struct Job {
-    std::int64_t number = 0;   ///< from 1; of two jobs the later has the larger one
     std::int64_t revision = 0; ///< of the document
-    bool is_saved = true;      ///< false: a try, as while a slider is drawn
     pipeline::Recipe recipe = {};
-    std::string toml = {}; ///< the recipe as text
+    std::string toml = {};   ///< the recipe as text
+    std::int64_t number = 0; ///< from 1, by the engine: of two jobs the later has the larger one
+    std::chrono::steady_clock::time_point asked = {}; ///< by the engine
 };
 
 /// A terrain while it is made.
@@ -67,20 +67,20 @@ public:
     Engine& operator=(Engine const&) = delete;
 
     /// Begins a job.
-    /// \param job its number is set here
-    /// \return the number
+    /// \return its number
     std::int64_t make(Job job);
-    /// Stops what is running.
+    /// Stops what is running, or waits to.
     void stop();
     /// \return the number of the job begun last
     std::int64_t last() const;
-    /// Waits for the terrain of the last job.
-    /// \return nothing when it failed, was stopped, or stop ended the wait
-    std::shared_ptr<pipeline::Made const> wait(std::stop_token const& stop = {});
+    /// Waits for the terrain of a job.
+    /// \return nothing when it failed, was stopped, a later one has ended, or stop ended the wait
+    std::shared_ptr<pipeline::Made const> wait(std::int64_t number, std::stop_token const& stop = {});
     /// \return [s] the longest time from the request to stop a job to its end
     double slowest_stop_s() const;
 
 private:
+    void ask_to_stop();
     void work(std::stop_token const& ends);
     void run(Job const& job, std::stop_token const& stop);
 
@@ -90,13 +90,15 @@ private:
     mutable std::mutex guard_;
     std::condition_variable_any changed_;
     std::optional<Job> next_;
-    std::int64_t last_ = 0;  ///< number given out
-    std::int64_t ended_ = 0; ///< number of the last job that ended
+    bool stops_next_ = false; ///< it begins only to be told
+    std::int64_t last_ = 0;   ///< number given out
+    std::int64_t ended_ = 0;  ///< number of the last job that ended
     std::stop_source running_{std::nostopstate};
     std::chrono::steady_clock::time_point asked_to_stop_{};
     double slowest_stop_s_ = 0.0;
-    std::shared_ptr<pipeline::Made const> latest_; ///< of the job that ended last, if it was made
-    std::jthread thread_;                          ///< the last member: it uses all others
+    std::shared_ptr<pipeline::Made const> latest_; ///< of the last job that was made
+    std::int64_t latest_number_ = 0;
+    std::jthread thread_; ///< the last member: it uses all others
 };
 
 } // namespace thalweg::studio

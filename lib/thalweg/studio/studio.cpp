@@ -51,8 +51,12 @@ std::string type_of(std::string const& name) {
     return found == std::end(types) ? "application/octet-stream" : found->second;
 }
 
-Job job_of(Document const& document, bool is_saved) {
-    return {0, document.revision, is_saved, document.recipe, document.toml};
+Job job_of(Document const& document) {
+    return {document.revision, document.recipe, document.toml};
+}
+
+double seconds_since(Clock::time_point begin) {
+    return std::chrono::duration<double>(Clock::now() - begin).count();
 }
 
 } // namespace
@@ -70,7 +74,7 @@ public:
     std::string address() const { return server_.address(); }
 
     void run(std::stop_token const& stop) {
-        engine_.make(job_of(folder_.document(), true));
+        engine_.make(job_of(folder_.document()));
         server_.run(stop);
         writing_ = {}; // asked to stop, and waited for
         engine_.stop();
@@ -87,13 +91,16 @@ private:
         }
         constexpr std::string_view files = "files/";
         constexpr std::int64_t largest = std::int64_t{1} << 31;
-        std::scoped_lock const lock(guard_);
+        Written const written = [this] { // reading may take long
+            std::scoped_lock const lock(guard_);
+            return written_;
+        }();
         if (!path.starts_with(files) ||
-            std::ranges::find(written_.files, path.substr(files.size())) == written_.files.end()) {
+            std::ranges::find(written.files, path.substr(files.size())) == written.files.end()) {
             return std::nullopt;
         }
         std::string const name = path.substr(files.size());
-        return serve::Answer{io::read_text((fs::path(written_.folder) / name).string(), largest), type_of(name)};
+        return serve::Answer{io::read_text((fs::path(written.folder) / name).string(), largest), type_of(name)};
     }
 
     void welcome(serve::Client client) {
@@ -143,20 +150,23 @@ private:
             changed();
             break;
         case Request::Kind::attempt:
-            engine_.make(job_of(apply(folder_.document(), request.edit).document, false));
-            is_trying_ = true;
+            engine_.make(job_of(apply(folder_.document(), request.edit).document));
+            is_left_ = true;
             break;
-        case Request::Kind::stop: engine_.stop(); break;
+        case Request::Kind::stop:
+            engine_.stop();
+            is_left_ = true;
+            break;
         case Request::Kind::write: write(client, request); return; // answers when it is done
         }
         server_.send_text(client, done_message(request.id, folder_.document().revision, engine_.last()));
     }
 
     void changed() {
-        is_trying_ = false;
+        is_left_ = false;
         std::scoped_lock const lock(guard_);
         server_.send_text(serve::everyone, document_words());
-        engine_.make(job_of(folder_.document(), true));
+        engine_.make(job_of(folder_.document()));
     }
 
     std::string document_words() const { return document_message(folder_.document(), folder_.history(), command()); }
@@ -169,28 +179,30 @@ private:
 
     void write(serve::Client client, Request const& request) {
         refuse_if<BadInput>(is_writing_, "studio.export: the last export is still being written; wait for it");
-        if (is_trying_) {
+        if (is_left_) {
             changed();
         }
         is_writing_ = true;
-        writing_ =
-            std::jthread([this, client, request, revision = folder_.document().revision](std::stop_token const& stop) {
-                std::string answer;
-                try {
-                    answer = written_message(request.id, revision, written_now(request.file, stop));
-                } catch (std::exception const& error) {
-                    answer = refused_message(request.id, error.what());
-                }
-                is_writing_ = false;
-                server_.send_text(client, std::move(answer));
-            });
+        writing_ = std::jthread([this, client, request, job = engine_.last(),
+                                 revision = folder_.document().revision](std::stop_token const& stop) {
+            std::string answer;
+            try {
+                answer = written_message(request.id, revision, written_now(job, request.file, stop));
+            } catch (std::exception const& error) {
+                answer = refused_message(request.id, error.what());
+            }
+            is_writing_ = false;
+            server_.send_text(client, std::move(answer));
+        });
     }
 
     // On the thread that writes.
 
-    Written written_now(std::string const& file, std::stop_token const& stop) {
-        auto const made = engine_.wait(stop);
-        refuse_if<BadInput>(made == nullptr, "studio.export: there is no terrain of this recipe to write");
+    Written written_now(std::int64_t job, std::string const& file, std::stop_token const& stop) {
+        auto const made = engine_.wait(job, stop);
+        refuse_if<BadInput>(made == nullptr,
+                            "studio.export: there is no terrain of this recipe to write: it failed, or "
+                            "the recipe was changed meanwhile; export again when it is there");
         bool const is_whole = file.empty();
         fs::path const below = params_.export_folder.empty() ? params_.folder : params_.export_folder;
         fs::path const folder = is_whole ? below / "terrain" : fs::path(params_.folder) / ".terrain";
@@ -221,27 +233,20 @@ private:
                 .measured =
                     [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
                         show_scene(job, "measured", *made);
-                        end(idle_message(job, seconds_since(begun_)));
+                        end(idle_message(job, seconds_since(job.asked)));
                     },
                 .failed = [this](Job const& job, std::string_view error) { end(failed_message(job, error)); },
                 .stopped =
                     [this](Job const& job) {
                         if (job.number == engine_.last()) { // else the later one tells
-                            end(idle_message(job, seconds_since(begun_), JobEnd::stopped));
+                            end(idle_message(job, seconds_since(job.asked), JobEnd::stopped));
                         }
                     }};
-    }
-
-    static double seconds_since(Clock::time_point begin) {
-        return std::chrono::duration<double>(Clock::now() - begin).count();
     }
 
     void tell_share(Job const& job, std::string_view stage, double share) {
         constexpr double often_s = 0.1;
         bool const is_new = job.number != told_job_ || stage != told_stage_;
-        if (job.number != told_job_) {
-            begun_ = Clock::now();
-        }
         if (is_new || seconds_since(told_at_) > often_s) {
             told_job_ = job.number;
             told_stage_ = stage;
@@ -282,13 +287,12 @@ private:
 
     void show_scene(Job const& job, char const* level, pipeline::Made const& made) {
         std::string scene = scene_message(job, level, pipeline::live_scene(made, job.toml, command()));
-        std::string const no_cluster = cluster_message(job, {});
         std::scoped_lock const lock(guard_);
         scene_ = scene;
         server_.send_text(serve::everyone, std::move(scene));
         if (!made.recipe.network) { // else it came with the rivers
-            cluster_ = no_cluster;
-            server_.send_text(serve::everyone, no_cluster);
+            cluster_ = cluster_message(job, {});
+            server_.send_text(serve::everyone, cluster_);
         }
     }
 
@@ -300,7 +304,7 @@ private:
 
     StudioParams const params_;
     DocumentFolder folder_;
-    bool is_trying_ = false;
+    bool is_left_ = false; ///< the last job was stopped, or of a try and not of the document
     std::atomic<bool> is_writing_ = false;
 
     std::mutex guard_; ///< of what follows: sent to all and to who comes later
@@ -312,8 +316,7 @@ private:
     Job shown_by_;
     Written written_;
 
-    Clock::time_point begun_{}; ///< of the engine's thread, like what follows
-    Clock::time_point told_at_{};
+    Clock::time_point told_at_{}; ///< of the engine's thread, like what follows
     std::int64_t told_job_ = 0;
     std::string told_stage_;
 

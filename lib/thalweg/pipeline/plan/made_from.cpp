@@ -2,46 +2,17 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/plan/internal/made_from.hpp>
 
-#include <algorithm>
-#include <filesystem>
-#include <system_error>
 #include <utility>
-#include <vector>
 
 #include <fmt/format.h>
 
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 namespace {
 
-namespace fs = std::filesystem;
-
-/// A file and those beside it that have its name, as the parts of a Shapefile, with sizes and times.
-std::string state_of(fs::path const& path) {
-    std::error_code error;
-    std::vector<std::string> parts;
-    for (fs::directory_entry const& one : fs::directory_iterator(path.parent_path(), error)) {
-        std::error_code unknown;
-        if (one.path().stem() == path.stem() && one.is_regular_file(unknown)) {
-            parts.push_back(fmt::format("{} {} {}\n", one.path().string(), one.file_size(unknown),
-                                        one.last_write_time(unknown).time_since_epoch().count()));
-        }
-    }
-    std::ranges::sort(parts);
-    std::string all;
-    for (std::string const& part : parts) {
-        all += part;
-    }
-    return all;
-}
-
 std::string state_in_words(Recipe const& decisive) {
-    std::string words = write_recipe(decisive);
-    for (NamedFile const& file : files_of(decisive)) {
-        words += is_address(file.name) ? file.name : state_of(fs::absolute(file_in(decisive, file.name).path));
-    }
-    return words + decisive.folder;
+    return write_recipe(decisive) + state_of_files(decisive);
 }
 
 std::string state_in_words(Plan const& plan, Recipe const& decisive) {

@@ -6,6 +6,7 @@
 #include <filesystem>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -159,6 +160,33 @@ std::vector<std::string> file_names(Recipe const& recipe) {
         names.push_back(file.name);
     }
     return names;
+}
+
+namespace {
+
+/// Sizes and times of a file and of those beside it that have its name.
+std::string state_of(fs::path const& path) {
+    std::error_code error;
+    std::vector<std::string> parts;
+    for (fs::directory_entry const& one : fs::directory_iterator(path.parent_path(), error)) {
+        std::error_code unknown;
+        if (one.path().stem() == path.stem() && one.is_regular_file(unknown)) {
+            parts.push_back(fmt::format("{} {} {}", one.path().string(), one.file_size(unknown),
+                                        one.last_write_time(unknown).time_since_epoch().count()));
+        }
+    }
+    std::ranges::sort(parts);
+    return fmt::format("{}\n", fmt::join(parts, "\n"));
+}
+
+} // namespace
+
+std::string state_of_files(Recipe const& recipe) {
+    std::string state;
+    for (std::string const& name : file_names(recipe)) {
+        state += is_address(name) ? name : state_of(fs::absolute(file_in(recipe, name).path));
+    }
+    return state + recipe.folder;
 }
 
 Recipe keep_inputs(Recipe recipe, io::OutputFolder const& out) {

@@ -31,6 +31,10 @@ private:
 /// \return the name of every file in a recipe, in the order of recipe files.
 std::vector<std::string> file_names(Recipe const& recipe);
 
+/// \return a text that differs when a file of a recipe, or one beside it that has its name, as the parts of a
+/// Shapefile, was changed, and when the recipe lies elsewhere
+std::string state_of_files(Recipe const& recipe);
+
 /// Copies every file of a recipe, with what belongs to it, into inputs/ of an output.
 /// \param recipe any; files of keys without an effect are left
 /// \param out the output
