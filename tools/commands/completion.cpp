@@ -18,15 +18,6 @@ namespace thalweg::tools {
 
 namespace {
 
-/// Text in single quotes for a POSIX shell.
-std::string quoted(std::string const& text) {
-    std::string out = "'";
-    for (char const c : text) {
-        out += c == '\'' ? "'\\''" : std::string(1, c);
-    }
-    return out + "'";
-}
-
 /// Puts a backslash before each of some characters.
 std::string escaped(std::string const& text, std::string_view characters) {
     std::string out;
@@ -62,13 +53,13 @@ std::string takes_of(CommandHelp const& command) {
         for (std::string const& name : option.names) {
             names += fmt::format("{}'{} {}'", names.empty() ? "" : " | ", command.name, name);
         }
-        out += fmt::format("    {}) takes={} ;;\n", names, quoted(kind(option)));
+        out += fmt::format("    {}) takes={} ;;\n", names, in_single_quotes(kind(option)));
     }
     for (std::size_t i = 0; i < command.positionals.size(); ++i) {
         std::string const place = command.positionals[i].repeats ? "*" : "";
-        out +=
-            fmt::format("    '{} '{}) takes={} ;;\n", command.name,
-                        place.empty() ? std::to_string(i + 1) : place + "[0-9]", quoted(kind(command.positionals[i])));
+        out += fmt::format("    '{} '{}) takes={} ;;\n", command.name,
+                           place.empty() ? std::to_string(i + 1) : place + "[0-9]",
+                           in_single_quotes(kind(command.positionals[i])));
     }
     return out;
 }
@@ -209,7 +200,7 @@ std::string bash_completion(CommandHelp const& program) {
 }
 
 /// Text in single quotes for fish.
-std::string fish_quoted(std::string const& text) {
+std::string fish_in_single_quotes(std::string const& text) {
     return "'" + escaped(text, "'\\") + "'";
 }
 
@@ -218,7 +209,8 @@ std::string switches(OptionHelp const& option) {
     switch (option.takes) {
     case Takes::nothing: return "";
     case Takes::text: return " -x";
-    case Takes::word: return fmt::format(" -x -a {}", fish_quoted(fmt::format("{}", fmt::join(option.words, " "))));
+    case Takes::word:
+        return fmt::format(" -x -a {}", fish_in_single_quotes(fmt::format("{}", fmt::join(option.words, " "))));
     case Takes::file:
         return option.words.empty()
                    ? " -r -F"
@@ -236,7 +228,7 @@ std::string lines_of(std::string const& when, CommandHelp const& command) {
         for (std::string const& name : option.names) {
             out += name.rfind("--", 0) == 0 ? " -l " + name.substr(2) : " -s " + name.substr(1);
         }
-        out += fmt::format("{} -d {}\n", switches(option), fish_quoted(option.meaning));
+        out += fmt::format("{} -d {}\n", switches(option), fish_in_single_quotes(option.meaning));
     }
     for (OptionHelp const& p : command.positionals) {
         if (p.takes != Takes::text) { // an -x without -a would be an option without a name
@@ -261,7 +253,7 @@ std::string fish_completion(CommandHelp const& program) {
     std::string keys;
     std::string values;
     for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
-        keys += fmt::format("            printf '%s\\t%s\\n' {}= {}\n", key.path, fish_quoted(key.meaning));
+        keys += fmt::format("            printf '%s\\t%s\\n' {}= {}\n", key.path, fish_in_single_quotes(key.meaning));
         if (!key.choices.empty()) {
             values += fmt::format("        case '{}=*'\n            printf '%s\\n' {}={}\n", key.path, key.path,
                                   fmt::join(key.choices, fmt::format(" {}=", key.path)));
@@ -274,7 +266,7 @@ std::string fish_completion(CommandHelp const& program) {
     std::string lines = lines_of("__thalweg_command", program);
     for (CommandHelp const& command : program.commands) {
         lines += fmt::format("\ncomplete -c thalweg -n __thalweg_command -a {} -d {}\n", command.name,
-                             fish_quoted(command.summary));
+                             fish_in_single_quotes(command.summary));
         lines += lines_of(fmt::format("'__thalweg_command {}'", command.name), command);
     }
     return fmt::format("# fish completion of thalweg {}, written by: thalweg completion fish\n\n"
@@ -311,7 +303,7 @@ std::string spec(OptionHelp const& option) {
     std::string out;
     for (std::string const& name : option.names) {
         std::string const joint = flag ? "" : name.rfind("--", 0) == 0 ? "=" : "+";
-        out += fmt::format(" \\\n        {}", quoted(fmt::format("{}{}{}{}", others, name, joint, tail)));
+        out += fmt::format(" \\\n        {}", in_single_quotes(fmt::format("{}{}{}{}", others, name, joint, tail)));
     }
     return out;
 }
@@ -325,7 +317,7 @@ std::string function_of(CommandHelp const& command) {
         OptionHelp const& p = command.positionals[i];
         std::string const place = p.repeats ? "*" : fmt::format("{}{}", i + 1, p.required ? "" : ":");
         out += fmt::format(" \\\n        {}",
-                           quoted(fmt::format("{}:{}:{}", place, escaped(long_name(p), ":\\"), action(p))));
+                           in_single_quotes(fmt::format("{}:{}:{}", place, escaped(long_name(p), ":\\"), action(p))));
     }
     return out + "\n}\n\n";
 }
@@ -365,19 +357,20 @@ std::string zsh_completion(CommandHelp const& program) {
     std::string commands;
     std::string functions;
     for (CommandHelp const& command : program.commands) {
-        commands += "    " + quoted(escaped(command.name, ":\\") + ":" + command.summary) + "\n";
+        commands += "    " + in_single_quotes(escaped(command.name, ":\\") + ":" + command.summary) + "\n";
         functions += function_of(command);
     }
     std::string options;
     for (OptionHelp const& option : program.options) {
         for (std::string const& name : option.names) {
-            options += "    " + quoted(fmt::format("(- *){}[{}]", name, escaped(option.meaning, "[]:\\"))) + "\n";
+            options +=
+                "    " + in_single_quotes(fmt::format("(- *){}[{}]", name, escaped(option.meaning, "[]:\\"))) + "\n";
         }
     }
     std::string keys;
     std::string values;
     for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
-        keys += "    " + quoted(key.path + ":" + key.meaning) + "\n";
+        keys += "    " + in_single_quotes(key.path + ":" + key.meaning) + "\n";
         if (!key.choices.empty()) {
             values += fmt::format("    {}) compadd -- {} ;;\n", key.path, fmt::join(key.choices, " "));
         } else if (key.is_file) {

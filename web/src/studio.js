@@ -163,9 +163,8 @@ export function openStudio(about, state) {
   const chance = button('New seed', 'Another terrain of the same recipe', () => quietly(act.set('seed', String(1 + Math.floor(Math.random() * 99999)))));
   const source = make('select', { id: 'source' }, ...(key('network.source')?.choices ?? []).map((value) => make('option', { value, textContent: value })));
   source.addEventListener('change', () => quietly(act.set('network.source', source.value)));
-  const cluster = clusterPicture(key('network.branch')?.choices ?? key('network.dla.branch')?.choices ?? ['largest', 'north', 'east', 'south', 'west', 'all'],
-    (arm) => quietly(act.set(branchPath(), arm)));
-  const branchPath = () => ('network.dla.branch' in current.values || key('network.dla.branch') ? 'network.dla.branch' : 'network.branch');
+  const branch = 'network.dla.branch';
+  const cluster = clusterPicture(key(branch).choices, (arm) => quietly(act.set(branch, arm)));
   const row = (label, ...controls) => make('div', { className: 'row' }, label, ...controls);
   const first = make('div', { id: 'first' },
     row(make('label', { htmlFor: 'seed', textContent: 'Seed' }), seed, chance),
@@ -212,7 +211,7 @@ export function openStudio(about, state) {
     seed.value = plain(values.seed ?? '');
     source.value = plain(values['network.source'] ?? '');
     source.parentElement.hidden = !('network.source' in values);
-    cluster.mark(plain(values[branchPath()] ?? 'largest'));
+    cluster.mark(plain(values[branch] ?? 'largest'));
     // Left out, it is what the rivers were pruned at.
     const prune = 'network.prune' in values ? values['network.prune'] ?? String(now?.data.rivers.prune ?? 0) : undefined;
     L.least = Number(prune) < 1 ? 0 : 1;

@@ -241,8 +241,6 @@ std::string heights_message(Job const& job, Shown const& shown, Shown const* bef
             payload.insert(payload.end(), now.begin(), now.end());
         }
     }
-    ordered_json const sea = shown.sea ? ordered_json{{"level", shown.sea->level_m}, {"around", shown.sea->is_around}}
-                                       : ordered_json(nullptr);
     std::string head = text_of({{"kind", "heights"},
                                 {"job", job.number},
                                 {"revision", job.revision},
@@ -254,7 +252,7 @@ std::string heights_message(Job const& job, Shown const& shown, Shown const* bef
                                 {"min", shown.heights.min},
                                 {"max", shown.heights.max},
                                 {"nodata", shown.heights.nodata},
-                                {"sea", sea},
+                                {"sea", ordered_json::parse(pipeline::sea_json(shown.sea))},
                                 {"tile", tile},
                                 {"tiles", tiles}});
     head.append((4 - head.size() % 4) % 4, ' ');

@@ -15,6 +15,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
@@ -29,15 +30,6 @@ namespace {
 namespace fs = std::filesystem;
 
 using Clock = std::chrono::steady_clock;
-
-/// A word of a shell, whatever it holds.
-std::string quoted(std::string const& text) {
-    std::string out = "'";
-    for (char const c : text) {
-        out += c == '\'' ? "'\\''" : std::string(1, c);
-    }
-    return out + "'";
-}
 
 std::string type_of(std::string const& name) {
     static constexpr std::pair<std::string_view, char const*> types[] = {{".html", "text/html; charset=utf-8"},
@@ -174,7 +166,7 @@ private:
     /// The command that makes the terrain shown.
     std::string command() const {
         std::string const recipe = (fs::absolute(params_.folder) / "recipe.toml").lexically_normal().string();
-        return fmt::format("thalweg make {} -o OUT", quoted(recipe));
+        return fmt::format("thalweg make {} -o OUT", for_shell(recipe));
     }
 
     void write(serve::Client client, Request const& request) {

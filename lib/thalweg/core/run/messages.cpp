@@ -176,6 +176,20 @@ std::string as_utf8(std::string_view text) {
     return out;
 }
 
+std::string in_single_quotes(std::string_view text) {
+    std::string out = "'";
+    for (char const c : text) {
+        out += c == '\'' ? "'\\''" : std::string(1, c);
+    }
+    return out + "'";
+}
+
+std::string for_shell(std::string const& word) {
+    bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
+                                                               "0123456789_./+:=@%-") == std::string::npos;
+    return plain ? word : in_single_quotes(word);
+}
+
 std::string printable(std::string_view text) {
     auto const lines = static_cast<std::size_t>(std::count(text.begin(), text.end(), '\n')) + 1;
     std::size_t const shown = lines <= most_lines ? lines : kept_lines;

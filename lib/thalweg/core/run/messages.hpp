@@ -23,6 +23,12 @@ bool is_utf8(std::string_view text);
 /// \return \\xNN in place of each invalid byte
 std::string as_utf8(std::string_view text);
 
+/// \return a text in single quotes for a POSIX shell
+std::string in_single_quotes(std::string_view text);
+
+/// \return a word for a POSIX shell, in quotes where it needs them
+std::string for_shell(std::string const& word);
+
 /// Makes text safe to show on a terminal.
 /// \param text any bytes
 /// \return without passwords; control characters (except line feeds and tabs), direction marks and invalid UTF-8 as

@@ -366,20 +366,6 @@ std::vector<Task> tasks_of(Order const& order, Scene const& scene) {
     return tasks;
 }
 
-/// Quotes a word for a shell.
-std::string for_shell(std::string const& word) {
-    bool const plain = !word.empty() && word.find_first_not_of("abcdefghijklmnopqrstuvwxyzABCDEFGHIJKLMNOPQRSTUVWXYZ"
-                                                               "0123456789_./+:=@%-") == std::string::npos;
-    if (plain) {
-        return word;
-    }
-    std::string out = "'";
-    for (char const c : word) {
-        out += c == '\'' ? std::string("'\\''") : std::string(1, c);
-    }
-    return out + "'";
-}
-
 std::string command_of(DrawParams const& params) {
     std::string command =
         fmt::format("thalweg draw {} -o {} --what page", for_shell(params.source), for_shell(params.output));

@@ -213,10 +213,6 @@ NetworkStatistics statistics_of(NetworkStatistics statistics, std::vector<Findin
     return statistics;
 }
 
-} // namespace
-
-namespace {
-
 /// Rivers of the source, and the times of making them.
 struct TimedSource {
     SourceRivers rivers;

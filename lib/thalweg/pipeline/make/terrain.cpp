@@ -2,7 +2,6 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/made_from.hpp>
 
 #include <cmath>
 #include <limits>
@@ -16,6 +15,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/made_from.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>

@@ -10,19 +10,24 @@
 
 namespace thalweg::pipeline {
 
-std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run) {
+std::optional<std::pair<double, double>> height_range(Raster<float> const& dem) {
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (float const z : dem.values()) {
-        if (!std::isnan(z)) {
+        if (std::isfinite(z)) {
             low = std::min(low, static_cast<double>(z));
             high = std::max(high, static_cast<double>(z));
         }
     }
-    if (!(high > low)) {
+    return high >= low ? std::optional(std::pair(low, high)) : std::nullopt;
+}
+
+std::vector<Summit> summits(Raster<float> const& dem, std::size_t most, Run const& run) {
+    auto const range = height_range(dem);
+    if (!range || range->first == range->second) {
         return {};
     }
-    std::vector<measure::Peak> peaks = measure::prominent_peaks(dem, (high - low) / 20.0, run);
+    std::vector<measure::Peak> peaks = measure::prominent_peaks(dem, (range->second - range->first) / 20.0, run);
     std::stable_sort(peaks.begin(), peaks.end(),
                      [](auto const& a, auto const& b) { return a.prominence_m > b.prominence_m; });
     Grid const& grid = dem.grid();

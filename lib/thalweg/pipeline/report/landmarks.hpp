@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <optional>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -13,6 +14,9 @@
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
+
+/// \return [m] the lowest and the highest of the heights that are numbers; nothing: there is none
+std::optional<std::pair<double, double>> height_range(Raster<float> const& dem);
 
 /// A summit to name on a map.
 struct Summit {

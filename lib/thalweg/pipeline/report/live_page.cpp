@@ -19,22 +19,10 @@
 
 namespace thalweg::pipeline {
 
-std::optional<std::pair<double, double>> range_of(Raster<float> const& dem) {
-    std::optional<std::pair<double, double>> range;
-    for (float const z : dem.values()) {
-        if (!std::isnan(z)) {
-            auto const height = static_cast<double>(z);
-            range = range ? std::pair(std::min(range->first, height), std::max(range->second, height))
-                          : std::pair(height, height);
-        }
-    }
-    return range;
-}
-
 LivePage live_page(std::string const& title, std::string const& studio) {
     static constexpr std::string_view before = R"(http-equiv="Content-Security-Policy" content=")";
     PageParts parts;
-    parts.title = html_text(as_utf8(title));
+    parts.title = html_text(title);
     parts.studio = without_tags(studio);
     LivePage page;
     page.html = fill_page(page_template(), parts);
@@ -51,7 +39,7 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
     std::int64_t const square = is_finest ? page_cells(grid) : 1;
     heights.cells = is_finest ? square : (grid.width + dem.width() - 1) / dem.width();
     heights.values = square > 1 ? mean_of_squares(dem, square) : dem;
-    auto const range = range_of(heights.values);
+    auto const range = height_range(heights.values);
     if (!range) {
         return std::nullopt;
     }
@@ -66,7 +54,7 @@ std::string live_scene(Made const& made, std::string const& recipe, std::string 
     params.command = command;
     PageLines const lines = lines_of_page(made);
     std::optional<PageHeights> const heights =
-        made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
+        made.terrain.surface ? page_values(made.terrain.surface->dem, run) : std::nullopt;
     std::vector<std::uint8_t> const water = heights && made.terrain.drainage
                                                 ? page_water(*made.terrain.drainage, params.lakes, *heights)
                                                 : std::vector<std::uint8_t>{};

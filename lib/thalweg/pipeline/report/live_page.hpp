@@ -28,6 +28,9 @@ LivePage live_page(std::string const& title, std::string const& studio);
 /// \return a grid as JSON, as "grid" of the page's data
 std::string grid_json(Grid const& grid);
 
+/// \return the sea as JSON, as "sea" of the page's data
+std::string sea_json(std::optional<Sea> const& sea);
+
 /// A DEM as the page shows it.
 struct LiveHeights {
     Raster<float> values;   ///< [m] means of squares of cells; NaN: no data

@@ -159,7 +159,7 @@ Raster<float> mean_of_squares(Raster<float> const& dem, std::int64_t cells) {
     return squares;
 }
 
-std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run) {
+std::optional<PageHeights> page_values(Raster<float> const& dem, Run const& run) {
     PageHeights page;
     page.cells = page_cells(dem.grid());
     page.width = parts(dem.width(), page.cells);
@@ -179,7 +179,14 @@ std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run
         return std::nullopt;
     }
     page.values = quantised(mean, page);
-    page.bytes = coded(page.values, page);
+    return page;
+}
+
+std::optional<PageHeights> page_heights(Raster<float> const& dem, Run const& run) {
+    std::optional<PageHeights> page = page_values(dem, run);
+    if (page) {
+        page->bytes = coded(page->values, *page);
+    }
     return page;
 }
 
@@ -347,14 +354,19 @@ std::string fill_page(std::string_view page, PageParts const& parts) {
     return out;
 }
 
-std::string as_utf8(std::string const& text) {
+namespace {
+
+/// Replaces invalid UTF-8 by U+FFFD.
+std::string with_replacements(std::string const& text) {
     using nlohmann::json;
     return json::parse(json(text).dump(-1, ' ', false, json::error_handler_t::replace)).get<std::string>();
 }
 
+} // namespace
+
 std::string html_text(std::string const& text) {
     std::string out;
-    for (char const c : text) {
+    for (char const c : with_replacements(text)) {
         switch (c) {
         case '&': out += "&amp;"; break;
         case '<': out += "&lt;"; break;
@@ -388,7 +400,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     run.check();
     PageLines const lines = lines_of_page(made);
     PageParts parts;
-    parts.title = html_text(as_utf8(title_of(made.recipe)));
+    parts.title = html_text(title_of(made.recipe));
     parts.data = page_data(made, params, heights, lines, run);
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);

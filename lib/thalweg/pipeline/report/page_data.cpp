@@ -482,6 +482,10 @@ std::string grid_json(Grid const& grid) {
     return grid_object(grid).dump();
 }
 
+std::string sea_json(std::optional<Sea> const& sea) {
+    return sea_object(sea).dump();
+}
+
 std::string without_tags(std::string const& json) {
     std::string out;
     out.reserve(json.size());

@@ -4,7 +4,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
 
 #include <fmt/format.h>
 
@@ -31,15 +30,8 @@ NetworkOrders const* orders_of(Scene const& scene) {
 }
 
 double relief_of(Raster<float> const& dem) {
-    double low = std::numeric_limits<double>::infinity();
-    double high = -low;
-    for (float const z : dem.values()) {
-        if (std::isfinite(z)) {
-            low = std::min(low, static_cast<double>(z));
-            high = std::max(high, static_cast<double>(z));
-        }
-    }
-    return high > low ? high - low : 0.0;
+    auto const range = height_range(dem);
+    return range ? range->second - range->first : 0.0;
 }
 
 draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {

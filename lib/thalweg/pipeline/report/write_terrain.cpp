@@ -45,7 +45,7 @@ std::vector<std::string> files_left_in(std::string const& folder) {
 
 double relief_m(Made const& t) {
     if (!t.assessment.statistics) { // not yet measured
-        auto const heights = range_of(t.terrain.surface->dem);
+        auto const heights = height_range(t.terrain.surface->dem);
         return heights ? heights->second - heights->first : 0.0;
     }
     return t.assessment.statistics->max.z - t.assessment.statistics->min.z;

@@ -7,7 +7,6 @@
 #include <span>
 #include <string>
 #include <string_view>
-#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -32,9 +31,6 @@ struct PageParams {
 /// \param recipe its text
 PageParams page_params_of(Made const& made, std::string recipe);
 
-/// \return [m] the lowest and the highest value; nothing: there is none
-std::optional<std::pair<double, double>> range_of(Raster<float> const& dem);
-
 /// Makes report.html of a terrain: one page that a browser opens without a network connection. It is the page built
 /// into the library, filled as web/README.md describes. Titles and file names are escaped; invalid UTF-8 becomes
 /// U+FFFD.
@@ -56,6 +52,10 @@ struct PageHeights {
 /// Chooses the side [cells] of the squares that the page shows as one value each: the smallest with which no side of
 /// the grid has more than 4096 values, and the whole at most 1 500 000.
 std::int64_t page_cells(Grid const& grid);
+
+/// The means of a DEM's squares in 16 bits.
+/// \return as page_heights(), without bytes
+std::optional<PageHeights> page_values(Raster<float> const& dem, Run const& run = {});
 
 /// Encodes the means of a DEM's squares in 16 bits, each row with the predictor that leaves the shortest residuals.
 /// \param dem [m] NaN: no data, left out of means; a square of no data has no value
@@ -93,10 +93,7 @@ PageLines lines_of_page(Made const& made);
 /// The means of squares of cells x cells; NaN: none of its cells has a height.
 Raster<float> mean_of_squares(Raster<float> const& dem, std::int64_t cells);
 
-/// Replaces invalid UTF-8 in a text.
-std::string as_utf8(std::string const& text);
-
-/// Escapes a text for HTML.
+/// Escapes a text for HTML; invalid UTF-8 becomes U+FFFD.
 std::string html_text(std::string const& text);
 
 /// Escapes '<' in JSON, so that it may stand in a script element.
