@@ -8,6 +8,7 @@ import { keysDialog } from './keys.js';
 import { Land } from './land.js';
 import { slopes } from './light.js';
 import { fillPanel, metres, summary } from './panel.js';
+import { Tools } from './tools.js';
 import { probe, View3d } from './view3d.js';
 import { View2d } from './view2d.js';
 
@@ -89,7 +90,7 @@ function makeView(land, rivers, options) {
 /**
  * Shows a scene: {data: the page's JSON, land, rivers, water}. state: what it tells about itself to whoever asks;
  * keys: further ones for the list of keys, [[key, what it does], …].
- * Gives {view, replace(scene, {panel: whether to rebuild the panel}), bindLength(L), scene: the one that is shown}.
+ * Gives {view, tools, replace(scene, {report: whether to write the report anew}), bindLength(L), scene: the one that is shown}.
  */
 export function createPage(first, state, keys = []) {
   let { data, land, rivers, water } = first;
@@ -386,10 +387,11 @@ export function createPage(first, state, keys = []) {
   $('btheme').addEventListener('click', () => theme(document.documentElement.dataset.theme === 'dark' ? 'light' : 'dark'));
 
   view.ondraw = (turn) => ($('north').style.transform = `rotate(${turn}rad)`);
+  const tools = new Tools(view);
   // Labels keep out from under what lies over the view.
   view.keepOut = () => {
     const frame = $('view').getBoundingClientRect();
-    return ['ways', 'north', 'point', 'doing'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
+    return ['ways', 'north', 'point', 'doing', 'toolbar'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
       .map((b) => ({ x0: b.left - frame.left - 2, x1: b.right - frame.left + 2, y0: b.top - frame.top - 2, y1: b.bottom - frame.top + 2 }));
   };
   view.onlost = () => tellAll('The graphics device was lost; the view returns when the browser gives it back.');
@@ -481,6 +483,7 @@ export function createPage(first, state, keys = []) {
   });
   return {
     view,
+    tools,
     replace,
     get scene() {
       return scene;

@@ -225,6 +225,10 @@ export class View2d {
     return { x: this.parent.clientWidth / 2 + (x - this.centre[0]) / this.cellsPerPixel, y: this.parent.clientHeight / 2 + (y - this.centre[1]) / this.cellsPerPixel };
   }
 
+  place(x, y) {
+    return this.project(x, y);
+  }
+
   redraw() {
     this.waiting ??= requestAnimationFrame(() => this.draw());
   }

@@ -334,6 +334,12 @@ export class View3d {
     while (this.waiting || this.resting) await new Promise((done) => setTimeout(done, 30));
   }
 
+  /** A place [cells] on the page [pixels], {x, y}, behind what stands before it and beside the view too; null: behind the camera. */
+  place(x, y) {
+    const p = this.ground.spot(x, y).project(this.controls.object);
+    return p.z > 1 ? null : { x: ((p.x + 1) / 2) * this.parent.clientWidth, y: ((1 - p.y) / 2) * this.parent.clientHeight };
+  }
+
   /** A place [cells] on the page [pixels], {x, y}, or null where it is not in sight. */
   project(x, y) {
     const camera = this.controls.object;
