@@ -8,7 +8,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
-import { barriers, launch } from './browser.mjs';
+import { barriers, launch, pickCentre } from './browser.mjs';
 import { fakeStudio, keysOf, landOf, valuesOf } from './fake_studio.mjs';
 import { river, sheet } from './fake_drawing.mjs';
 
@@ -209,5 +209,264 @@ describe('a river', () => {
     assert.equal((await drawn()).rivers.length, 4);
     await page.keyboard.press('Escape');
     assert.equal(await page.getAttribute('#tool-river', 'aria-pressed'), 'false');
+  });
+});
+
+describe('what is drawn', () => {
+  test('is chosen and its vertices are moved, put in and taken out; an end joins a river', async () => {
+    await visit(three(), { map: true });
+    await page.keyboard.press('v');
+    await click(152.5, 117.5);
+    assert.match(await page.textContent('#inspector .what'), /^River 3, 1\.24 km, leaves at the border$/);
+    await stroke([[155, 125], [165, 122]]);
+    near((await drawn()).rivers[2].line, 1, [165, 122], 0.5);
+    // It is still chosen: the line between two vertices gets a new one.
+    await click(157.5, 136);
+    await settled();
+    assert.equal((await drawn()).rivers[2].line.length, 8);
+    assert.deepEqual(sent().map(({ verb }) => verb), ['move', 'insert']);
+    assert.equal(sent()[1].vertex, 2);
+    assert.ok(await page.isVisible('text=Delete vertex'));
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.equal((await drawn()).rivers[2].line.length, 6);
+    await stroke([[150, 149.5], [160, 82], [162, 80.6]]);
+    const { rivers } = await drawn();
+    near(rivers[2].line, 2, [162, 80.2], 1);
+    assert.match(await page.textContent('#inspector .what'), /joins river 1/);
+    // What lies beside everything lets go.
+    await click(100, 130);
+    assert.match(await page.textContent('#inspector'), /3 rivers\./);
+    await page.keyboard.press('Control+z');
+    await settled();
+    near((await drawn()).rivers[2].line, 2, [150, 150], 0.1);
+  });
+
+  test('dense lines are moved softly, by handles that stand for their neighbours', async () => {
+    const wave = Array.from({ length: 401 }, (_, i) => [i / 2, 75 + 10 * Math.sin(i / 25)]).flat();
+    await visit(sheet({ rivers: [river(...wave)] }));
+    await page.keyboard.press('v');
+    await click(100, 75 + 10 * Math.sin(8));
+    await stroke([[100, 75 + 10 * Math.sin(8)], [104, 60]]);
+    const [{ verb, vertex, reach, to: at_ }] = sent();
+    assert.equal(verb, 'move');
+    assert.ok(Math.abs(vertex - 200) < 6 && reach > 5 && reach < 60, JSON.stringify([vertex, reach]));
+    near(at_, 0, [104, 60], 1.5);
+    const [{ line }] = (await drawn()).rivers;
+    assert.equal(line.length, wave.length);
+    assert.deepEqual(line.slice(0, 100), wave.slice(0, 100));
+  });
+
+  test('rivers are cut, joined, turned and erased', async () => {
+    await visit(three(), { map: true });
+    await page.keyboard.press('k');
+    await click(150, 80.5);
+    await settled();
+    let { rivers } = await drawn();
+    assert.equal(rivers.length, 4);
+    near(rivers[3].line, rivers[3].line.length / 2 - 1, [147, 80.5], 1);
+    await page.keyboard.press('j');
+    await click(...rivers[3].line.slice(-2));
+    await click(150, 112);
+    await settled();
+    ({ rivers } = await drawn());
+    assert.deepEqual(Object.keys(sent()[1]), ['verb', 'river', 'end', 'at']);
+    assert.deepEqual([sent()[1].river, sent()[1].end], [3, 'outlet']);
+    await page.keyboard.press('v');
+    await click(76, 50);
+    assert.match(await page.textContent('#inspector .what'), /River 2.*joins river 4/);
+    await page.click('#inspector >> text=Reverse');
+    await settled();
+    near((await drawn()).rivers[1].line, 0, [80, 78], 0.1);
+    await page.keyboard.press('Control+z');
+    await settled();
+    await page.click('#inspector >> text="Delete"');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'erase', river: 1, alone: false });
+    assert.equal((await drawn()).rivers.length, 3);
+    await click(40, 84);
+    await page.keyboard.press('Shift+Delete');
+    await settled();
+    assert.equal(sent().at(-1).alone, true);
+  });
+
+  test('coasts, lakes with their level and masks', async () => {
+    await visit(three(), { map: true });
+    await page.keyboard.press('o');
+    await stroke([[120, 149], [125, 130], [160, 125], [199.5, 128]]);
+    let now = await drawn();
+    assert.equal(now.coasts.length, 1);
+    near(now.coasts[0], now.coasts[0].length / 2 - 1, [200, 128], 0.5);
+    assert.equal(now.coasts[0].at(-2), 200);
+    await page.keyboard.press('v');
+    await click(125, 130);
+    await page.click('text=Swap land and sea');
+    await settled();
+    near((await drawn()).coasts[0], 0, [200, 128], 0.5);
+    await page.keyboard.press('a');
+    await page.fill('#lake-level', '120.5');
+    await page.keyboard.press('Tab');
+    for (const p of [[150, 20], [170, 22], [168, 40], [150, 38]]) await click(...p);
+    await click(150, 20);
+    await settled();
+    assert.equal(sent().at(-1).points.length, 8);
+    assert.equal((await drawn()).lakes[0].level, 120.5);
+    await page.keyboard.press('v');
+    await click(160, 30);
+    assert.match(await page.textContent('#inspector .what'), /Lake 1.*level 120\.5 m/);
+    await page.fill('#lake-level', '');
+    await page.keyboard.press('Tab');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'level', lake: 0, level: null });
+    await page.keyboard.press('s');
+    await stroke([[60, 60], [190, 62], [185, 100], [62, 102], [61, 64]]);
+    now = await drawn();
+    assert.equal(now.masks.length, 1);
+    await page.keyboard.press('v');
+    await click(...now.masks[0].slice(20, 22));
+    assert.match(await page.textContent('#inspector .what'), /Mask 1/);
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.equal((await drawn()).masks.length, 0);
+  });
+
+  test('types, side streams and how many sources they have', async () => {
+    await visit(three(), { map: true });
+    await page.keyboard.press('v');
+    await click(40, 84);
+    await page.selectOption('#river-type', 'C');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'type', rivers: [0], type: 'C' });
+    assert.deepEqual(await page.$$eval('#river-type option', (all) => all.map((o) => o.value)), ['', 'Aa+', 'A', 'B', 'C', 'D', 'DA', 'E', 'F', 'G']);
+    assert.ok(await page.isHidden('#river-lambda'));
+    await page.click('#branching');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'branching', on: true });
+    await page.fill('#river-lambda', '12');
+    await page.keyboard.press('Enter');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'lambda', rivers: [0], lambda: 12 });
+    // A new river gets what the fields say.
+    await page.keyboard.press('Escape');
+    await page.click('#tool-river');
+    await page.selectOption('#river-type', 'E');
+    await page.fill('#river-lambda', '4');
+    await page.keyboard.press('Tab');
+    await stroke([[150, 20], [152, 40]]);
+    assert.deepEqual([sent().at(-1).type, sent().at(-1).lambda], ['E', 4]);
+  });
+
+  test('is chosen, moved and erased by the keyboard alone', async () => {
+    await visit(three());
+    await page.focus('#view canvas');
+    await page.keyboard.press('v');
+    await page.keyboard.press('PageDown');
+    assert.match(await said(), /^River 1, .*leaves at the border$/);
+    await page.keyboard.press('Enter');
+    assert.match(await said(), /picked up/);
+    for (let k = 0; k < 4; ++k) await page.keyboard.press('ArrowRight');
+    await page.keyboard.press('Shift+ArrowUp');
+    await page.keyboard.press(' ');
+    await settled();
+    const [{ verb, of, vertex, to: [x, y] }] = sent();
+    assert.deepEqual([verb, of, vertex], ['move', { river: 0 }, 0]);
+    assert.ok(x >= 0 && x < 12 && y < 78, `${x}, ${y}`);
+    await page.keyboard.press('PageDown');
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'erase', river: 1, alone: false });
+  });
+
+  test('of a generator it says what an edit does, before one', async () => {
+    await visit({ ...three(), kind: 'shown' }, { map: true });
+    await page.keyboard.press('v');
+    assert.match(await page.textContent('#inspector'), /becomes drawn lines; undo brings the generator back/);
+    await click(40, 84);
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.equal((await drawn()).kind, 'drawn');
+    assert.doesNotMatch(await page.textContent('#inspector'), /becomes drawn/);
+    await page.keyboard.press('Control+z');
+    await settled();
+    assert.equal((await drawn()).kind, 'shown');
+  });
+});
+
+describe('the sheet', () => {
+  test('is empty at first, and its land comes with the first river', async () => {
+    await visit(sheet());
+    assert.equal((await pickCentre(page)).z, null);
+    assert.ok(await page.isVisible('#sheet-hint'));
+    assert.match(await page.textContent('#sheet-hint'), /Draw a river R: from its source to the sea/);
+    await page.keyboard.press('r');
+    const eye = await at(100, 75);
+    await stroke([[100, 30], [102, 50], [100, 75], [104, 100]]);
+    assert.ok(await page.isHidden('#sheet-hint'));
+    await page.waitForFunction(() => window.__thalweg.level === 'full');
+    const after_ = await at(100, 75);
+    assert.ok(Math.hypot(after_.x - eye.x, after_.y - eye.y) < 80, 'the view stays while a tool is held');
+    await page.click('text=Clear sheet');
+    await settled();
+    assert.match(await page.textContent('#saying'), /Undo \(Ctrl\+Z\) brings everything back/);
+    assert.equal((await pickCentre(page)).z, null);
+    assert.ok(await page.isVisible('#sheet-hint'));
+    assert.ok(await page.isDisabled('text=Clear sheet'));
+    await page.keyboard.press('Control+z');
+    await page.waitForFunction(() => window.__thalweg.level === 'full');
+    assert.equal((await drawn()).rivers.length, 1);
+  });
+
+  test('many lines one after another wait for nobody, and a second window follows', async () => {
+    await visit(three(), { map: true });
+    const other = await gl.newPage({ viewport: { width: 900, height: 700 } });
+    await other.goto(`${server.url}&aa=0`);
+    await settled(other);
+    await page.keyboard.press('r');
+    for (let x = 100; x < 180; x += 20) {
+      await to(x, 20);
+      await page.mouse.down();
+      await to(x + 2, 40);
+      await page.mouse.up();
+    }
+    await settled();
+    assert.equal((await drawn()).rivers.length, 7);
+    await other.waitForFunction(() => window.__thalweg.drawing().rivers.length === 7);
+    const reply = await other.evaluate(() => window.__thalweg.draw({ verb: 'erase', river: 6, alone: true }));
+    await page.waitForFunction(() => window.__thalweg.drawing().rivers.length === 6);
+    assert.equal(reply.revision, (await drawn()).revision);
+    await assert.rejects(other.evaluate(() => window.__thalweg.draw({ verb: 'dig' })), /unknown verb/);
+    await other.close();
+  });
+
+  test('has names for all that can be pressed, and no serious barrier, light, dark and on a phone', async () => {
+    for (const context of [{ colorScheme: 'light' }, { colorScheme: 'dark' }, { colorScheme: 'dark', viewport: { width: 360, height: 740 }, hasTouch: true }]) {
+      if (page && !page.isClosed()) await page.close();
+      await server?.close();
+      await visit(three(), context);
+      await page.evaluate(() => window.__thalweg.hold('select'));
+      await page.focus('#view canvas');
+      await page.keyboard.press('PageDown');
+      assert.deepEqual(await barriers(page), []);
+      const names = await page.$$eval('#toolbar button', (all) => all.map((b) => [b.getAttribute('aria-label'), b.title]));
+      assert.ok(names.length >= 7 && names.every(([name, title]) => name && /\([A-Z]\)$/.test(title)), JSON.stringify(names));
+      assert.ok((await page.evaluate(() => document.documentElement.scrollWidth - document.documentElement.clientWidth)) <= 0);
+      const inside = await page.evaluate(() => {
+        const stage = document.getElementById('stage').getBoundingClientRect();
+        return Array.from(document.querySelectorAll('#toolbar button, #inspector')).every((e) => {
+          const box = e.getBoundingClientRect();
+          return box.left >= stage.left && box.right <= stage.right && box.bottom <= stage.bottom;
+        });
+      });
+      assert.ok(inside, 'all is in sight');
+    }
+  });
+
+  test('has no tools where the program speaks of no drawing', async () => {
+    server = await fakeStudio({ lands, keys, values, pause: 5 });
+    page = await gl.newPage({ viewport: { width: 1280, height: 720 } });
+    complaints = [];
+    await page.goto(`${server.url}&aa=0`);
+    await page.waitForFunction(() => window.__thalweg.ready && !window.__thalweg.busy);
+    assert.equal(await page.locator('#tool-river').count(), 0);
   });
 });

@@ -109,7 +109,7 @@ const verbs = {
   reverse(now, { river: n }) {
     now.rivers[n] = { ...now.rivers[n], line: reversed(now.rivers[n].line) };
   },
-  erase(now, { alone, ...of }) {
+  erase(now, { verb: _, alone, ...of }) {
     const [kind, n] = Object.entries(of)[0];
     const gone = new Set([n]);
     if (kind === 'river' && !alone) for (let grew = true; grew;) grew = now.rivers.some((_, k) => !gone.has(k) && gone.has(below(now, k)) && gone.add(k));

@@ -121,7 +121,7 @@ export class Desk {
     const { drawing } = this;
     const facts = [nameOf(object)];
     const length = lengthOf(object.outline) * drawing.grid.cell_m;
-    facts.push(length >= 2000 ? `${number(length / 1000, 3)} km` : `${number(length, 3)} m`);
+    facts.push(length >= 1000 ? `${number(length / 1000, 3)} km` : `${number(length, 3)} m`);
     if (object.kind === 'lake') facts.push(object.level === null ? 'level by the terrain' : `level ${object.level} m`);
     if (object.kind === 'river') facts.push(this.#end(object));
     return facts.join(', ');

@@ -195,9 +195,10 @@ export class Drawing {
     const text = object.line.join();
     const exact = [all[object.n], ...all].find((one) => one && one.line.length === object.line.length && one.line.join() === text);
     if (exact || !alike) return exact ?? null;
-    const middle = (line) => [line[2 * Math.floor(line.length / 4)], line[2 * Math.floor(line.length / 4) + 1]];
-    const off = (a, b) => Math.hypot(a[0] - b[0], a[1] - b[1]);
-    const unlike = ({ line }) => off(line, object.line) + off(line.slice(-2), object.line.slice(-2)) + off(middle(line), middle(object.line));
+    const spots = (line) => [line.slice(0, 2), line.slice(2 * Math.floor(line.length / 4)), line.slice(-2)];
+    const off = (all, others) => all.reduce((sum, [x, y], i) => sum + Math.hypot(x - others[i][0], y - others[i][1]), 0);
+    const wanted = spots(object.line);
+    const unlike = ({ line }) => Math.min(off(spots(line), wanted), off(spots(line).reverse(), wanted));
     const best = all.reduce((least, one) => (unlike(one) < (least ? unlike(least) : Infinity) ? one : least), null);
     return best && unlike(best) < 0.15 * (lengthOf(object.line) + 10) ? best : null;
   }
