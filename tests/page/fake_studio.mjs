@@ -9,6 +9,7 @@ import fs from 'node:fs';
 import http from 'node:http';
 import path from 'node:path';
 import { web } from './browser.mjs';
+import { drawnBy } from './fake_drawing.mjs';
 
 /** A land that `thalweg make` wrote: what its page holds, and its heights. */
 export function landOf(folder) {
@@ -154,13 +155,14 @@ const span = (values) => values.reduce(([low, high, none], z) => (Number.isNaN(z
 
 /**
  * lands: by the least pruning length they are for, [[prune, land], …] ascending; keys, values: of the recipe; pause: [ms]
- * between messages of a job. Gives {url, asked: messages of the page, jobs, send(message), drop(): ends all sockets, close()}.
+ * between messages of a job; drawing: what is drawn (fake_drawing.mjs), null: it speaks of none. Gives {url, asked: messages of the page, jobs, send(message), drop(): ends all sockets, close()}.
  */
-export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree = cluster(), port = 0 }) {
+export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree = cluster(), port = 0, drawing = null }) {
   const token = 't0k3n';
   const sockets = new Set();
   const asked = [];
   let values = { ...begin };
+  let drawn = drawing && { revision: 1, grid: lands[0][1].data.grid, ...drawing };
   let revision = 1;
   const done = [];
   const undone = [];
@@ -173,10 +175,16 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
   };
   const document = () => ({ type: 'document', revision, recipe: toml(), values, sections: [...new Set(Object.keys(values).map((k) => k.split('.').slice(0, -1).join('.')).filter(Boolean))],
     undo: done.at(-1)?.name ?? '', redo: undone.at(-1)?.name ?? '', command: "thalweg make 'studio/recipe.toml' -o out" });
+  const drawing_ = () => ({ type: 'drawing', ...drawn });
   const rest = () => new Promise((ok) => setTimeout(ok, pause));
 
   async function make(of, to = sockets, whole = false) {
     const mine = ++job;
+    if (drawn?.rivers.length === 0) {
+      await rest();
+      send({ type: 'idle', job: mine, revision, seconds: 0 }, to);
+      return;
+    }
     const land = lands.findLast(([prune]) => Number(of['network.prune']) >= prune)?.[1] ?? lands[0][1];
     const { data, lines, water, heights } = land;
     const { grid } = data;
@@ -225,20 +233,35 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
     return next;
   }
 
-  function answer(socket, { id, do: what, edit, file }) {
+  /** One verb of drawing is an edit like any other. */
+  function draw(socket, id, { revision: of, what }) {
+    if (of !== drawn.revision) throw new Error('the drawing has changed');
+    const { next, said } = drawnBy(drawn, what);
+    done.push({ name: what.verb, values, drawn });
+    undone.length = 0;
+    drawn = { ...next, revision: ++revision };
+    send(document());
+    send(drawing_());
+    send({ type: 'reply', id, ok: true, revision, said }, [socket]);
+    make(values);
+  }
+
+  function answer(socket, { id, do: what, edit, file, ...rest_ }) {
+    if (what === 'draw') return draw(socket, id, rest_);
     const reply = (more) => send({ type: 'reply', id, ok: true, revision, ...more }, [socket]);
     if (what === 'edit') {
       const next = applied(edit);
       if (JSON.stringify(next) === JSON.stringify(values)) return reply({});
-      done.push({ name: edit.name || edit.steps.map((s) => (s.set ? `${s.set} = ${s.value}` : `unset ${s.unset}`)).join(', '), values });
+      done.push({ name: edit.name || edit.steps.map((s) => (s.set ? `${s.set} = ${s.value}` : `unset ${s.unset}`)).join(', '), values, drawn });
       undone.length = 0;
       values = next;
     } else if (what === 'undo' || what === 'redo') {
       const [from, to] = what === 'undo' ? [done, undone] : [undone, done];
       const change = from.pop();
       if (!change) return reply({});
-      to.push({ name: change.name, values });
+      to.push({ name: change.name, values, drawn });
       values = change.values;
+      if (change.drawn !== drawn) drawn = { ...change.drawn, revision: revision + 1 };
     } else if (what === 'try') {
       const next = applied(edit);
       reply({});
@@ -252,6 +275,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
     }
     ++revision;
     send(document());
+    if (drawn?.revision === revision) send(drawing_());
     reply({});
     make(values);
     return undefined;
@@ -290,11 +314,12 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
         try {
           answer(socket, message);
         } catch (error) {
-          send({ type: 'reply', id: message.id, ok: false, error: error.message }, [socket]);
+          send({ type: 'reply', id: message.id, ok: false, error: error.message, at: error.at }, [socket]);
         }
       }, () => socket.end(frame(8, Buffer.alloc(0))));
     });
     send(document(), [socket]);
+    if (drawn) send(drawing_(), [socket]);
     make(values, [socket], true);
   });
   await new Promise((ok) => server.listen(port, '127.0.0.1', ok));

@@ -70,7 +70,7 @@ export class Link {
       const { resolve, reject } = this.#waiting.get(message.id) ?? {};
       this.#waiting.delete(message.id);
       if (message.ok) resolve?.(message);
-      else reject?.(new Error(message.error));
+      else reject?.(Object.assign(new Error(message.error), { at: message.at }));
     } else if (!this.#late(message)) this.on[message.type]?.(message);
   }
 

@@ -391,7 +391,7 @@ export function createPage(first, state, keys = []) {
   // Labels keep out from under what lies over the view.
   view.keepOut = () => {
     const frame = $('view').getBoundingClientRect();
-    return ['ways', 'north', 'point', 'doing', 'toolbar'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
+    return ['ways', 'north', 'point', 'doing', 'toolbar', 'inspector'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
       .map((b) => ({ x0: b.left - frame.left - 2, x1: b.right - frame.left + 2, y0: b.top - frame.top - 2, y1: b.bottom - frame.top + 2 }));
   };
   view.onlost = () => tellAll('The graphics device was lost; the view returns when the browser gives it back.');
@@ -441,8 +441,11 @@ export function createPage(first, state, keys = []) {
   view.home();
   new ResizeObserver(() => view.resize()).observe($('view'));
 
-  /** Shows another scene from where the view stands; heights, contours, colours and light stay as they are chosen. */
-  function replace(next, { report = true } = {}) {
+  /**
+   * Shows another scene from where the view stands; heights, contours, colours and light stay as they are chosen. home: land that comes
+   * or goes is looked at afresh.
+   */
+  function replace(next, { report = true, home = true } = {}) {
     const before = scene;
     scene = next;
     ({ data, land, rivers, water } = next);
@@ -453,7 +456,8 @@ export function createPage(first, state, keys = []) {
       if (JSON.stringify(names) !== written) view.redraw();
       return;
     }
-    const afresh = before.land.level !== land.level || ['width', 'height', 'cell_m'].some((key) => before.data.grid[key] !== data.grid[key]);
+    const sameFrame = ['width', 'height', 'cell_m'].every((key) => before.data.grid[key] === data.grid[key]);
+    const afresh = before.land.level !== land.level || !sameFrame;
     view.marks = [];
     view.replace(land, rivers, { lakes: water.lakes, sea: data.sea });
     fill(afresh);
@@ -461,7 +465,7 @@ export function createPage(first, state, keys = []) {
     paint();
     update({});
     prune();
-    if (afresh) view.home();
+    if (afresh && (home || !sameFrame)) view.home();
   }
 
   Object.assign(state, {

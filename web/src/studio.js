@@ -11,6 +11,7 @@ import { Link } from './link.js';
 import { createPage, tellAll } from './page.js';
 import { recipeForm } from './recipe.js';
 import { Rivers } from './rivers.js';
+import { openSheet } from './sheet.js';
 import { Water } from './water.js';
 
 const $ = (id) => document.getElementById(id);
@@ -79,7 +80,7 @@ export function openStudio(about, state) {
   let finished = 0; // job that ended last
   let sent = null; // the last edit: {at, job}, for the times
   state.times = { first: null, full: null };
-  Object.defineProperty(state, 'busy', { get: () => unanswered > 0 || working || trial.waits || awaited > finished });
+  Object.defineProperty(state, 'busy', { get: () => unanswered > 0 || working || trial.waits || awaited > finished || (sheet?.desk.waits ?? false) });
   Object.defineProperty(state, 'job', { get: () => link.job });
   function changes() {
     page?.view.hurry?.(true);
@@ -260,15 +261,44 @@ export function openStudio(about, state) {
   function show(scene, options) {
     now = scene;
     if (page) {
-      if (!holding) page.replace(scene, options);
+      if (!holding) page.replace(scene, { home: !page.tools.held, ...options });
       return;
     }
     page = createPage(scene, state, [['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]);
     state.heights = () => link.heights;
     view.hidden = false;
     above();
+    draw();
   }
   const dataOf = (grid, more) => ({ ...noData, version: about.version, title: document.title, seed: Number(current.values.seed) || 0, grid, heights: null, ...more });
+
+  // ── Drawing.
+  let sheet = null;
+  let drawn = null; // the program's last message of it
+  function draw() {
+    if (!page || !drawn) return;
+    sheet ??= openSheet(page, ask, (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')));
+    sheet.take(drawn);
+  }
+
+  function drawing(message) {
+    const emptied = drawn?.rivers.length > 0;
+    drawn = message;
+    // Land without rivers may be a given one, which comes.
+    if (message.rivers.length === 0 && emptied) flat(message.grid);
+    else if (message.rivers.length === 0 && !page) setTimeout(() => page || flat(message.grid), 300);
+    draw();
+  }
+
+  /** An empty sheet: level ground. */
+  function flat(grid) {
+    pending = null;
+    clearTimeout(alone);
+    const land = new Land(grid, null);
+    state.level = null;
+    show({ data: dataOf(grid), land, rivers: new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) });
+    stale(false);
+  }
 
   let alone;
   function rivers({ data, lines, job }) {
@@ -350,7 +380,8 @@ export function openStudio(about, state) {
     if (typing(event) && !(event.target.tagName === 'SELECT')) return;
     if ((event.ctrlKey || event.metaKey) && (letter === 'z' || letter === 'y')) {
       const again = letter === 'y' || event.shiftKey;
-      if (!(again ? redo : undo).disabled) (again ? redo : undo).click();
+      if (!again && sheet?.back()) event.preventDefault();
+      else if (!(again ? redo : undo).disabled) (again ? redo : undo).click();
       event.preventDefault();
     } else if (letter === 'b' && !event.ctrlKey && !event.metaKey && !event.altKey && event.target.tagName !== 'SELECT') hold(true);
   });
@@ -398,7 +429,9 @@ export function openStudio(about, state) {
     failed(message) {
       ends(message);
       tell(message.error, { bad: true });
+      if (!page && drawn) flat(drawn.grid);
     },
+    drawing,
     cluster: (message) => cluster.show(message),
     scene,
     heights,
@@ -411,6 +444,12 @@ export function openStudio(about, state) {
     undo: () => ask({ do: 'undo' }),
     redo: () => ask({ do: 'redo' }),
     recipe: () => current.recipe,
+    /** The program's last message of what is drawn, or null. */
+    drawing: () => drawn,
+    /** Takes a tool by its id; null: none. */
+    hold: (tool) => page.tools.hold(tool),
+    /** A verb of drawing: a promise of the reply, which rejects with the program's words. */
+    draw: (what) => ask({ do: 'draw', revision: drawn?.revision, what }),
     export: (file) => link.ask(file ? { do: 'export', file } : { do: 'export' }),
   });
 }

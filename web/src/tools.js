@@ -20,6 +20,8 @@ export class Tools {
   #tools = new Map();
   #gesture = null; // pointer that the tool follows
   #fingers = new Set();
+  #begun = null; // the event that began the gesture
+  #passes = false; // an event is on its way to the view
   #space = false;
   #layers = []; // functions (pen, place) that always draw, below the tool
 
@@ -101,6 +103,16 @@ export class Tools {
     this.draw();
   }
 
+  /** Two fingers move the view: it gets the first one too, which the tool had. */
+  #handOver() {
+    if (this.#gesture === null) return;
+    const { clientX, clientY, pointerId, pointerType, isPrimary } = this.#begun;
+    this.#end();
+    this.#passes = true;
+    this.view.canvas.dispatchEvent(new PointerEvent('pointerdown', { clientX, clientY, pointerId, pointerType, isPrimary, button: 0, buttons: 1, bubbles: true, cancelable: true }));
+    this.#passes = false;
+  }
+
   #at(event) {
     const frame = this.view.canvas.getBoundingClientRect();
     return this.view.under(event.clientX - frame.left, event.clientY - frame.top);
@@ -108,16 +120,18 @@ export class Tools {
 
   #follow(event) {
     const tool = this.held;
+    if (this.#passes) return;
     if (event.type === 'pointerdown' && event.pointerType === 'touch') this.#fingers.add(event.pointerId);
     if (event.type === 'pointerup' || event.type === 'pointercancel') this.#fingers.delete(event.pointerId);
     if (!tool || event.target !== this.view.canvas) return;
     const mine = event.pointerId === this.#gesture;
     if (event.type === 'pointerdown') {
-      if (this.#fingers.size > 1) this.#end(); // two fingers move the view
+      if (this.#fingers.size > 1) this.#handOver();
       if (this.#fingers.size > 1 || event.button !== 0 || this.#space) return;
       const at = this.#at(event);
       if (tool.down?.(at, event) === false) return; // it leaves the gesture to the view
       this.#gesture = event.pointerId;
+      this.#begun = event;
       this.view.canvas.setPointerCapture(event.pointerId);
       this.view.canvas.focus({ preventScroll: true });
     } else if (event.type === 'pointermove') {

@@ -1,0 +1,205 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What is drawn, as the program tells it, and the geometry of what the page shows while one draws. Places are cells of
+// the grid. Nothing here decides: what the page calls a crossing the program judges again.
+
+/** The place of a segment that is nearest to another place: {x, y, d: distance}. */
+export function foot(x, y, ax, ay, bx, by) {
+  const [dx, dy] = [bx - ax, by - ay];
+  const along = dx || dy ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy))) : 0;
+  const [fx, fy] = [ax + along * dx, ay + along * dy];
+  return { x: fx, y: fy, d: Math.hypot(x - fx, y - fy) };
+}
+
+/** Where a–b meets c–d, as a share of a–b; -1: nowhere. */
+export function meeting(ax, ay, bx, by, cx, cy, dx, dy) {
+  const [ux, uy, vx, vy] = [bx - ax, by - ay, dx - cx, dy - cy];
+  const turn = ux * vy - uy * vx;
+  if (turn === 0) return -1;
+  const t = ((cx - ax) * vy - (cy - ay) * vx) / turn;
+  const s = ((cx - ax) * uy - (cy - ay) * ux) / turn;
+  return t >= 0 && t <= 1 && s >= 0 && s <= 1 ? t : -1;
+}
+
+export function lengthOf(line) {
+  let length = 0;
+  for (let i = 2; i < line.length; i += 2) length += Math.hypot(line[i] - line[i - 2], line[i + 1] - line[i - 1]);
+  return length;
+}
+
+export function inside(x, y, ring) {
+  let is = false;
+  for (let i = 0, j = ring.length - 2; i < ring.length; j = i, i += 2) {
+    if (ring[i + 1] > y !== ring[j + 1] > y && x < ring[i] + ((y - ring[i + 1]) / (ring[j + 1] - ring[i + 1])) * (ring[j] - ring[i])) is = !is;
+  }
+  return is;
+}
+
+/** A line whose vertex went to a place; its neighbours within reach [cells] along the line follow, the less the farther. */
+export function bent(line, vertex, to, reach, closed) {
+  const next = Array.from(line);
+  const count = line.length / 2;
+  const [x, y] = [to[0] - line[2 * vertex], to[1] - line[2 * vertex + 1]];
+  next[2 * vertex] = to[0];
+  next[2 * vertex + 1] = to[1];
+  for (const step of [-1, 1]) {
+    let along = 0;
+    for (let k = vertex, i = 1; i < count; ++i) {
+      const n = closed ? (k + step + count) % count : k + step;
+      if (n < 0 || n >= count) break;
+      along += Math.hypot(line[2 * n] - line[2 * k], line[2 * n + 1] - line[2 * k + 1]);
+      if (along >= reach || (!closed && (n === 0 || n === count - 1))) break; // ends stay where they join
+      const share = (1 - (along / reach) ** 2) ** 2;
+      next[2 * n] += share * x;
+      next[2 * n + 1] += share * y;
+      k = n;
+    }
+  }
+  return next;
+}
+
+/** A line cut at a place between the vertices i - 1 and i; gives its first part. */
+export const upTo = (line, i, { x, y }) => [...line.slice(0, 2 * i), x, y];
+
+/** Numbers of segments by square tiles. */
+class Tiles {
+  #tiles = new Map();
+
+  constructor(side, columns) {
+    this.side = side;
+    this.columns = columns;
+  }
+
+  *#over(x0, y0, x1, y1) {
+    const { side } = this;
+    for (let r = Math.floor(Math.min(y0, y1) / side); r <= Math.floor(Math.max(y0, y1) / side); ++r) {
+      for (let c = Math.floor(Math.min(x0, x1) / side); c <= Math.floor(Math.max(x0, x1) / side); ++c) yield r * this.columns + c;
+    }
+  }
+
+  add(object, i, line) {
+    for (const key of this.#over(line[i - 2], line[i - 1], line[i], line[i + 1])) {
+      if (!this.#tiles.has(key)) this.#tiles.set(key, []);
+      this.#tiles.get(key).push([object, i]);
+    }
+  }
+
+  /** Segments about a box, some of them more than once: [object, place of the second vertex in its outline]. */
+  *about(x0, y0, x1, y1) {
+    for (const key of this.#over(x0, y0, x1, y1)) yield* this.#tiles.get(key) ?? [];
+  }
+}
+
+/**
+ * The program's message `drawing` as objects: {kind: 'river' | 'coast' | 'lake' | 'mask', n: its number, line: vertices,
+ * outline: the same, closed where it is a ring, closed, and of the message what else there is}.
+ */
+export class Drawing {
+  #tiles = null;
+  #vertices = null;
+
+  constructor(message) {
+    const { grid, kind, branching, revision, rivers, coasts, lakes, masks } = message;
+    Object.assign(this, { message, grid, kind, branching, revision });
+    const ring = (line) => ({ line, outline: [...line, line[0], line[1]], closed: true });
+    const coast = (line) => {
+      const closed = line.length > 6 && line[0] === line.at(-2) && line[1] === line.at(-1);
+      return closed ? { line: line.slice(0, -2), outline: line, closed } : { line, outline: line, closed };
+    };
+    this.rivers = rivers.map(({ line, type, lambda }, n) => ({ kind: 'river', n, line, outline: line, closed: false, type, lambda }));
+    this.coasts = coasts.map((line, n) => ({ kind: 'coast', n, ...coast(line) }));
+    this.lakes = lakes.map((lake, n) => ({ kind: 'lake', n, ...ring(lake.ring), level: lake.level }));
+    this.masks = masks.map((line, n) => ({ kind: 'mask', n, ...ring(line) }));
+    this.objects = [...this.rivers, ...this.coasts, ...this.lakes, ...this.masks];
+  }
+
+  get empty() {
+    return this.objects.length === 0;
+  }
+
+  get tiles() {
+    if (this.#tiles) return this.#tiles;
+    const side = Math.max(8, Math.max(this.grid.width, this.grid.height) / 128);
+    this.#tiles = new Tiles(side, Math.ceil(this.grid.width / side) + 2);
+    for (const object of this.objects) for (let i = 2; i < object.outline.length; i += 2) this.#tiles.add(object, i, object.outline);
+    return this.#tiles;
+  }
+
+  /** The nearest place of an object that is accepted, within reach [cells]: {object, i: vertex after it, x, y, d}, or null. */
+  nearest({ x, y }, reach, accept = () => true) {
+    let found = null;
+    for (const [object, i] of this.tiles.about(x - reach, y - reach, x + reach, y + reach)) {
+      if (!accept(object)) continue;
+      const line = object.outline;
+      const at = foot(x, y, line[i - 2], line[i - 1], line[i], line[i + 1]);
+      if (at.d < (found?.d ?? reach)) found = { object, i: i / 2, ...at };
+    }
+    return found;
+  }
+
+  /** The first place where a–b meets an object that is accepted: {object, x, y, t}, or null. */
+  crossed(ax, ay, bx, by, accept) {
+    let found = null;
+    for (const [object, i] of this.tiles.about(ax, ay, bx, by)) {
+      if (!accept(object)) continue;
+      const line = object.outline;
+      const t = meeting(ax, ay, bx, by, line[i - 2], line[i - 1], line[i], line[i + 1]);
+      if (t >= 0 && t < (found?.t ?? 2)) found = { object, t, x: ax + t * (bx - ax), y: ay + t * (by - ay) };
+    }
+    return found;
+  }
+
+  #at(x, y) {
+    if (!this.#vertices) {
+      this.#vertices = new Map();
+      for (const { n, line } of this.rivers) {
+        for (let i = 0; i < line.length; i += 2) {
+          const key = `${line[i]} ${line[i + 1]}`;
+          const all = this.#vertices.get(key);
+          if (all) all.push(n);
+          else this.#vertices.set(key, [n]);
+        }
+      }
+    }
+    return this.#vertices.get(`${x} ${y}`) ?? [];
+  }
+
+  /** The number of the river that a river flows into, or -1. */
+  below(river) {
+    return this.#at(river.line.at(-2), river.line.at(-1)).find((n) => n !== river.n && !this.#endsThere(n, river)) ?? -1;
+  }
+
+  /** Where two rivers end together, the later one flows into the earlier one. */
+  #endsThere(n, river) {
+    const { line } = this.rivers[n];
+    return n > river.n && line.at(-2) === river.line.at(-2) && line.at(-1) === river.line.at(-1);
+  }
+
+  /** A river with all that drain into it. */
+  above(river) {
+    const into = this.rivers.map(() => []);
+    for (const one of this.rivers) into[this.below(one)]?.push(one);
+    const all = new Set([river]);
+    for (const one of all) for (const next of into[one.n]) all.add(next);
+    return [...all];
+  }
+
+  /** An object with another line, as it will be. */
+  like(object, line) {
+    return { ...object, line, outline: object.closed ? [...line, line[0], line[1]] : line };
+  }
+
+  /** What an object of an older drawing is in this one: the same line, or where asked for the one most like it; null: it is gone. */
+  same(object, alike = false) {
+    const all = this[{ river: 'rivers', coast: 'coasts', lake: 'lakes', mask: 'masks' }[object.kind]];
+    const text = object.line.join();
+    const exact = [all[object.n], ...all].find((one) => one && one.line.length === object.line.length && one.line.join() === text);
+    if (exact || !alike) return exact ?? null;
+    const spots = (line) => [line.slice(0, 2), line.slice(2 * Math.floor(line.length / 4)), line.slice(-2)];
+    const off = (all, others) => all.reduce((sum, [x, y], i) => sum + Math.hypot(x - others[i][0], y - others[i][1]), 0);
+    const wanted = spots(object.line);
+    const unlike = ({ line }) => Math.min(off(spots(line), wanted), off(spots(line).reverse(), wanted));
+    const best = all.reduce((least, one) => (unlike(one) < (least ? unlike(least) : Infinity) ? one : least), null);
+    return best && unlike(best) < 0.15 * (lengthOf(object.line) + 10) ? best : null;
+  }
+}

@@ -1,0 +1,57 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// What all drawing tools do: the cursor of the keyboard, and words for who does not see.
+export const apart = (p, q) => Math.hypot(p.x - q.x, p.y - q.y);
+export const round = (v) => Math.round(1000 * v) / 1000;
+export const near = 12; // pixels within which a line meets what is there
+const arrows = { ArrowLeft: [-4, 0], ArrowRight: [4, 0], ArrowUp: [0, 4], ArrowDown: [0, -4] };
+
+export class Tool {
+  cursor = 'crosshair';
+
+  constructor(desk, overlay, about) {
+    Object.assign(this, { desk, overlay }, about);
+  }
+
+  get view() {
+    return this.desk.view;
+  }
+
+  taken() {
+    if (this.id !== 'select') this.desk.choose(null);
+    this.view.canvas.focus({ preventScroll: true });
+    this.desk.hold(this);
+    this.desk.speak(`${this.title}. ${this.help}`);
+  }
+
+  dropped() {
+    this.cancel?.();
+    this.clear?.();
+    Object.assign(this.desk, { cursor: null, hovered: null });
+    this.desk.quiet();
+    this.desk.hold(null);
+  }
+
+  /** A key that moves the cursor over the land, or presses there; true where it did. */
+  steps(event) {
+    const { desk } = this;
+    if (event.target !== this.view.canvas) return false;
+    const by = arrows[event.key]?.map((v) => v * (event.shiftKey ? 10 : 1));
+    if (by) {
+      const at = desk.step(...by);
+      this.point(at);
+    } else if (event.key === ' ' || event.key === 'Enter') {
+      if (!desk.cursor) this.point(desk.step(0, 0));
+      else this.press(desk.cursor, event.key);
+    } else return false;
+    return true;
+  }
+
+  key(event) {
+    return this.steps(event);
+  }
+
+  draw(pen, place) {
+    this.overlay.cross(pen, place, this.desk.cursor);
+  }
+}

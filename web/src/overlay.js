@@ -1,0 +1,272 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// The drawing over the view: lines with the ways they run, shores, levels, masks, and what is being done to them.
+
+export const ink = { river: '#1d6fd0', coast: '#0b6f79', lake: '#2b7ec8', mask: '#7b4bb5' };
+export const red = '#d3122e';
+export const orange = '#ff7800';
+const casing = 'rgb(255 255 255 / 0.85)';
+const shade = { held: 'rgb(18 22 30 / 0.42)', faint: 'rgb(18 22 30 / 0.2)' };
+
+/** A line on the screen, as pieces where it is not behind the eye: [[x, y, …], …] [pixels]. */
+function project(line, place, { thin, piece }) {
+  const pieces = [];
+  let now = null;
+  const put = (x, y) => {
+    const p = place(x, y);
+    if (!p) now = null;
+    else if (now) now.push(p.x, p.y);
+    else pieces.push((now = [p.x, p.y]));
+  };
+  let [kx, ky] = [line[0], line[1]];
+  put(kx, ky);
+  for (let i = 2; i < line.length; i += 2) {
+    const [x, y] = [line[i], line[i + 1]];
+    const far = Math.hypot(x - kx, y - ky);
+    if (far < thin && i + 2 < line.length) continue;
+    for (let k = 1, parts = Math.ceil(far / piece); k < parts; ++k) put(kx + (k / parts) * (x - kx), ky + (k / parts) * (y - ky));
+    put(x, y);
+    [kx, ky] = [x, y];
+  }
+  return pieces;
+}
+
+function trace(pieces, closed, path = new Path2D()) {
+  for (const piece of pieces) {
+    path.moveTo(piece[0], piece[1]);
+    for (let i = 2; i < piece.length; i += 2) path.lineTo(piece[i], piece[i + 1]);
+    if (closed && pieces.length === 1) path.closePath();
+  }
+  return path;
+}
+
+/** Places along a line, so many pixels apart: at(x, y, ux, uy: the way it runs there). */
+function along(pieces, every, at) {
+  for (const p of pieces) {
+    let ahead = every / 2; // to the next place
+    for (let i = 2; i < p.length; i += 2) {
+      const [dx, dy] = [p[i] - p[i - 2], p[i + 1] - p[i - 1]];
+      const length = Math.hypot(dx, dy);
+      for (; ahead <= length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
+      ahead -= length;
+    }
+  }
+}
+
+/** Heads of arrows along a line; turned: it runs the other way. */
+function heads(pieces, every, turned, path = new Path2D()) {
+  along(pieces, every, (x, y, dx, dy) => {
+    const [ux, uy] = turned ? [-dx, -dy] : [dx, dy];
+    path.moveTo(x - 3 * ux - 3.6 * uy, y - 3 * uy + 3.6 * ux);
+    path.lineTo(x + 3 * ux, y + 3 * uy);
+    path.lineTo(x - 3 * ux + 3.6 * uy, y - 3 * uy - 3.6 * ux);
+  });
+  return path;
+}
+
+/** Short strokes on the left of a line: land lies there. */
+function ticks(pieces, path = new Path2D()) {
+  along(pieces, 16, (x, y, ux, uy) => {
+    path.moveTo(x, y);
+    path.lineTo(x + 5 * uy, y - 5 * ux);
+  });
+  return path;
+}
+
+export function dot(pen, { x, y }, radius, { fill = '#fff', stroke = ink.river, width = 2 } = {}) {
+  pen.beginPath();
+  pen.arc(x, y, radius, 0, 2 * Math.PI);
+  pen.fillStyle = fill;
+  pen.strokeStyle = stroke;
+  pen.lineWidth = width;
+  pen.fill();
+  pen.stroke();
+}
+
+/** Words on the land, as labels are. */
+export function write(pen, text, { x, y }, colour) {
+  pen.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
+  pen.textAlign = 'center';
+  pen.textBaseline = 'middle';
+  pen.lineWidth = 3.5;
+  pen.strokeStyle = casing;
+  pen.strokeText(text, x, y);
+  pen.fillStyle = colour;
+  pen.fillText(text, x, y);
+}
+
+export class Overlay {
+  #paths = new Map(); // of objects, as long as the view stands still
+  #drawing = null;
+
+  constructor(desk) {
+    this.desk = desk;
+  }
+
+  /** The view has moved, or shows another land. */
+  stale() {
+    this.#paths.clear();
+  }
+
+  pieces(line, place) {
+    const { view } = this.desk;
+    const by = view.cellsPerPixel;
+    return project(line, place, { thin: 0.8 * by, piece: view.onmap || view.land.level ? Infinity : Math.max(8 * by, 0.5 * view.land.cells) });
+  }
+
+  #of(object, place) {
+    let made = this.#paths.get(object);
+    if (!made) {
+      const pieces = this.pieces(object.outline, place);
+      made = { pieces, path: trace(pieces, object.closed) };
+      this.#paths.set(object, made);
+    }
+    return made;
+  }
+
+  /** held: whether a drawing tool is in the hand. */
+  paint(pen, place, held) {
+    const { desk } = this;
+    const { drawing } = desk;
+    if (!desk.fits || document.documentElement.dataset.before === 'on') return;
+    if (drawing !== this.#drawing) this.stale();
+    this.#drawing = drawing;
+    const hidden = new Set(desk.ghosts.filter((one) => one.state === 'sent').flatMap((one) => one.hides ?? []));
+    const seen = (objects) => objects.filter((one) => !hidden.has(one));
+    pen.globalAlpha = held ? 1 : 0.6;
+    this.#masks(pen, place, seen(drawing.masks), held);
+    for (const lake of seen(drawing.lakes)) this.#lake(pen, place, lake, held);
+    for (const coast of seen(drawing.coasts)) this.#line(pen, place, coast, 1.8, held && ticks(this.#of(coast, place).pieces));
+    pen.globalAlpha = 1;
+    if (held && drawing.kind === 'drawn') for (const river of seen(drawing.rivers)) this.#line(pen, place, river, 1.5, heads(this.#of(river, place).pieces, 90));
+    if (held) this.#choice(pen, place, hidden);
+    for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+  }
+
+  #masks(pen, place, masks, held) {
+    if (masks.length === 0) return;
+    const all = new Path2D();
+    const { clientWidth, clientHeight } = this.desk.view.parent;
+    all.rect(0, 0, clientWidth, clientHeight);
+    const land = this.desk.drawing.grid;
+    const within = new Path2D();
+    trace(this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place), true, within);
+    for (const mask of masks) all.addPath(this.#of(mask, place).path);
+    pen.save();
+    pen.clip(within);
+    pen.fillStyle = held ? shade.held : shade.faint;
+    pen.fill(all, 'evenodd');
+    pen.restore();
+    for (const mask of masks) this.#line(pen, place, mask, 1.6, null);
+  }
+
+  #lake(pen, place, lake, held) {
+    pen.fillStyle = 'rgb(52 136 206 / 0.32)';
+    pen.fill(this.#of(lake, place).path);
+    this.#line(pen, place, lake, 1.6, null);
+    if (!held || lake.level === null) return;
+    const { line } = lake;
+    const n = line.length / 2;
+    const [x, y] = [0, 1].map((k) => line.reduce((sum, v, i) => sum + (i % 2 === k ? v : 0), 0) / n);
+    const at = place(x, y);
+    if (at) write(pen, `${lake.level} m`, at, '#10508c');
+  }
+
+  #line(pen, place, object, width, marks) {
+    const { path } = this.#of(object, place);
+    pen.strokeStyle = casing;
+    pen.lineWidth = width + 2.2;
+    pen.stroke(path);
+    if (marks) pen.stroke(marks);
+    pen.strokeStyle = ink[object.kind];
+    pen.lineWidth = width;
+    pen.stroke(path);
+    pen.lineWidth = 1.5;
+    if (marks) pen.stroke(marks);
+  }
+
+  /** What is under the pointer and what is chosen, with the way it runs. */
+  #choice(pen, place, hidden) {
+    const { chosen, hovered } = this.desk;
+    for (const object of new Set([hovered?.object, chosen].filter((one) => one && !hidden.has(one)))) {
+      const { path, pieces } = this.#of(object, place);
+      const colour = object === chosen ? orange : ink[object.kind];
+      const marks = object.kind === 'river' ? heads(pieces, object === chosen ? 110 : 60) : null;
+      for (const [style, width] of [[casing, 5.4], [colour, 2.8]]) {
+        pen.strokeStyle = style;
+        pen.lineWidth = width;
+        pen.stroke(path);
+        pen.lineWidth = width - 0.8;
+        if (marks) pen.stroke(marks);
+      }
+      if (object.kind !== 'river') continue;
+      const [source, outlet] = [place(object.line[0], object.line[1]), place(...object.line.slice(-2))];
+      if (source) dot(pen, source, 4.5, { stroke: colour });
+      if (outlet) dot(pen, outlet, 4.5, { fill: colour, stroke: '#fff', width: 1.5 });
+    }
+  }
+
+  /** A line that is being drawn; from wrong.i on it is red. turned: it runs from its end to its begin. */
+  stroke(pen, place, line, { closed = false, colour = ink.river, width = 2.4, dashed = false, arrows = false, turned = false, wrong = null }) {
+    if (line.length < 4) return;
+    const good = wrong ? [...line.slice(0, 2 * wrong.i), wrong.x, wrong.y] : closed ? [...line, line[0], line[1]] : line;
+    const parts = [[good, colour]];
+    if (wrong) parts.push([[wrong.x, wrong.y, ...line.slice(2 * wrong.i)], red]);
+    for (const [part, tone] of parts) {
+      const pieces = this.pieces(part, place);
+      const path = trace(pieces, false);
+      if (arrows) heads(pieces, 48, turned, path);
+      pen.strokeStyle = casing;
+      pen.lineWidth = width + 2.6;
+      pen.stroke(path);
+      pen.setLineDash(dashed ? [1, 5] : []);
+      pen.strokeStyle = tone;
+      pen.lineWidth = width;
+      pen.stroke(path);
+      pen.setLineDash([]);
+    }
+  }
+
+  /** The ring around what a line will meet. */
+  ring(pen, place, target) {
+    const at = target && place(target.x, target.y);
+    if (!at) return;
+    pen.beginPath();
+    pen.arc(at.x, at.y, 8, 0, 2 * Math.PI);
+    for (const [style, width] of [[casing, 5], [orange, 2.4]]) {
+      pen.strokeStyle = style;
+      pen.lineWidth = width;
+      pen.stroke();
+    }
+  }
+
+  cross(pen, place, at) {
+    const p = at && place(at.x, at.y);
+    if (!p) return;
+    pen.beginPath();
+    for (const [dx, dy] of [[1, 0], [-1, 0], [0, 1], [0, -1]]) {
+      pen.moveTo(p.x + 3 * dx, p.y + 3 * dy);
+      pen.lineTo(p.x + 12 * dx, p.y + 12 * dy);
+    }
+    for (const [style, width] of [[casing, 4], ['#16191d', 1.8]]) {
+      pen.strokeStyle = style;
+      pen.lineWidth = width;
+      pen.stroke();
+    }
+  }
+
+  /** Vertices that can be taken; closer ones than 20 pixels stand for their neighbours: [{i, x, y}]. */
+  handles(line, place, closed) {
+    const count = line.length / 2;
+    const at = (i) => place(line[2 * i], line[2 * i + 1]);
+    const all = [];
+    const last = closed ? null : at(count - 1);
+    const room = (p, q) => !q || Math.hypot(p.x - q.x, p.y - q.y) >= 20;
+    for (let i = 0; i < count; ++i) {
+      const p = at(i);
+      if (p && (i === 0 || i === (closed ? -1 : count - 1) || (room(p, all.at(-1)) && room(p, closed ? all[0] : last)))) all.push({ i, x: p.x, y: p.y });
+    }
+    return all;
+  }
+}
+
