@@ -67,10 +67,9 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
     using namespace thalweg;
     using namespace thalweg::studio;
     Workplace const place;
-    place.write("land.toml",
-                "seed = 7\n[grid]\nwidth = 256\nheight = 256\n[network]\nsource = \"forest\"\n[surface]\n");
     std::string const folder = (place.path() / "doc").string();
-    new_document(folder, (place.path() / "land.toml").string());
+    new_sheet(folder);
+    DocumentFolder(folder).edit({"", {SetKey{"grid.width", "256"}, SetKey{"grid.height", "256"}}});
     std::mt19937_64 random(seed);
     std::int64_t value = 1000; // the seed of the recipe counts the edits
     std::int64_t strokes = 0;
@@ -95,10 +94,10 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
             } while (next.opcode != -1 && next.payload.find(R"("type":"reply")") == std::string::npos);
             answered = next.opcode != -1 ? value : answered;
             if (next.opcode != -1) { // a river beside the last one, on a new sheet now and then
-                std::int64_t const place = strokes++ % 100;
-                std::string const x = std::to_string(4 + 5 * (place % 50));
-                std::string const y = place < 50 ? "20" : "140";
-                client.send(text_frame(place == 0
+                std::int64_t const number = strokes++ % 100;
+                std::string const x = std::to_string(4 + 5 * (number % 50));
+                std::string const y = number < 50 ? "20" : "140";
+                client.send(text_frame(number == 0
                                            ? R"({"id":2,"do":"draw","what":{"verb":"clear"}})"
                                            : R"({"id":2,"do":"draw","what":{"verb":"river","points":[)" + x + "," + y +
                                                  "," + x + "," + std::to_string(std::stoi(y) + 60) + "]}}"));
@@ -107,7 +106,7 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
                 } while (next.opcode != -1 && next.payload.find(R"("type":"reply")") == std::string::npos);
                 EXPECT_TRUE(next.opcode == -1 || next.payload.find(R"("ok":true)") != std::string::npos)
                     << next.payload;
-                rivers = next.opcode == -1 ? rivers : place;
+                rivers = next.opcode == -1 ? rivers : number;
             }
         }
         EXPECT_EQ(studio.process().wait(30.0).code, -SIGKILL);
