@@ -20,7 +20,7 @@ export class Desk {
   type = ''; // of rivers to be drawn
   lambda = 0;
   level = null; // of lakes to be drawn
-  onchange = () => {};
+  onchange = () => {}; // of what stands beside the view too
   ontell = () => {}; // (text, {at: [x, y], bad})
   quiet = () => {}; // what was told is gone
   speak = () => {}; // to who does not see
@@ -97,6 +97,7 @@ export class Desk {
       return reply;
     } catch (error) {
       if (ghost) ghost.state = 'refused';
+      if (ghost?.hides?.length === 1) this.choose(ghost.hides[0]);
       setTimeout(() => this.#forget(ghost), 900);
       this.ontell(error.message, { at: error.at, bad: true });
       this.onrefused?.(ghost);
@@ -128,7 +129,7 @@ export class Desk {
   }
 
   #end(river) {
-    const below = this.drawing.below(river);
+    const below = this.drawing.downstream[river.n] ?? -1;
     if (below >= 0) return `joins river ${below + 1}`;
     const [x, y] = river.line.slice(-2);
     const { width, height, cell_m } = this.drawing.grid;

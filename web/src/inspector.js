@@ -95,7 +95,9 @@ export function inspector(desk, types, hold) {
   });
   const erase = press('Delete', '', () => desk.remove());
   const alone = press('Delete alone', 'The rivers that flow into it stay (Shift+Delete)', () => desk.remove(true));
-  const actions = make('div', { className: 'actions' }, reverse, swap, erase, alone);
+  const finish = press('End the line', '(Enter, double click)', () => desk.tool.finish());
+  const back = press('Take back', 'The last point (Backspace)', () => desk.tool.back());
+  const actions = make('div', { className: 'actions' }, finish, back, reverse, swap, erase, alone);
 
   const branching = make('input', { type: 'checkbox', id: 'branching' });
   branching.title = 'Every river grows a network of side streams';
@@ -110,7 +112,8 @@ export function inspector(desk, types, hold) {
   box.setAttribute('aria-label', 'Drawing');
   const hint = make('p', { id: 'sheet-hint', hidden: true });
   hint.append('Draw a river ', make('kbd', { textContent: 'R' }), ': from its source to the sea, or the other way');
-  stage.append(hint, box);
+  document.getElementById('view').after(box);
+  stage.append(hint);
 
   /** A field shows a value unless somebody is typing in it. */
   const put = (input, value) => {
@@ -155,7 +158,9 @@ export function inspector(desk, types, hold) {
     erase.textContent = desk.vertex >= 0 ? 'Delete vertex' : 'Delete';
     erase.title = `${desk.vertex >= 0 ? 'The chosen vertex' : river ? 'The river with all that flow into it' : 'What is chosen'} (Delete)`;
     alone.hidden = !river || desk.vertex >= 0 || drawing.above(river).length < 2;
-    actions.hidden = !desk.chosen;
+    const open = (tool.line?.length ?? 0) > 0;
+    finish.hidden = back.hidden = !open;
+    actions.hidden = !desk.chosen && !open;
     branching.checked = drawing.branching;
     clear.disabled = drawing.empty;
   }

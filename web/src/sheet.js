@@ -18,6 +18,10 @@ const icons = {
   mask: 'M2.5 2.5h15v15h-15ZM6 12.5l1.5-6 6-.5 1 5-3.5 3.5Z',
 };
 
+/** For the list of keys. */
+export const drawingKeys = [['R, O, A, S', 'draw a river, a coast, a lake, a mask: drag, or point by point'], ['Enter, double click', 'end of a line'], ['Backspace', 'back by a point'],
+  ['V, K, J', 'choose and edit, cut, join'], ['Delete', 'the chosen vertex, or all that is chosen'], ['Escape', 'put away'], ['space bar and drag', 'move the view with a tool in the hand']];
+
 /** The tools in the order of the toolbar. */
 function drawingTools(desk, overlay) {
   const points = (line) => line.map(round);
@@ -63,7 +67,6 @@ export function openSheet({ view, tools }, ask, types) {
   };
   desk.onrefused = (ghost) => {
     if (ghost?.pen && ghost.pen === desk.tool) ghost.pen.resume(ghost);
-    else desk.choose(null);
   };
   return {
     desk,

@@ -11,7 +11,7 @@ import { Link } from './link.js';
 import { createPage, tellAll } from './page.js';
 import { recipeForm } from './recipe.js';
 import { Rivers } from './rivers.js';
-import { openSheet } from './sheet.js';
+import { drawingKeys, openSheet } from './sheet.js';
 import { Water } from './water.js';
 
 const $ = (id) => document.getElementById(id);
@@ -264,7 +264,7 @@ export function openStudio(about, state) {
       if (!holding) page.replace(scene, { home: !page.tools.held, ...options });
       return;
     }
-    page = createPage(scene, state, [['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]);
+    page = createPage(scene, state, drawingKeys.concat([['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]));
     state.heights = () => link.heights;
     view.hidden = false;
     above();
@@ -296,7 +296,7 @@ export function openStudio(about, state) {
     clearTimeout(alone);
     const land = new Land(grid, null);
     state.level = null;
-    show({ data: dataOf(grid), land, rivers: new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) });
+    show({ data: dataOf(grid, { command: current.command, recipe: current.recipe }), land, rivers: new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) });
     stale(false);
   }
 
