@@ -5,5 +5,7 @@
 /// All public headers of the module.
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/drawing.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 #include <thalweg/studio/engine.hpp>
 #include <thalweg/studio/studio.hpp>

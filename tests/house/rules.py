@@ -22,7 +22,7 @@ FAMILIES = ["recipe", "plan", "make", "report", "commands"]
 # Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {
     "core": ["oneapi/tbb/", "Random123/"],
-    "geometry": ["CGAL/", "boost/iterator/"],
+    "geometry": ["CGAL/", "boost/geometry/", "boost/iterator/"],
     "solver": ["Eigen/", "unsupported/Eigen/", "CL/", "petsc", "mpi.h"],
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],

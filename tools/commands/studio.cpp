@@ -27,6 +27,7 @@ struct StudioOptions {
     std::string folder;
     studio::StudioParams params;
     bool no_browser = false;
+    bool blank = false;
 };
 
 /// Opens an address in the user's browser, where there is one.
@@ -51,7 +52,7 @@ bool open_browser(std::string const& address) {
 }
 
 int run_studio(StudioOptions& options, Session const& session) {
-    options.params.folder = studio::document_for(options.input, options.folder, session.run);
+    options.params.folder = studio::document_for(options.input, options.folder, options.blank, session.run);
     options.params.threads = session.run.threads;
     studio::Studio studio(options.params);
     session.run.tell("document", options.params.folder);
@@ -78,6 +79,7 @@ Command add_studio(CLI::App& app, Session& session) {
                    "Begin the new document in this folder; without it in ./studio, or ./studio-2, … where that is "
                    "taken.")
         ->type_name("DIR");
+    app.add_flag("--blank", options->blank, "Begin with an empty sheet to draw rivers on.");
     app.add_option("--port", options->params.serve.port, "Serve at this port; 0: any free one.")
         ->type_name("N")
         ->capture_default_str();
@@ -92,6 +94,7 @@ Command add_studio(CLI::App& app, Session& session) {
         "recipe.toml.\n\n"
         "Examples:\n"
         "  thalweg studio\n"
+        "  thalweg studio --blank -o out/island\n"
         "  thalweg studio samples/dla.toml -o out/cluster --no-browser\n"
         "  thalweg studio samples/walker_nhdplus.gpkg\n"
         "  thalweg studio samples/jacksboro_utm16.tif\n");

@@ -16,6 +16,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 #include <thalweg/studio/internal/journal.hpp>
 
 namespace thalweg::studio {
@@ -108,6 +109,23 @@ void new_document(std::string const& folder, std::string const& input, Run const
     }
     pipeline::check_recipe(recipe);
     Document const document = document_of(pipeline::write_recipe(pipeline::keep_inputs(recipe, out)));
+    io::write_text(out.path(recipe_name), document.toml);
+    io::write_text(out.path(history_name), line_of_beginning(document.toml));
+    out.commit();
+}
+
+void new_sheet(std::string const& folder) {
+    Grid const grid{512, 512, 30.0, 500000.0, 5000000.0, "EPSG:32631"};
+    io::OutputFolder out(folder);
+    Document const usual = document_of(pipeline::write_recipe(pipeline::default_recipe()));
+    Edit const edit = empty_sheet(usual, grid,
+                                  [&](std::string const& key, std::string const& name,
+                                      std::function<void(std::string const& path)> const& write) {
+                                      std::string const file = "inputs/1/" + name;
+                                      write(out.path(file));
+                                      return TakeInput{key, file};
+                                  });
+    Document const document = apply(usual, edit).document;
     io::write_text(out.path(recipe_name), document.toml);
     io::write_text(out.path(history_name), line_of_beginning(document.toml));
     out.commit();
@@ -255,16 +273,29 @@ bool DocumentFolder::redo() {
     return has_one;
 }
 
-TakeInput DocumentFolder::take(std::string const& key, std::string const& path, Run const& run) const {
-    fs::path const inputs = fs::path(folder_) / "inputs";
+std::string DocumentFolder::free_input() const {
     int number = 1;
-    while (fs::exists(fs::symlink_status(inputs / fmt::format("{}", number)))) {
+    while (fs::exists(fs::symlink_status(fs::path(folder_) / fmt::format("inputs/{}", number)))) {
         ++number;
     }
-    io::OutputFolder out((inputs / fmt::format("{}", number)).string());
+    return fmt::format("inputs/{}", number);
+}
+
+TakeInput DocumentFolder::take(std::string const& key, std::string const& path, Run const& run) const {
+    std::string const below = free_input();
+    io::OutputFolder out((fs::path(folder_) / below).string());
     std::string const name = pipeline::keep_user_file(path, out, run);
     out.commit();
-    return {key, fmt::format("inputs/{}/{}", number, name)};
+    return {key, fmt::format("{}/{}", below, name)};
+}
+
+TakeInput DocumentFolder::put(std::string const& key, std::string const& name,
+                              std::function<void(std::string const& path)> const& write) const {
+    std::string const below = free_input();
+    io::OutputFolder out((fs::path(folder_) / below).string());
+    write(out.path(name));
+    out.commit();
+    return {key, fmt::format("{}/{}", below, name)};
 }
 
 } // namespace thalweg::studio

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <string>
 #include <vector>
 
@@ -19,6 +20,11 @@ struct Journal;
 /// pipeline::recipe_from(); "": pipeline::default_recipe() \throws BadInput when the folder has content, and when an
 /// input cannot be read \throws BadParameter as document_of()
 void new_document(std::string const& folder, std::string const& input = {}, Run const& run = {});
+
+/// Makes a document to draw on, 512 x 512 cells of 30 m without rivers.
+/// \param folder as for new_document()
+/// \throws BadInput when the folder has content
+void new_sheet(std::string const& folder);
 
 /// Whether a folder is that of a document.
 bool is_document(std::string const& folder);
@@ -57,12 +63,19 @@ public:
     /// \return the step that sets the key to the copy, for edit()
     /// \throws BadInput when the file is missing or cannot be read
     TakeInput take(std::string const& key, std::string const& path, Run const& run = {}) const;
+    /// Writes a new file into inputs/, in a folder of its own.
+    /// \param name of the file
+    /// \param write is given the path
+    /// \return as take()
+    TakeInput put(std::string const& key, std::string const& name,
+                  std::function<void(std::string const& path)> const& write) const;
 
 private:
     void open();
     void mend(std::string const& path, std::string const& text, Journal const& journal, bool is_whole);
     void save(Document after, std::string const& line);
     void append(std::string const& line);
+    std::string free_input() const;
 
     std::string folder_;
     int lock_ = -1;          ///< a file that this process has locked

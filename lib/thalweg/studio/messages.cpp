@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <bit>
+#include <cmath>
 #include <cstring>
 #include <map>
 #include <utility>
@@ -83,10 +84,11 @@ std::int64_t id_in(ordered_json const& request) {
 Request request_of(std::string_view text) {
     static std::map<std::string, Request::Kind> const kinds{
         {"edit", Request::Kind::edit}, {"try", Request::Kind::attempt},  {"undo", Request::Kind::undo},
-        {"redo", Request::Kind::redo}, {"export", Request::Kind::write}, {"stop", Request::Kind::stop}};
+        {"redo", Request::Kind::redo}, {"export", Request::Kind::write}, {"stop", Request::Kind::stop},
+        {"draw", Request::Kind::draw}};
     ordered_json const request = object_in(text);
     auto const kind = kinds.find(text_at(request, "do"));
-    refuse_if<BadInput>(kind == kinds.end(), "studio.request: do is one of edit, try, undo, redo, export, stop");
+    refuse_if<BadInput>(kind == kinds.end(), "studio.request: do is one of edit, try, undo, redo, export, stop, draw");
     Request result{id_in(request), kind->second};
     if (result.kind == Request::Kind::edit || result.kind == Request::Kind::attempt) {
         result.edit = edit_of(request);
@@ -94,7 +96,173 @@ Request request_of(std::string_view text) {
     if (result.kind == Request::Kind::write && request.contains("file")) {
         result.file = text_at(request, "file");
     }
+    if (result.kind == Request::Kind::draw) {
+        auto const what = request.find("what");
+        refuse_if<BadInput>(what == request.end() || !what->is_object(), "studio.request: there is no step in it");
+        result.what = text_of(*what);
+        auto const revision = request.find("revision");
+        bool const has_one = revision != request.end() && revision->is_number_integer();
+        result.revision = has_one ? revision->get<std::int64_t>() : -1;
+    }
     return result;
+}
+
+namespace {
+
+/// A step of drawing as a page says it.
+class StepReader {
+public:
+    StepReader(std::string_view what, Grid const& grid) : what_(object_in(what)), grid_(grid) {}
+
+    DrawStep step() const {
+        std::string const verb = text_at(what_, "verb");
+        auto const found = std::ranges::find(verbs(), verb, &Verb::name);
+        std::vector<std::string> names;
+        for (Verb const& one : verbs()) {
+            names.emplace_back(one.name);
+        }
+        refuse_if<BadInput>(found == verbs().end(), "studio.request: verb is one of {}", fmt::join(names, ", "));
+        return found->read(*this);
+    }
+
+private:
+    struct Verb {
+        std::string_view name;
+        DrawStep (*read)(StepReader const&);
+    };
+
+    static std::vector<Verb> const& verbs() {
+        using R = StepReader;
+        static std::vector<Verb> const all{
+            {"river",
+             [](R const& r) -> DrawStep {
+                 return DrawRiver{r.line(), r.text("type"), r.lambda()};
+             }},
+            {"move",
+             [](R const& r) -> DrawStep {
+                 return MoveVertex{r.part(), r.index(r.what_, "vertex"), r.place("to"), r.reach()};
+             }},
+            {"insert",
+             [](R const& r) -> DrawStep {
+                 return InsertVertex{r.part(), r.index(r.what_, "vertex"), r.place("at")};
+             }},
+            {"remove",
+             [](R const& r) -> DrawStep {
+                 return RemoveVertex{r.part(), r.index(r.what_, "vertex")};
+             }},
+            {"cut",
+             [](R const& r) -> DrawStep {
+                 return CutRiver{r.index(r.what_, "river"), r.place("at")};
+             }},
+            {"join",
+             [](R const& r) -> DrawStep {
+                 return JoinRiver{r.index(r.what_, "river"), r.text("end") == "source", r.place("at")};
+             }},
+            {"reverse", [](R const& r) -> DrawStep { return ReverseRiver{r.index(r.what_, "river")}; }},
+            {"erase",
+             [](R const& r) -> DrawStep {
+                 return Erase{r.erased(), r.yes("alone")};
+             }},
+            {"type",
+             [](R const& r) -> DrawStep {
+                 return SetType{r.rivers(), r.text("type")};
+             }},
+            {"lambda",
+             [](R const& r) -> DrawStep {
+                 return SetLambda{r.rivers(), r.lambda()};
+             }},
+            {"branching", [](R const& r) -> DrawStep { return SetSideStreams{r.yes("on")}; }},
+            {"coast", [](R const& r) -> DrawStep { return DrawCoast{r.line()}; }},
+            {"swap", [](R const& r) -> DrawStep { return SwapSides{r.index(r.what_, "coast")}; }},
+            {"lake",
+             [](R const& r) -> DrawStep {
+                 return DrawLake{r.line(), r.level()};
+             }},
+            {"level",
+             [](R const& r) -> DrawStep {
+                 return SetLevel{r.index(r.what_, "lake"), r.level()};
+             }},
+            {"mask", [](R const& r) -> DrawStep { return DrawMask{r.line()}; }},
+            {"clear", [](R const&) -> DrawStep { return Clear{}; }}};
+        return all;
+    }
+
+    static std::size_t index(ordered_json const& of, char const* name) {
+        auto const found = of.find(name);
+        bool const is_one =
+            found != of.end() && found->is_number_integer() && (found->is_number_unsigned() || *found >= 0);
+        refuse_if<BadInput>(!is_one, "studio.request: {} must be a number from 0", name);
+        return found->get<std::size_t>();
+    }
+
+    static double number(ordered_json const& value) {
+        refuse_if<BadInput>(!value.is_number(), "studio.request: a place is made of numbers");
+        return value.get<double>();
+    }
+
+    Vec2 metres(double x, double y) const { return {grid_.west + x * grid_.cell_m, grid_.north - y * grid_.cell_m}; }
+
+    Vec2 place(char const* name) const {
+        auto const found = what_.find(name);
+        refuse_if<BadInput>(found == what_.end() || !found->is_array() || found->size() != 2,
+                            "studio.request: {} must be a place [x, y]", name);
+        return metres(number((*found)[0]), number((*found)[1]));
+    }
+
+    DrawnLine line() const {
+        auto const found = what_.find("points");
+        refuse_if<BadInput>(found == what_.end() || !found->is_array() || found->size() % 2 != 0,
+                            "studio.request: points must be a list [x, y, x, y, ...]");
+        DrawnLine line;
+        for (std::size_t i = 0; i + 1 < found->size(); i += 2) {
+            line.push_back(metres(number((*found)[i]), number((*found)[i + 1])));
+        }
+        return line;
+    }
+
+    std::string text(char const* name) const { return what_.contains(name) ? text_at(what_, name) : ""; }
+    bool yes(char const* name) const { return what_.value(name, ordered_json(false)) == true; }
+    int lambda() const {
+        constexpr std::size_t most = 1000;
+        return what_.contains("lambda") ? static_cast<int>(std::min(index(what_, "lambda"), most)) : 0;
+    }
+    double reach() const {
+        return what_.contains("reach") ? std::max(0.0, number(what_["reach"])) * grid_.cell_m : 0.0;
+    }
+    std::optional<double> level() const {
+        auto const found = what_.find("level");
+        return found == what_.end() || found->is_null() ? std::nullopt : std::optional(number(*found));
+    }
+    std::vector<std::size_t> rivers() const {
+        auto const found = what_.find("rivers");
+        refuse_if<BadInput>(found == what_.end() || !found->is_array(), "studio.request: rivers must be a list");
+        std::vector<std::size_t> all;
+        for (ordered_json const& one : *found) {
+            all.push_back(index({{"river", one}}, "river"));
+        }
+        return all;
+    }
+    static Part part_in(ordered_json const& of) {
+        static constexpr std::pair<char const*, Part::Kind> kinds[] = {{"river", Part::Kind::river},
+                                                                       {"coast", Part::Kind::coast},
+                                                                       {"lake", Part::Kind::lake},
+                                                                       {"mask", Part::Kind::mask}};
+        auto const kind =
+            std::ranges::find_if(kinds, [&](auto const& one) { return of.is_object() && of.contains(one.first); });
+        refuse_if<BadInput>(kind == std::end(kinds), "studio.request: a part is a river, coast, lake or mask");
+        return {kind->second, index(of, kind->first)};
+    }
+    Part part() const { return part_in(what_.value("of", ordered_json::object())); }
+    Part erased() const { return part_in(what_); }
+
+    ordered_json what_;
+    Grid const& grid_;
+};
+
+} // namespace
+
+DrawStep draw_step(std::string_view what, Grid const& grid) {
+    return StepReader(what, grid).step();
 }
 
 std::int64_t id_of(std::string_view text) {
@@ -185,12 +353,74 @@ std::string scene_message(Job const& job, std::string_view level, std::string co
                        members);
 }
 
-std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t job) {
-    return text_of({{"type", "reply"}, {"id", id}, {"ok", true}, {"revision", revision}, {"job", job}});
+std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t job,
+                         std::vector<std::string> const& said) {
+    ordered_json message{{"type", "reply"}, {"id", id}, {"ok", true}, {"revision", revision}, {"job", job}};
+    if (!said.empty()) {
+        message["said"] = said;
+    }
+    return text_of(message);
 }
 
-std::string refused_message(std::int64_t id, std::string_view error) {
-    return text_of({{"type", "reply"}, {"id", id}, {"ok", false}, {"error", std::string(error)}});
+namespace {
+
+/// [cells] to a ten thousandth
+double short_number(double v) {
+    constexpr double parts = 1e4;
+    return std::round(v * parts) / parts;
+}
+
+ordered_json numbers_of(DrawnLine const& line, Grid const& grid) {
+    ordered_json numbers = ordered_json::array();
+    for (Vec2 const p : line) {
+        Vec2 const at = in_cells(grid, p);
+        numbers.push_back(short_number(at.x));
+        numbers.push_back(short_number(at.y));
+    }
+    return numbers;
+}
+
+} // namespace
+
+std::string refused_message(std::int64_t id, std::string_view error, std::optional<Vec2> at) {
+    ordered_json message{{"type", "reply"}, {"id", id}, {"ok", false}, {"error", std::string(error)}};
+    if (at) {
+        message["at"] = {short_number(at->x), short_number(at->y)};
+    }
+    return text_of(message);
+}
+
+Vec2 in_cells(Grid const& grid, Vec2 at) {
+    return {(at.x - grid.west) / grid.cell_m, (grid.north - at.y) / grid.cell_m};
+}
+
+std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool is_drawn) {
+    Grid const& grid = drawing.grid;
+    ordered_json rivers = ordered_json::array();
+    for (DrawnRiver const& river : drawing.rivers) {
+        rivers.push_back({{"line", numbers_of(river.line, grid)}, {"type", river.type}, {"lambda", river.lambda}});
+    }
+    ordered_json coasts = ordered_json::array();
+    for (DrawnLine const& coast : drawing.coasts) {
+        coasts.push_back(numbers_of(coast, grid));
+    }
+    ordered_json lakes = ordered_json::array();
+    for (DrawnLake const& lake : drawing.lakes) {
+        lakes.push_back({{"ring", numbers_of(lake.rings.front(), grid)}, {"level", or_null(lake.level_m)}});
+    }
+    ordered_json masks = ordered_json::array();
+    for (DrawnLine const& mask : drawing.masks) {
+        masks.push_back(numbers_of(mask, grid));
+    }
+    return text_of({{"type", "drawing"},
+                    {"revision", revision},
+                    {"kind", is_drawn ? "drawn" : "shown"},
+                    {"branching", drawing.has_side_streams},
+                    {"grid", ordered_json::parse(pipeline::grid_json(grid))},
+                    {"rivers", std::move(rivers)},
+                    {"coasts", std::move(coasts)},
+                    {"lakes", std::move(lakes)},
+                    {"masks", std::move(masks)}});
 }
 
 std::string written_message(std::int64_t id, std::int64_t revision, Written const& written) {

@@ -21,6 +21,8 @@
 #include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/drawing.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 #include <thalweg/studio/engine.hpp>
 #include <thalweg/studio/internal/messages.hpp>
 
@@ -47,6 +49,17 @@ Job job_of(Document const& document) {
     return {document.revision, document.recipe, document.toml};
 }
 
+/// Rivers of a recipe as they were made last, for who edits them.
+struct ShownRivers {
+    std::string toml; ///< of the recipe
+    Grid grid;
+    StreamNetwork network = {};
+    Mask land = {};
+    AttributeTable attributes = {};
+    bool has_heights = false; ///< of a file
+    std::int64_t told = 0;    ///< number of the job whose rivers the pages have
+};
+
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -66,7 +79,7 @@ public:
     std::string address() const { return server_.address(); }
 
     void run(std::stop_token const& stop) {
-        engine_.make(job_of(folder_.document()));
+        begin();
         server_.run(stop);
         writing_ = {}; // asked to stop, and waited for
         engine_.stop();
@@ -101,6 +114,9 @@ private:
         for (std::string const& words : folder_.notes()) {
             server_.send_text(client, say_message(words));
         }
+        if (!drawing_words_.empty()) {
+            server_.send_text(client, drawing_words_);
+        }
         if (!cluster_.empty()) {
             server_.send_text(client, cluster_);
         }
@@ -120,6 +136,10 @@ private:
         try {
             id = id_of(text);
             obey(client, request_of(text));
+        } catch (NotDrawn const& error) {
+            std::optional<Vec2> const at =
+                error.at && drawing_grid_ ? std::optional(in_cells(*drawing_grid_, *error.at)) : std::nullopt;
+            server_.send_text(client, refused_message(id, error.what(), at));
         } catch (Error const& error) {
             server_.send_text(client, refused_message(id, error.what()));
         } catch (std::exception const& error) {
@@ -128,6 +148,7 @@ private:
     }
 
     void obey(serve::Client client, Request const& request) {
+        std::vector<std::string> said;
         switch (request.kind) {
         case Request::Kind::edit:
             folder_.edit(request.edit);
@@ -150,16 +171,134 @@ private:
             is_left_ = true;
             break;
         case Request::Kind::write: write(client, request); return; // answers when it is done
+        case Request::Kind::draw: said = draw(request); break;
         }
-        server_.send_text(client, done_message(request.id, folder_.document().revision, engine_.last()));
+        server_.send_text(client, done_message(request.id, folder_.document().revision, engine_.last(), said));
+    }
+
+    /// Draws a step. Returns what is to be said of it.
+    std::vector<std::string> draw(Request const& request) {
+        Document const& document = folder_.document();
+        refuse_if<BadInput>(request.revision >= 0 && request.revision != document.revision,
+                            "studio.draw: the document was changed meanwhile: draw on what is shown now");
+        bool had_heights = false;
+        Drawing const before = drawing_now(had_heights);
+        drawing_grid_ = before.grid;
+        DrawStep const step = draw_step(request.what, before.grid);
+        PutInput const put = [this](std::string const& key, std::string const& name,
+                                    std::function<void(std::string const& path)> const& write) {
+            return folder_.put(key, name, write);
+        };
+        Drawn after = drawn(before, step);
+        bool const was_drawn = is_drawn(document.recipe);
+        Edit const edit = std::holds_alternative<Clear>(step) ? empty_sheet(document, before.grid, put)
+                                                              : edit_between(document, before, after, put);
+        if (edit.steps.empty()) {
+            return after.said;
+        }
+        folder_.edit(edit);
+        if (!was_drawn && is_drawn(folder_.document().recipe)) {
+            after.said.push_back(fmt::format("the network is {} drawn lines now; undo brings it back as it was{}",
+                                             after.drawing.rivers.size(),
+                                             had_heights ? "; the heights of its file did not come along" : ""));
+        }
+        drawing_ = std::move(after.drawing);
+        drawing_files_ = files_of_drawing();
+        changed();
+        return after.said;
+    }
+
+    /// What the names of files say of a drawing.
+    std::string files_of_drawing() const {
+        pipeline::Recipe const& recipe = folder_.document().recipe;
+        if (!is_drawn(recipe) || !grid_of(recipe)) {
+            return "";
+        }
+        Grid const grid = *grid_of(recipe);
+        return fmt::format("{}\n{}\n{}\n{}\n{} {} {} {} {} {}", recipe.network->lines.path,
+                           recipe.network->tokunaga.strokes,
+                           recipe.surface ? recipe.surface->equilibrium.lakes : std::string(),
+                           recipe.surface ? recipe.surface->mask : std::string(), grid.width, grid.height, grid.cell_m,
+                           grid.west, grid.north, grid.crs);
+    }
+
+    /// The drawing of the document. Throws BadInput while its rivers are made.
+    Drawing drawing_now(bool& had_heights) {
+        if (drawing_) {
+            return *drawing_;
+        }
+        pipeline::Recipe const& recipe = folder_.document().recipe;
+        ShownRivers rivers;
+        {
+            std::scoped_lock const lock(guard_);
+            refuse_if<BadInput>(
+                !shown_rivers_ || shown_rivers_->toml != folder_.document().toml,
+                "studio.draw: the rivers of this recipe are still being made: draw when they are there");
+            rivers = *shown_rivers_;
+        }
+        had_heights = rivers.has_heights;
+        return drawing_shown(recipe, rivers);
+    }
+
+    static Drawing drawing_shown(pipeline::Recipe const& recipe, ShownRivers const& rivers) {
+        Drawing of_files = read_drawing(recipe, rivers.grid);
+        if (is_drawn(recipe)) {
+            return of_files;
+        }
+        Drawing drawing = drawing_of(rivers.grid, rivers.network, rivers.land, rivers.attributes);
+        drawing.lakes = std::move(of_files.lakes);
+        drawing.masks = std::move(of_files.masks);
+        return drawing;
     }
 
     void changed() {
         is_left_ = false;
-        std::scoped_lock const lock(guard_);
-        server_.send_text(serve::everyone, document_words());
-        engine_.make(job_of(folder_.document()));
+        {
+            std::scoped_lock const lock(guard_);
+            server_.send_text(serve::everyone, document_words());
+        }
+        begin();
     }
+
+    /// Begins the terrain of the document, once there are rivers.
+    void begin() {
+        std::string fault;
+        if (std::string files = files_of_drawing(); files.empty() || files != drawing_files_) {
+            drawing_.reset();
+            drawing_files_ = std::move(files);
+        }
+        pipeline::Recipe const& recipe = folder_.document().recipe;
+        if (!drawing_ && !drawing_files_.empty()) {
+            try {
+                drawing_ = read_drawing(recipe, *grid_of(recipe));
+            } catch (Error const& error) { // the engine will say it too
+                drawing_files_.clear();
+            }
+        }
+        bool const is_empty = drawing_ && drawing_->rivers.empty();
+        std::scoped_lock const lock(guard_);
+        document_toml_ = folder_.document().toml;
+        revision_ = folder_.document().revision;
+        drawing_words_ = drawing_ ? drawing_message(*drawing_, revision_, true) : "";
+        if (drawing_) {
+            server_.send_text(serve::everyone, drawing_words_);
+        }
+        if (!is_empty) {
+            engine_.make(job_of(folder_.document()));
+            return;
+        }
+        engine_.stop();
+        cluster_.clear();
+        scene_.clear();
+        coarse_.reset();
+        full_.reset();
+        Job nothing = job_of(folder_.document());
+        nothing.number = engine_.last();
+        state_ = idle_message(nothing, 0.0);
+        server_.send_text(serve::everyone, state_);
+    }
+
+    bool is_empty_sheet() const { return drawing_ && drawing_->rivers.empty(); }
 
     std::string document_words() const { return document_message(folder_.document(), folder_.history(), command()); }
 
@@ -171,6 +310,7 @@ private:
 
     void write(serve::Client client, Request const& request) {
         refuse_if<BadInput>(is_writing_, "studio.export: the last export is still being written; wait for it");
+        refuse_if<BadInput>(is_empty_sheet(), "studio.export: there is no river yet: draw one");
         if (is_left_) {
             changed();
         }
@@ -258,7 +398,14 @@ private:
         std::string scene = scene_message(
             job, "rivers", pipeline::live_scene(pipeline::rivers_to_be(plan, planform), job.toml, command(), run));
         std::string cluster = cluster_message(job, pipeline::cluster_arms(plan, side, run));
+        ShownRivers shown{job.toml,
+                          planform.grid,
+                          planform.network,
+                          planform.land,
+                          planform.file.attributes,
+                          planform.file_heights.has_value()};
         std::scoped_lock const lock(guard_);
+        shown_rivers_ = std::move(shown);
         server_.send_text(serve::everyone, std::move(scene));
         cluster_ = cluster;
         server_.send_text(serve::everyone, std::move(cluster));
@@ -272,6 +419,9 @@ private:
         Shown shown{given.grid, given.is_finished, std::move(*heights), given.sea};
         std::optional<Shown>& before = given.is_finished ? full_ : coarse_;
         std::scoped_lock const lock(guard_);
+        if (!job.recipe.network) {
+            shown_rivers_ = ShownRivers{job.toml, given.grid};
+        }
         server_.send_binary(serve::everyone, heights_message(job, shown, before ? &*before : nullptr));
         before = std::move(shown);
         shown_by_ = job;
@@ -286,6 +436,13 @@ private:
             cluster_ = cluster_message(job, {});
             server_.send_text(serve::everyone, cluster_);
         }
+        if (shown_rivers_ && shown_rivers_->toml == job.toml && shown_rivers_->told != job.number &&
+            job.toml == document_toml_ && drawing_words_.empty()) {
+            shown_rivers_->told = job.number;
+            drawing_words_ =
+                drawing_message(drawing_shown(job.recipe, *shown_rivers_), revision_, is_drawn(job.recipe));
+            server_.send_text(serve::everyone, drawing_words_);
+        }
     }
 
     void end(std::string state) {
@@ -296,7 +453,10 @@ private:
 
     StudioParams const params_;
     DocumentFolder folder_;
-    bool is_left_ = false; ///< the last job was stopped, or of a try and not of the document
+    bool is_left_ = false;             ///< the last job was stopped, or of a try and not of the document
+    std::optional<Drawing> drawing_;   ///< that files of the document hold; nothing: see shown_rivers_
+    std::string drawing_files_;        ///< which
+    std::optional<Grid> drawing_grid_; ///< of the last step
     std::atomic<bool> is_writing_ = false;
 
     std::mutex guard_; ///< of what follows: sent to all and to who comes later
@@ -307,6 +467,10 @@ private:
     std::optional<Shown> full_;
     Job shown_by_;
     Written written_;
+    std::optional<ShownRivers> shown_rivers_;
+    std::string drawing_words_; ///< "": not known yet
+    std::string document_toml_;
+    std::int64_t revision_ = 0;
 
     Clock::time_point told_at_{}; ///< of the engine's thread, like what follows
     std::int64_t told_job_ = 0;
@@ -317,10 +481,14 @@ private:
     std::jthread writing_; ///< the last member: it uses all others
 };
 
-std::string document_for(std::string const& input, std::string const& folder, Run const& run) {
+std::string document_for(std::string const& input, std::string const& folder, bool is_blank, Run const& run) {
     constexpr char const* usual = "studio";
+    refuse_if<BadParameter>(is_blank && !input.empty(),
+                            "studio: an empty sheet begins with nothing: leave out {}, or "
+                            "--blank",
+                            input);
     std::string const meant = !input.empty() ? input : folder.empty() ? usual : folder;
-    if (is_document(meant)) {
+    if (!is_blank && is_document(meant)) {
         return meant;
     }
     std::string fresh = folder.empty() ? usual : folder;
@@ -328,7 +496,7 @@ std::string document_for(std::string const& input, std::string const& folder, Ru
     for (int number = 2; folder.empty() && fs::exists(fresh, unknown) && !fs::is_empty(fresh, unknown); ++number) {
         fresh = fmt::format("{}-{}", usual, number);
     }
-    new_document(fresh, input, run);
+    is_blank ? new_sheet(fresh) : new_document(fresh, input, run);
     return fresh;
 }
 

@@ -23,9 +23,11 @@ struct StudioParams {
 /// \param input the folder of a document; or what new_document() begins with; "": the folder, or ./studio, where it is
 /// a document, else pipeline::default_recipe()
 /// \param folder where a new document begins; "": ./studio, ./studio-2, … whichever is free
+/// \param is_blank a new document is an empty sheet, and no input is given
 /// \return the folder of a document, which is there now
 /// \throws Error as new_document()
-std::string document_for(std::string const& input, std::string const& folder, Run const& run = {});
+std::string document_for(std::string const& input, std::string const& folder, bool is_blank = false,
+                         Run const& run = {});
 
 class Desk;
 

@@ -11,6 +11,7 @@
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/studio/document.hpp>
+#include <thalweg/studio/drawing.hpp>
 #include <thalweg/studio/engine.hpp>
 
 // What the studio and its page tell one another (web/README.md).
@@ -18,15 +19,21 @@ namespace thalweg::studio {
 
 /// What a page asks for.
 struct Request {
-    enum class Kind : std::uint8_t { edit, attempt, undo, redo, write, stop };
+    enum class Kind : std::uint8_t { edit, attempt, undo, redo, write, stop, draw };
     std::int64_t id = 0;
     Kind kind = Kind::stop;
-    Edit edit = {};        ///< of edit and attempt
-    std::string file = {}; ///< of write: one file; "": all
+    Edit edit = {};             ///< of edit and attempt
+    std::string file = {};      ///< of write: one file; "": all
+    std::string what = {};      ///< of draw: the step, as draw_step() reads it
+    std::int64_t revision = -1; ///< of draw: of the document that it is for
 };
 
 /// \throws BadInput for a text that is no request, with what is wrong
 Request request_of(std::string_view text);
+
+/// \param what of a request to draw: one JSON object, with places in cells of the grid
+/// \throws BadInput for what is no step, with what is wrong
+DrawStep draw_step(std::string_view what, Grid const& grid);
 
 /// The number of a request that cannot be read otherwise; 0: it has none.
 std::int64_t id_of(std::string_view text);
@@ -45,8 +52,16 @@ std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms>
 /// \param members as pipeline::live_scene()
 std::string scene_message(Job const& job, std::string_view level, std::string const& members);
 /// \param job that was begun last
-std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t job);
-std::string refused_message(std::int64_t id, std::string_view error);
+/// \param said what came of it beside what was asked
+std::string done_message(std::int64_t id, std::int64_t revision, std::int64_t job,
+                         std::vector<std::string> const& said = {});
+/// \param at [cells] where it is wrong
+std::string refused_message(std::int64_t id, std::string_view error, std::optional<Vec2> at = std::nullopt);
+
+/// \param is_drawn as is_drawn()
+std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool is_drawn);
+/// A place of the grid's coordinate system in cells from its north-western corner, y to the south.
+Vec2 in_cells(Grid const& grid, Vec2 at);
 
 /// What was written on demand.
 struct Written {

@@ -1,0 +1,1330 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/drawing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <limits>
+#include <map>
+#include <set>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/simplify.hpp>
+#include <thalweg/network/elevation/river_types.hpp>
+
+namespace thalweg::studio {
+namespace {
+
+// [cells]
+constexpr double snap = 3.0;        ///< ends nearer than this meet
+constexpr double clearance = 1.5;   ///< of a new river from others
+constexpr double smoothing = 2.5;   ///< of a freehand line, to each side
+constexpr double coarseness = 0.25; ///< of a drawn line: it may lie that far from the hand
+constexpr double least_length = 3.0;
+constexpr double gap = 4.0; ///< between the parts of a river that is cut
+constexpr double pace = 0.5;
+constexpr double touching = 0.01;
+
+constexpr double infinite = std::numeric_limits<double>::infinity();
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+double length_along(DrawnLine const& line) {
+    double sum = 0.0;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        sum += distance(line[i - 1], line[i]);
+    }
+    return sum;
+}
+
+Vec2 in_grid(Grid const& grid, Vec2 p) {
+    return rounded(Vec2{std::clamp(p.x, grid.west, grid.east()), std::clamp(p.y, grid.south(), grid.north)});
+}
+
+DrawnLine without_repeats(DrawnLine line) {
+    line.erase(std::ranges::unique(line).begin(), line.end());
+    return line;
+}
+
+/// Places along a line, evenly spaced, both ends among them.
+DrawnLine resampled(DrawnLine const& line, double every_m) {
+    DrawnLine places;
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        auto const steps =
+            std::max<std::int64_t>(1, static_cast<std::int64_t>(std::ceil(distance(line[i - 1], line[i]) / every_m)));
+        for (std::int64_t k = 0; k < steps; ++k) {
+            double const share = static_cast<double>(k) / static_cast<double>(steps);
+            places.push_back(line[i - 1] + share * (line[i] - line[i - 1]));
+        }
+    }
+    places.push_back(line.back());
+    return places;
+}
+
+/// A line as the hand meant it.
+DrawnLine smoothed(DrawnLine const& line, double cell_m) {
+    DrawnLine const places = resampled(line, pace * cell_m);
+    DrawnLine result(places.size());
+    auto const reach = static_cast<std::size_t>(smoothing / pace);
+    for (std::size_t i = 0; i < places.size(); ++i) { // narrower towards the ends, which stay
+        std::size_t const wide = std::min({reach, i, places.size() - 1 - i});
+        Vec2 sum;
+        for (std::size_t k = i - wide; k <= i + wide; ++k) {
+            sum = sum + places[k];
+        }
+        result[i] = 1.0 / static_cast<double>(2 * wide + 1) * sum;
+    }
+    return geometry::simplify(result, coarseness * cell_m);
+}
+
+/// The longest part of a line in the grid, carried to its border.
+DrawnLine inside_grid(Grid const& grid, DrawnLine const& points) {
+    DrawnLine longest;
+    DrawnLine part;
+    for (std::size_t i = 0; i <= points.size(); ++i) {
+        bool const is_in = i < points.size() && in_grid(grid, points[i]) == rounded(points[i]);
+        if (is_in && part.empty() && i > 0) {
+            part.push_back(in_grid(grid, points[i - 1]));
+        }
+        if (is_in) {
+            part.push_back(points[i]);
+        } else if (!part.empty()) {
+            if (i < points.size()) {
+                part.push_back(in_grid(grid, points[i]));
+            }
+            longest = length_along(part) > length_along(longest) ? part : longest;
+            part.clear();
+        }
+    }
+    return longest;
+}
+
+/// What was drawn, in the grid and finite.
+DrawnLine taken(Grid const& grid, DrawnLine points) {
+    constexpr std::size_t most = 100000;
+    if (points.size() > most) {
+        throw NotDrawn(fmt::format("studio.drawing: a line has at most {} points", most));
+    }
+    for (Vec2& p : points) {
+        if (!is_finite(p)) {
+            throw NotDrawn("studio.drawing: a place that is not a number");
+        }
+        p = in_grid(grid, p);
+    }
+    points = without_repeats(std::move(points));
+    if (points.size() < 2) {
+        throw NotDrawn("studio.drawing: a line has two places at least",
+                       points.empty() ? std::nullopt : std::optional(points.front()));
+    }
+    return points;
+}
+
+DrawnLine stroke_of(Grid const& grid, DrawnLine points) {
+    DrawnLine line = smoothed(taken(grid, std::move(points)), grid.cell_m);
+    std::ranges::transform(line, line.begin(), [](Vec2 p) { return rounded(p); });
+    line = without_repeats(std::move(line));
+    if (line.size() < 2 || length_along(line) < least_length * grid.cell_m) {
+        throw NotDrawn(fmt::format("studio.drawing: this line is shorter than {} cells", least_length), line.front());
+    }
+    return line;
+}
+
+/// Whether two segments meet between their ends.
+bool cross_over(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    double const ca = cross(c, d, a);
+    double const cb = cross(c, d, b);
+    double const ac = cross(a, b, c);
+    double const ad = cross(a, b, d);
+    bool const apart = (ca < 0.0 && cb > 0.0) || (ca > 0.0 && cb < 0.0);
+    return apart && ((ac < 0.0 && ad > 0.0) || (ac > 0.0 && ad < 0.0));
+}
+
+/// \param near_m [m] a line that comes nearer to itself touches itself
+void require_no_loop(DrawnLine const& line, bool is_closed, double near_m) {
+    std::size_t const segments = line.size() - 1;
+    for (std::size_t i = 0; i < segments; ++i) {
+        for (std::size_t k = i + 1; k < segments; ++k) {
+            bool const ends_where_it_begins = is_closed && i == 0 && k + 1 == segments;
+            bool const crosses =
+                k > i + 1 && !ends_where_it_begins && cross_over(line[i], line[i + 1], line[k], line[k + 1]);
+            bool const touches =
+                !ends_where_it_begins &&
+                (distance(geometry::foot_on(line[i], line[i + 1], line[k + 1]).at, line[k + 1]) < near_m ||
+                 distance(geometry::foot_on(line[k], line[k + 1], line[i]).at, line[i]) < near_m);
+            if (crosses || touches) {
+                throw NotDrawn("studio.drawing: the line crosses itself here", line[k]);
+            }
+        }
+    }
+}
+
+/// A place on one of the rivers.
+struct Spot {
+    std::size_t river = none;
+    std::size_t segment = 0;
+    Vec2 at;
+    double away_m = infinite;
+};
+
+/// The place on another river that is nearest.
+Spot nearest_on_rivers(Drawing const& drawing, Vec2 p, std::size_t without, double reach_m) {
+    Spot nearest;
+    nearest.away_m = reach_m;
+    for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
+        DrawnLine const& line = drawing.rivers[r].line;
+        for (std::size_t i = 0; r != without && i + 1 < line.size(); ++i) {
+            Vec2 const foot = geometry::foot_on(line[i], line[i + 1], p).at;
+            double const away_m = distance(foot, p);
+            if (away_m < nearest.away_m) {
+                nearest = {r, i, foot, away_m};
+            }
+        }
+    }
+    return nearest;
+}
+
+/// Makes a place on a river one of its vertices. Returns where it is then: one that lies near is taken.
+Vec2 vertex_at(Drawing& drawing, Spot const& spot) {
+    DrawnLine& line = drawing.rivers[spot.river].line;
+    Vec2 const begin = line[spot.segment];
+    Vec2 const end = line[spot.segment + 1];
+    Vec2 const nearer = distance(begin, spot.at) <= distance(end, spot.at) ? begin : end;
+    Vec2 const at = rounded(spot.at);
+    if (distance(nearer, at) <= clearance * drawing.grid.cell_m) {
+        return nearer;
+    }
+    line.insert(line.begin() + static_cast<std::ptrdiff_t>(spot.segment) + 1, at);
+    return at;
+}
+
+/// A river's vertex.
+struct VertexOf {
+    std::size_t river = none;
+    std::size_t vertex = 0;
+};
+
+/// Where water goes from the end of each river: the vertex of another one, which runs on from there; none: an outlet.
+std::vector<VertexOf> ways_down(Drawing const& drawing) {
+    std::map<std::pair<double, double>, std::vector<VertexOf>> at; // of every vertex but an outlet
+    for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
+        Vec2 const end = drawing.rivers[r].line.back();
+        at[{end.x, end.y}];
+    }
+    for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
+        DrawnLine const& line = drawing.rivers[r].line;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            if (auto const found = at.find({line[i].x, line[i].y}); found != at.end()) {
+                found->second.push_back({r, i});
+            }
+        }
+    }
+    std::vector<VertexOf> below(drawing.rivers.size());
+    for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
+        Vec2 const end = drawing.rivers[r].line.back();
+        for (VertexOf const& one : at[{end.x, end.y}]) {
+            below[r] = below[r].river == none && one.river != r ? one : below[r];
+        }
+    }
+    return below;
+}
+
+/// Whether a place of a river is its outlet.
+bool is_outlet(Drawing const& drawing, Spot const& spot) {
+    return distance(drawing.rivers[spot.river].line.back(), spot.at) <= drawing.grid.cell_m &&
+           ways_down(drawing)[spot.river].river == none;
+}
+
+/// Whether water from a river comes by another.
+bool flows_through(Drawing const& drawing, std::size_t from, std::size_t through) {
+    std::vector<VertexOf> const below = ways_down(drawing);
+    for (std::size_t rounds = 0; from != none && rounds <= drawing.rivers.size(); ++rounds) {
+        if (from == through) {
+            return true;
+        }
+        from = below[from].river;
+    }
+    return false;
+}
+
+/// Rivers that begin where others end go on from the longest of these: none begins at another's end any more.
+std::vector<DrawnRiver> as_streams(Drawing const& drawing) {
+    std::vector<VertexOf> const below = ways_down(drawing);
+    std::vector<std::vector<std::size_t>> above(below.size()); // those that end where a river begins
+    std::vector<std::size_t> upwards;
+    for (std::size_t r = 0; r < below.size(); ++r) {
+        if (below[r].river != none && below[r].vertex == 0) {
+            above[below[r].river].push_back(r);
+        } else {
+            upwards.push_back(r);
+        }
+    }
+    for (std::size_t i = 0; i < upwards.size(); ++i) {
+        upwards.insert(upwards.end(), above[upwards[i]].begin(), above[upwards[i]].end());
+    }
+    std::vector<DrawnRiver> streams = drawing.rivers;
+    std::vector<std::size_t> gone;
+    for (auto river = upwards.rbegin(); river != upwards.rend(); ++river) {
+        std::vector<std::size_t> const& from = above[*river];
+        if (from.empty()) {
+            continue;
+        }
+        std::size_t const longest =
+            *std::ranges::max_element(from, {}, [&](std::size_t r) { return length_along(streams[r].line); });
+        DrawnLine line = std::move(streams[longest].line);
+        line.insert(line.end(), streams[*river].line.begin() + 1, streams[*river].line.end());
+        streams[*river].line = std::move(line);
+        gone.push_back(longest);
+    }
+    std::ranges::sort(gone, std::greater());
+    for (std::size_t const r : gone) {
+        streams.erase(streams.begin() + static_cast<std::ptrdiff_t>(r));
+    }
+    return streams;
+}
+
+/// The distance from a vertex that two rivers share.
+double from_joint(DrawnLine const& one, DrawnLine const& other, Vec2 p) {
+    double least = infinite;
+    std::set<std::pair<double, double>> places;
+    for (Vec2 const q : one) {
+        places.insert({q.x, q.y});
+    }
+    for (Vec2 const q : other) {
+        if (places.contains({q.x, q.y})) {
+            least = std::min(least, distance(p, q));
+        }
+    }
+    return least;
+}
+
+/// The nearest place on a line of several, and whether it lies at the line's left.
+struct Beside {
+    std::size_t line = none;
+    Vec2 at;
+    double away_m = infinite;
+    bool is_left = true;
+};
+
+Beside nearest_coast(std::vector<DrawnLine> const& coasts, Vec2 p) {
+    Beside nearest;
+    double aside =
+        0.0; // of two that meet at the nearest place the one with the greater distance from its straight line
+    for (std::size_t c = 0; c < coasts.size(); ++c) {
+        for (std::size_t i = 0; i + 1 < coasts[c].size(); ++i) {
+            Vec2 const a = coasts[c][i];
+            Vec2 const b = coasts[c][i + 1];
+            Vec2 const foot = geometry::foot_on(a, b, p).at;
+            double const away_m = distance(foot, p);
+            double const turn = cross(a, b, p) / distance(a, b);
+            constexpr double tie = 1e-9;
+            bool const is_nearer = away_m < nearest.away_m * (1.0 - tie);
+            if (is_nearer || (away_m <= nearest.away_m * (1.0 + tie) && std::fabs(turn) > aside)) {
+                nearest = {c, foot, away_m, turn >= 0.0};
+                aside = std::fabs(turn);
+            }
+        }
+    }
+    return nearest;
+}
+
+/// Where two lines cross; nothing: nowhere.
+std::optional<Vec2> crossing_of(DrawnLine const& one, DrawnLine const& other) {
+    for (std::size_t i = 0; i + 1 < one.size(); ++i) {
+        for (std::size_t k = 0; k + 1 < other.size(); ++k) {
+            if (cross_over(one[i], one[i + 1], other[k], other[k + 1])) {
+                double const from = cross(other[k], other[k + 1], one[i]);
+                double const to = cross(other[k], other[k + 1], one[i + 1]);
+                return one[i] + from / (from - to) * (one[i + 1] - one[i]);
+            }
+        }
+    }
+    return std::nullopt;
+}
+
+/// Throws where a stretch of a river lies in the sea, crosses another or comes too near, but for where they meet.
+void require_clear(Drawing const& drawing, std::size_t river, std::size_t first, std::size_t last, double clear_m) {
+    constexpr double widening = 0.2; // rivers part by more than this share of the way from where they meet
+    DrawnLine const& line = drawing.rivers[river].line;
+    DrawnLine const changed(line.begin() + static_cast<std::ptrdiff_t>(first),
+                            line.begin() + static_cast<std::ptrdiff_t>(last) + 1);
+    DrawnLine const stretch = resampled(changed, pace * drawing.grid.cell_m);
+    constexpr double at_coast = 0.01; // [cells]
+    for (Vec2 const p : stretch) {
+        Beside const coast = nearest_coast(drawing.coasts, p);
+        if (!coast.is_left && coast.away_m > at_coast * drawing.grid.cell_m) {
+            throw NotDrawn("studio.drawing: the river would run through the sea here", p);
+        }
+    }
+    auto const [left, right] = std::ranges::minmax(stretch, {}, &Vec2::x);
+    auto const [low, high] = std::ranges::minmax(stretch, {}, &Vec2::y);
+    for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
+        std::optional<Vec2> const at =
+            r != river ? crossing_of(changed, drawing.rivers[r].line) : std::optional<Vec2>();
+        if (at) {
+            throw NotDrawn("studio.drawing: the river would cross another one here; let it end there instead", at);
+        }
+    }
+    for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
+        DrawnLine const& other = drawing.rivers[r].line;
+        for (std::size_t i = 0; r != river && i + 1 < other.size(); ++i) {
+            Vec2 const a = other[i];
+            Vec2 const b = other[i + 1];
+            if (std::max(a.x, b.x) < left.x - clear_m || std::min(a.x, b.x) > right.x + clear_m ||
+                std::max(a.y, b.y) < low.y - clear_m || std::min(a.y, b.y) > high.y + clear_m) {
+                continue;
+            }
+            for (Vec2 const p : stretch) {
+                double const away_m = distance(geometry::foot_on(a, b, p).at, p);
+                if (away_m >= clear_m) {
+                    continue;
+                }
+                double const along_m = from_joint(line, other, p);
+                if (away_m >= std::min(clear_m, widening * along_m) || along_m < drawing.grid.cell_m) {
+                    continue;
+                }
+                throw NotDrawn(fmt::format("studio.drawing: it comes too near to another river here: keep {} cells "
+                                           "apart, or let it end there",
+                                           clear_m / drawing.grid.cell_m),
+                               p);
+            }
+        }
+    }
+}
+
+void require_clear(Drawing const& drawing, std::size_t river, double clear_m) {
+    require_clear(drawing, river, 0, drawing.rivers[river].line.size() - 1, clear_m);
+}
+
+} // namespace
+
+bool is_land(Drawing const& drawing, Vec2 at) {
+    return nearest_coast(drawing.coasts, at).is_left;
+}
+
+namespace {
+
+/// The place on the border that is nearest.
+Vec2 on_border(Grid const& grid, Vec2 p) {
+    std::pair<double, Vec2> const sides[] = {{p.x - grid.west, {grid.west, p.y}},
+                                             {grid.east() - p.x, {grid.east(), p.y}},
+                                             {p.y - grid.south(), {p.x, grid.south()}},
+                                             {grid.north - p.y, {p.x, grid.north}}};
+    return rounded(std::ranges::min_element(sides, {}, &std::pair<double, Vec2>::first)->second);
+}
+
+/// The share of the way from land to sea at which a straight line leaves the land.
+Vec2 shore_between(std::vector<DrawnLine> const& coasts, Vec2 land, Vec2 sea) {
+    constexpr int halvings = 30;
+    for (int i = 0; i < halvings; ++i) {
+        Vec2 const middle = 0.5 * (land + sea);
+        (nearest_coast(coasts, middle).is_left ? land : sea) = middle;
+    }
+    return rounded(land);
+}
+
+/// The parts of a line that lie on land, in its order.
+std::vector<DrawnLine> parts_on_land(std::vector<DrawnLine> const& coasts, DrawnLine const& line, double cell_m) {
+    if (coasts.empty()) {
+        return {line};
+    }
+    std::vector<DrawnLine> parts;
+    bool was_land = false;
+    Vec2 before = line.front();
+    auto const step = [&](Vec2 p, bool is_vertex) {
+        bool const is_on_land = nearest_coast(coasts, p).is_left;
+        if (is_on_land && !was_land) {
+            parts.emplace_back();
+            if (p != line.front()) {
+                parts.back().push_back(shore_between(coasts, p, before));
+            }
+        }
+        if (was_land && !is_on_land) {
+            parts.back().push_back(shore_between(coasts, before, p));
+        } else if (is_on_land && is_vertex) {
+            parts.back().push_back(p);
+        }
+        was_land = is_on_land;
+        before = p;
+    };
+    step(line.front(), true);
+    for (std::size_t i = 1; i < line.size(); ++i) {
+        DrawnLine const places = resampled({line[i - 1], line[i]}, pace * cell_m);
+        for (std::size_t k = 1; k < places.size(); ++k) {
+            step(places[k], k + 1 == places.size());
+        }
+    }
+    for (DrawnLine& part : parts) {
+        part = without_repeats(std::move(part));
+    }
+    std::erase_if(parts,
+                  [&](DrawnLine const& part) { return part.size() < 2 || length_along(part) < least_length * cell_m; });
+    return parts;
+}
+
+/// What an end of a new river meets.
+struct End {
+    enum class Meets : std::uint8_t { nothing, border, coast, river } meets = Meets::nothing;
+    Vec2 at;
+    Spot on;                ///< of a river
+    bool continues = false; ///< it is the outlet of that river
+};
+
+End end_of(Drawing const& drawing, Vec2 p, std::size_t without) {
+    double const reach_m = snap * drawing.grid.cell_m;
+    Spot const spot = nearest_on_rivers(drawing, p, without, reach_m);
+    if (spot.river != none) {
+        return {End::Meets::river, spot.at, spot, is_outlet(drawing, spot)};
+    }
+    Beside const coast = nearest_coast(drawing.coasts, p);
+    if (coast.away_m < reach_m) {
+        return {End::Meets::coast, rounded(coast.at), {}};
+    }
+    Vec2 const edge = on_border(drawing.grid, p);
+    if (distance(edge, p) < reach_m) {
+        return {End::Meets::border, edge, {}};
+    }
+    return {End::Meets::nothing, p, {}};
+}
+
+bool can_begin(End const& end) {
+    return end.meets != End::Meets::river || end.continues;
+}
+
+/// Where an end that was cut back, or snapped, lies now; places that it passed go.
+void set_end(DrawnLine& line, Vec2 at, double cell_m) {
+    while (line.size() > 2 && distance(line[line.size() - 2], at) < cell_m) {
+        line.erase(line.end() - 2);
+    }
+    line.back() = at;
+}
+
+void require_type(std::string const& type, int lambda) {
+    constexpr int most = 50;
+    refuse_if<BadParameter>(!type.empty() && !network::rosgen_of(type),
+                            "studio.drawing: {} is no river type: Aa+, A, B, C, D, DA, E, F and G are", type);
+    refuse_if<BadParameter>(lambda < 0 || lambda > most, "studio.drawing: lambda = {} is outside [1, {}]", lambda,
+                            most);
+}
+
+std::size_t require_river(Drawing const& drawing, std::size_t river) {
+    if (river >= drawing.rivers.size()) {
+        throw NotDrawn(fmt::format("studio.drawing: there is no river {}", river));
+    }
+    return river;
+}
+
+std::string many(std::size_t count, char const* one, char const* more) {
+    return count == 1 ? fmt::format("1 {}", one) : fmt::format("{} {}", count, more);
+}
+
+/// A step on its drawing.
+class Hand {
+public:
+    explicit Hand(Drawing drawing) : is_(std::move(drawing)) {}
+
+    Drawn result() { return {std::move(is_), std::move(name_), std::move(said_)}; }
+
+    void operator()(DrawRiver const& step) {
+        name_ = "a river";
+        require_type(step.type, step.lambda);
+        DrawnLine line = stroke_of(is_.grid, inside_grid(is_.grid, step.points));
+        require_no_loop(line, false, touching * is_.grid.cell_m);
+        line = on_land(std::move(line));
+        End begin = end_of(is_, line.front(), none);
+        End end = end_of(is_, line.back(), none);
+        if (is_upstream(begin, end)) {
+            std::ranges::reverse(line);
+            std::swap(begin, end);
+            said_.emplace_back("the river runs against your stroke, to where it meets other water");
+        }
+        bool const begins_and_ends_on_one = begin.on.river != none && begin.on.river == end.on.river;
+        if (begins_and_ends_on_one ||
+            (begin.on.river != none && end.on.river != none && flows_through(is_, end.on.river, begin.on.river))) {
+            throw NotDrawn("studio.drawing: the river would flow in a circle", end.at);
+        }
+        if (end.meets != End::Meets::nothing) {
+            set_end(line, end.on.river == none ? end.at : vertex_at(is_, end.on), is_.grid.cell_m);
+        }
+        if (begin.meets != End::Meets::nothing) { // numbers of segments hold: the other river is another one
+            std::ranges::reverse(line);
+            set_end(line, begin.on.river == none ? begin.at : is_.rivers[begin.on.river].line.back(), is_.grid.cell_m);
+            std::ranges::reverse(line);
+        }
+        if (length_along(line) < least_length * is_.grid.cell_m) {
+            throw NotDrawn(fmt::format("studio.drawing: the river would be shorter than {} cells", least_length),
+                           line.back());
+        }
+        is_.rivers.push_back({std::move(line), step.type, step.lambda});
+        require_clear(is_, is_.rivers.size() - 1, clearance * is_.grid.cell_m);
+    }
+
+    void operator()(MoveVertex const& step) {
+        DrawnLine& line = line_of(step.of, step.vertex);
+        name_ = fmt::format("{} moved", called(step.of));
+        Vec2 to = in_grid(is_.grid, step.to);
+        if (step.of.kind != Part::Kind::river) {
+            moved_shape(line, step, to);
+            return;
+        }
+        std::size_t const river = step.of.number;
+        Vec2 const from = line[step.vertex];
+        bool const is_free = !is_shared(river, from);
+        bool const is_end = step.vertex + 1 == line.size();
+        bool const is_begin = step.vertex == 0;
+        if (is_free && (is_end || is_begin)) {
+            End const end = end_of(is_, to, river);
+            if (end.meets == End::Meets::river) {
+                join(river, is_begin, end);
+                return;
+            }
+            to = rounded(end.at);
+        }
+        if (!is_land(is_, to) && !(is_end && end_of(is_, to, river).meets == End::Meets::coast)) {
+            throw NotDrawn("studio.drawing: this place lies in the sea", to);
+        }
+        move(river, step.vertex, to, step.reach_m);
+    }
+
+    void operator()(InsertVertex const& step) {
+        DrawnLine& line = line_of(step.of, 0);
+        name_ = fmt::format("a vertex of {}", called(step.of));
+        bool const is_line = step.of.kind == Part::Kind::river || step.of.kind == Part::Kind::coast;
+        if (step.vertex > line.size() || (is_line && (step.vertex == 0 || step.vertex == line.size()))) {
+            throw NotDrawn("studio.drawing: a vertex is put between two others");
+        }
+        line.insert(line.begin() + static_cast<std::ptrdiff_t>(step.vertex), in_grid(is_.grid, step.at));
+        settle(step.of, step.vertex, step.vertex);
+    }
+
+    void operator()(RemoveVertex const& step) {
+        DrawnLine& line = line_of(step.of, step.vertex);
+        name_ = fmt::format("a vertex of {} removed", called(step.of));
+        Vec2 const at = line[step.vertex];
+        bool const is_river = step.of.kind == Part::Kind::river;
+        if (is_river && is_shared(step.of.number, at) && step.vertex + 1 != line.size()) {
+            throw NotDrawn("studio.drawing: another river joins here: move it first", at);
+        }
+        bool const is_closed = step.of.kind == Part::Kind::coast && line.front() == line.back();
+        std::size_t const least = is_river || (step.of.kind == Part::Kind::coast && !is_closed) ? 2 : is_closed ? 4 : 3;
+        if (line.size() <= least) {
+            throw NotDrawn("studio.drawing: no vertex more can go: erase it as a whole", at);
+        }
+        line.erase(line.begin() + static_cast<std::ptrdiff_t>(step.vertex));
+        if (is_closed && (step.vertex == 0 || step.vertex == line.size())) {
+            (step.vertex == 0 ? line.back() : line.front()) = step.vertex == 0 ? line.front() : line.back();
+        }
+        std::size_t const last = line.size() - 1;
+        settle(step.of, std::min(step.vertex, last), std::min(step.vertex, last));
+    }
+
+    void operator()(CutRiver const& step) {
+        name_ = "a river cut";
+        std::size_t const river = require_river(is_, step.river);
+        DrawnLine const& line = is_.rivers[river].line;
+        Spot spot;
+        for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+            Vec2 const foot = geometry::foot_on(line[i], line[i + 1], step.at).at;
+            if (distance(foot, step.at) < spot.away_m) {
+                spot = {river, i, foot, distance(foot, step.at)};
+            }
+        }
+        Vec2 const at = vertex_at(is_, spot);
+        DrawnLine const whole = is_.rivers[river].line;
+        auto const middle = std::ranges::find(whole, at);
+        DrawnLine upper(whole.begin(), middle + 1);
+        DrawnLine lower(middle, whole.end());
+        double const least_m = least_length * is_.grid.cell_m;
+        if (length_along(lower) < least_m || length_along(upper) < least_m + gap * is_.grid.cell_m) {
+            throw NotDrawn("studio.drawing: too near to its end to be cut", at);
+        }
+        shorten(upper, river);
+        is_.rivers[river].line = std::move(lower);
+        DrawnRiver above = is_.rivers[river];
+        above.line = std::move(upper);
+        is_.rivers.push_back(std::move(above));
+    }
+
+    void operator()(JoinRiver const& step) {
+        name_ = "rivers joined";
+        std::size_t const river = require_river(is_, step.river);
+        Vec2 const end = step.at_source ? is_.rivers[river].line.front() : is_.rivers[river].line.back();
+        if (is_shared(river, end)) {
+            throw NotDrawn("studio.drawing: this end meets another river already: cut it off first", end);
+        }
+        join(river, step.at_source, end_of(is_, in_grid(is_.grid, step.at), river));
+    }
+
+    void operator()(ReverseRiver const& step) {
+        name_ = "a river reversed";
+        std::size_t river = require_river(is_, step.river);
+        std::size_t vertex = 0;
+        // All ways are found before the first river runs the other way.
+        std::vector<VertexOf> const below = ways_down(is_);
+        std::vector<VertexOf> way;
+        for (; river != none && way.size() <= is_.rivers.size();) {
+            way.push_back({river, vertex});
+            VertexOf const next = below[river];
+            river = next.river;
+            vertex = next.vertex;
+        }
+        for (VertexOf const& one : way) {
+            DrawnRiver turned = is_.rivers[one.river];
+            DrawnLine const line = turned.line;
+            turned.line.assign(line.rbegin(), line.rend() - static_cast<std::ptrdiff_t>(one.vertex));
+            if (one.vertex == 0) {
+                is_.rivers[one.river] = std::move(turned);
+            } else {
+                is_.rivers[one.river].line.resize(one.vertex + 1);
+                is_.rivers.push_back(std::move(turned));
+            }
+        }
+        if (way.size() > 1) {
+            said_.push_back(fmt::format("{} below it run the other way too", many(way.size() - 1, "river", "rivers")));
+        }
+    }
+
+    void operator()(Erase const& step) {
+        line_of(step.of, 0);
+        name_ = fmt::format("{} erased", called(step.of));
+        std::size_t const number = step.of.number;
+        switch (step.of.kind) {
+        case Part::Kind::river: erase_river(number, step.alone); break;
+        case Part::Kind::coast: remove(is_.coasts, number); break;
+        case Part::Kind::lake: remove(is_.lakes, number); break;
+        case Part::Kind::mask: remove(is_.masks, number); break;
+        }
+    }
+
+    void operator()(SetType const& step) {
+        name_ = fmt::format("river type {}", step.type.empty() ? "none" : step.type);
+        require_type(step.type, 0);
+        for (std::size_t const river : step.rivers) {
+            is_.rivers[require_river(is_, river)].type = step.type;
+        }
+    }
+    void operator()(SetLambda const& step) {
+        name_ = fmt::format("lambda = {}", step.lambda);
+        require_type("", step.lambda);
+        for (std::size_t const river : step.rivers) {
+            is_.rivers[require_river(is_, river)].lambda = step.lambda;
+        }
+    }
+    void operator()(SetSideStreams const& step) {
+        name_ = step.on ? "with side streams" : "without side streams";
+        if (step.on && !is_.coasts.empty()) {
+            throw NotDrawn("studio.drawing: rivers with side streams know no coast: erase the coasts, or draw the side "
+                           "streams yourself");
+        }
+        if (step.on) {
+            is_.rivers = as_streams(is_);
+        }
+        is_.has_side_streams = step.on;
+    }
+
+    void operator()(DrawCoast const& step) {
+        name_ = "a coast";
+        if (is_.has_side_streams) {
+            throw NotDrawn("studio.drawing: rivers with side streams know no coast: turn side streams off first");
+        }
+        DrawnLine line = stroke_of(is_.grid, step.points);
+        double const apart_m = distance(line.front(), line.back());
+        constexpr double nearly = 0.15; // of the line's length
+        double const near_m = std::max(2.0 * snap * is_.grid.cell_m, nearly * length_along(line));
+        bool const is_closed = apart_m < near_m && !(at_border(line.front()) && at_border(line.back()));
+        if (is_closed) {
+            line.back() = line.front();
+            line = without_repeats(std::move(line));
+        } else {
+            carry_to_border(line);
+            std::ranges::reverse(line);
+            carry_to_border(line);
+            std::ranges::reverse(line);
+        }
+        require_no_loop(line, is_closed, touching * is_.grid.cell_m);
+        require_apart(line);
+        if (is_closed && area_of(line) < 0.0) {
+            std::ranges::reverse(line); // counterclockwise: land within
+        }
+        if (prefers_other_side(line)) {
+            std::ranges::reverse(line);
+            said_.emplace_back("the land is where the rivers are; \"swap\" makes it the sea");
+        }
+        is_.coasts.push_back(std::move(line));
+        cut_at_coasts();
+    }
+    void operator()(SwapSides const& step) {
+        name_ = "land and sea swapped";
+        line_of({Part::Kind::coast, step.coast}, 0);
+        std::ranges::reverse(is_.coasts[step.coast]);
+        cut_at_coasts();
+    }
+
+    void operator()(DrawLake const& step) {
+        name_ = "a lake";
+        DrawnLine ring = ring_of(step.points);
+        bool const has_river = std::ranges::any_of(is_.rivers, [&](DrawnRiver const& river) {
+            return std::ranges::any_of(resampled(river.line, is_.grid.cell_m), [&](Vec2 p) { return holds(ring, p); });
+        });
+        if (!has_river) {
+            said_.emplace_back("no river runs through this lake: it holds water only where one does");
+        }
+        is_.lakes.push_back({{std::move(ring)}, level_of(step.level_m)});
+    }
+    void operator()(SetLevel const& step) {
+        line_of({Part::Kind::lake, step.lake}, 0);
+        is_.lakes[step.lake].level_m = level_of(step.level_m);
+        name_ = step.level_m ? fmt::format("lake level {} m", *step.level_m) : "lake level by the terrain";
+    }
+    void operator()(DrawMask const& step) {
+        name_ = "a mask";
+        is_.masks.push_back(ring_of(step.points));
+    }
+    void operator()(Clear const&) {
+        name_ = "an empty sheet";
+        Drawing empty;
+        empty.grid = is_.grid;
+        is_ = std::move(empty);
+    }
+
+private:
+    template <class T> static void remove(std::vector<T>& from, std::size_t number) {
+        from.erase(from.begin() + static_cast<std::ptrdiff_t>(number));
+    }
+
+    static char const* called(Part const& part) {
+        static constexpr char const* names[] = {"a river", "a coast", "a lake", "a mask"};
+        return names[static_cast<std::size_t>(part.kind)];
+    }
+
+    /// The line of a part, which must have a vertex.
+    DrawnLine& line_of(Part const& part, std::size_t vertex) {
+        std::size_t const counts[] = {is_.rivers.size(), is_.coasts.size(), is_.lakes.size(), is_.masks.size()};
+        if (part.number >= counts[static_cast<std::size_t>(part.kind)]) {
+            throw NotDrawn(
+                fmt::format("studio.drawing: {} with the number {} is not there", called(part), part.number));
+        }
+        DrawnLine& line = part.kind == Part::Kind::river   ? is_.rivers[part.number].line
+                          : part.kind == Part::Kind::coast ? is_.coasts[part.number]
+                          : part.kind == Part::Kind::lake  ? is_.lakes[part.number].rings.front()
+                                                           : is_.masks[part.number];
+        if (vertex >= line.size()) {
+            throw NotDrawn(fmt::format("studio.drawing: {} has no vertex {}", called(part), vertex));
+        }
+        return line;
+    }
+
+    static std::optional<double> level_of(std::optional<double> level_m) {
+        constexpr double deepest = -12000.0;
+        constexpr double highest = 30000.0;
+        refuse_if<BadParameter>(level_m && !(*level_m >= deepest && *level_m <= highest),
+                                "studio.drawing: a lake's level lies between {} and {} m", deepest, highest);
+        return level_m;
+    }
+
+    /// The longest part of a line on land.
+    DrawnLine on_land(DrawnLine line) {
+        std::vector<DrawnLine> parts = parts_on_land(is_.coasts, line, is_.grid.cell_m);
+        if (parts.empty()) {
+            throw NotDrawn("studio.drawing: this lies in the sea: rivers run on land", line.front());
+        }
+        DrawnLine longest = *std::ranges::max_element(parts, {}, length_along);
+        double const cut_m = length_along(line) - length_along(longest);
+        if (cut_m > is_.grid.cell_m) {
+            said_.push_back(
+                fmt::format("the river ends at the coast: {:.3g} km in the sea were left out", cut_m / 1e3));
+        }
+        return longest;
+    }
+
+    /// Whether a new river runs against its stroke.
+    static bool is_upstream(End const& begin, End const& end) {
+        bool const as_drawn = can_begin(begin);
+        bool const turned = can_begin(end);
+        if (!as_drawn && !turned) {
+            throw NotDrawn(
+                "studio.drawing: a river cannot flow out of another one: water has one way down. Let one end "
+                "lie apart, or begin where a river ends",
+                begin.at);
+        }
+        if (as_drawn != turned) {
+            return turned;
+        }
+        auto const rank = [](End const& e) { return e.continues ? -1 : static_cast<int>(e.meets); };
+        return rank(begin) > std::max(rank(end), 0);
+    }
+
+    /// Whether another river has a vertex there.
+    bool is_shared(std::size_t river, Vec2 at) const {
+        for (std::size_t r = 0; r < is_.rivers.size(); ++r) {
+            if (r != river && std::ranges::find(is_.rivers[r].line, at) != is_.rivers[r].line.end()) {
+                return true;
+            }
+        }
+        return false;
+    }
+
+    void move(std::size_t river, std::size_t vertex, Vec2 to, double reach_m) {
+        DrawnLine const before = is_.rivers[river].line;
+        Vec2 const by = to - before[vertex];
+        std::map<std::pair<double, double>, Vec2> places; // from, to
+        std::size_t first = vertex;
+        std::size_t last = vertex;
+        auto const carry = [&](std::size_t i, double along_m) {
+            double const share = along_m / std::max(reach_m, 1e-9);
+            double const weight = i == vertex ? 1.0 : (1.0 - share * share) * (1.0 - share * share);
+            places[{before[i].x, before[i].y}] = i == vertex ? to : in_grid(is_.grid, before[i] + weight * by);
+            first = std::min(first, i);
+            last = std::max(last, i);
+        };
+        carry(vertex, 0.0);
+        double along_m = 0.0;
+        for (std::size_t i = vertex + 1; i < before.size(); ++i) {
+            along_m += distance(before[i - 1], before[i]);
+            if (along_m >= reach_m || (i + 1 == before.size() && vertex + 1 != before.size())) {
+                break; // an end stays unless it is what is moved
+            }
+            carry(i, along_m);
+        }
+        along_m = 0.0;
+        for (std::size_t i = vertex; i > 0; --i) {
+            along_m += distance(before[i], before[i - 1]);
+            if (along_m >= reach_m || i == 1) {
+                break;
+            }
+            carry(i - 1, along_m);
+        }
+        std::set<std::size_t> touched;
+        for (std::size_t r = 0; r < is_.rivers.size(); ++r) {
+            for (Vec2& p : is_.rivers[r].line) {
+                if (auto const found = places.find({p.x, p.y}); found != places.end()) {
+                    p = found->second;
+                    touched.insert(r);
+                }
+            }
+        }
+        for (std::size_t const r : touched) {
+            DrawnLine& line = is_.rivers[r].line;
+            std::size_t const count = line.size();
+            line = without_repeats(std::move(line));
+            if (line.size() < 2) {
+                throw NotDrawn("studio.drawing: nothing would be left of a river here", to);
+            }
+            require_no_loop(line, false, touching * is_.grid.cell_m);
+            bool const is_own = r == river && line.size() == count;
+            std::size_t const begin = is_own && first > 0 ? first - 1 : 0;
+            std::size_t const end = is_own ? std::min(last + 1, line.size() - 1) : line.size() - 1;
+            require_clear(is_, r, begin, end, 0.5 * clearance * is_.grid.cell_m);
+        }
+    }
+
+    /// Carries a free end of a river to another river, a coast, the border or a place.
+    void join(std::size_t river, bool at_source, End const& end) {
+        name_ = end.meets == End::Meets::river ? "rivers joined" : "a river carried on";
+        if (end.meets == End::Meets::river && at_source) {
+            if (!end.continues) {
+                throw NotDrawn("studio.drawing: a river cannot flow out of another one: water has one way down. Its "
+                               "source can only be joined to where a river ends",
+                               end.at);
+            }
+            extend(end.on.river, is_.rivers[river].line.front(), river); // the other one runs on in this one
+            return;
+        }
+        if (end.meets == End::Meets::river) {
+            if (flows_through(is_, end.on.river, river)) {
+                throw NotDrawn("studio.drawing: the river would flow in a circle", end.at);
+            }
+            extend(river, vertex_at(is_, end.on), end.on.river);
+            return;
+        }
+        if (at_source) {
+            DrawnLine& line = is_.rivers[river].line;
+            line.insert(line.begin(), rounded(end.at));
+            require_no_loop(line, false, touching * is_.grid.cell_m);
+            require_clear(is_, river, 0, 1, clearance * is_.grid.cell_m);
+            return;
+        }
+        extend(river, rounded(end.at), none);
+    }
+
+    void extend(std::size_t river, Vec2 to, std::size_t into) {
+        if (into != none && river != into && flows_through(is_, into, river)) {
+            throw NotDrawn("studio.drawing: the river would flow in a circle", to);
+        }
+        DrawnLine& line = is_.rivers[river].line;
+        if (line.back() == to) {
+            throw NotDrawn("studio.drawing: it lies there already", to);
+        }
+        if (distance(line.back(), to) <= snap * is_.grid.cell_m && line.size() > 2 && !is_shared(river, line.back())) {
+            set_end(line, to, is_.grid.cell_m);
+        } else {
+            line.push_back(to);
+        }
+        require_no_loop(line, false, touching * is_.grid.cell_m);
+        require_clear(is_, river, line.size() - 2, line.size() - 1, clearance * is_.grid.cell_m);
+    }
+
+    /// Takes a few cells from the lower end of a line, as far as no river joins it.
+    void shorten(DrawnLine& line, std::size_t river) {
+        double left_m = gap * is_.grid.cell_m;
+        while (line.size() > 1) {
+            Vec2 const end = line.back();
+            Vec2 const before = line[line.size() - 2];
+            double const step_m = distance(before, end);
+            if (step_m > left_m) {
+                line.back() = rounded(end + (left_m / step_m) * (before - end));
+                return;
+            }
+            if (is_shared(river, before)) {
+                throw NotDrawn("studio.drawing: a river joins too near above: cut elsewhere", before);
+            }
+            line.pop_back();
+            left_m -= step_m;
+        }
+    }
+
+    void erase_river(std::size_t river, bool alone) {
+        std::vector<std::size_t> gone = rivers_into(is_, river);
+        if (!gone.empty()) {
+            said_.push_back(
+                alone ? fmt::format("{} end inland now", many(gone.size(), "river above it does", "rivers above it"))
+                      : fmt::format("{} that flow into it went with it", many(gone.size(), "river", "rivers")));
+        }
+        if (alone) {
+            gone.clear();
+        }
+        gone.push_back(river);
+        std::ranges::sort(gone, std::greater());
+        for (std::size_t const one : gone) {
+            remove(is_.rivers, one);
+        }
+    }
+
+    DrawnLine ring_of(DrawnLine const& points) {
+        DrawnLine line = taken(is_.grid, points);
+        line.push_back(line.front());
+        line = geometry::simplify(smoothed_ring(line), coarseness * is_.grid.cell_m);
+        std::ranges::transform(line, line.begin(), [](Vec2 p) { return rounded(p); });
+        line = without_repeats(std::move(line));
+        constexpr double least_cells = 9.0;
+        if (line.size() < 4 || std::fabs(area_of(line)) < least_cells * is_.grid.cell_m * is_.grid.cell_m) {
+            throw NotDrawn(fmt::format("studio.drawing: this area has fewer than {} cells", least_cells), line.front());
+        }
+        require_no_loop(line, true, touching * is_.grid.cell_m);
+        line.pop_back();
+        return line;
+    }
+
+    DrawnLine smoothed_ring(DrawnLine const& line) const { return smoothed(line, is_.grid.cell_m); }
+
+    /// Twice the area is positive where a closed line runs counterclockwise. [m2]
+    static double area_of(DrawnLine const& line) {
+        double twice = 0.0;
+        for (std::size_t i = 1; i + 1 < line.size(); ++i) {
+            twice += cross(line.front(), line[i], line[i + 1]);
+        }
+        return 0.5 * twice;
+    }
+
+    static bool holds(DrawnLine const& ring, Vec2 p) {
+        bool is_inside = false;
+        for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++) {
+            bool const spans = (ring[i].y > p.y) != (ring[k].y > p.y);
+            if (spans && p.x < ring[i].x + (p.y - ring[i].y) / (ring[k].y - ring[i].y) * (ring[k].x - ring[i].x)) {
+                is_inside = !is_inside;
+            }
+        }
+        return is_inside;
+    }
+
+    bool at_border(Vec2 p) const { return distance(on_border(is_.grid, p), p) < 2.0 * snap * is_.grid.cell_m; }
+
+    void carry_to_border(DrawnLine& line) const {
+        Vec2 const edge = on_border(is_.grid, line.back());
+        if (at_border(line.back())) {
+            set_end(line, edge, is_.grid.cell_m);
+        } else {
+            line.push_back(edge);
+        }
+    }
+
+    void require_apart(DrawnLine const& line) const {
+        for (DrawnLine const& coast : is_.coasts) {
+            for (std::size_t i = 0; i + 1 < coast.size(); ++i) {
+                for (std::size_t k = 0; k + 1 < line.size(); ++k) {
+                    double const near_m = touching * is_.grid.cell_m;
+                    auto const lies_on = [&](Vec2 a, Vec2 b, Vec2 p) {
+                        return distance(geometry::foot_on(a, b, p).at, p) < near_m;
+                    };
+                    if (cross_over(coast[i], coast[i + 1], line[k], line[k + 1]) ||
+                        lies_on(coast[i], coast[i + 1], line[k]) || lies_on(line[k], line[k + 1], coast[i])) {
+                        throw NotDrawn("studio.drawing: the coast would cross another one here", line[k]);
+                    }
+                }
+            }
+        }
+    }
+
+    /// Whether more of the rivers lie at a coast's right.
+    bool prefers_other_side(DrawnLine const& coast) const {
+        std::size_t left = 0;
+        std::size_t right = 0;
+        for (DrawnRiver const& river : is_.rivers) {
+            for (Vec2 const p : resampled(river.line, is_.grid.cell_m)) {
+                ++(nearest_coast({coast}, p).is_left ? left : right);
+            }
+        }
+        return right > left;
+    }
+
+    /// Leaves of every river what lies on land.
+    void cut_at_coasts() {
+        std::vector<DrawnRiver> on_land;
+        double lost_m = 0.0;
+        std::size_t cut = 0;
+        for (DrawnRiver const& river : is_.rivers) {
+            std::vector<DrawnLine> parts = parts_on_land(is_.coasts, river.line, is_.grid.cell_m);
+            double rest_m = length_along(river.line);
+            for (DrawnLine& part : parts) {
+                rest_m -= length_along(part);
+                on_land.push_back(river);
+                on_land.back().line = std::move(part);
+            }
+            if (rest_m > 1e-3) {
+                ++cut;
+                lost_m += rest_m;
+            }
+        }
+        if (cut > 0) {
+            said_.push_back(fmt::format("{} reach into the sea: {:.3g} km were left out", many(cut, "river", "rivers"),
+                                        lost_m / 1e3));
+        }
+        is_.rivers = std::move(on_land);
+    }
+
+    void moved_shape(DrawnLine& line, MoveVertex const& step, Vec2 to) {
+        bool const is_coast = step.of.kind == Part::Kind::coast;
+        bool const is_closed = !is_coast || line.front() == line.back();
+        DrawnLine const before = line;
+        std::size_t const count = is_coast && is_closed ? line.size() - 1 : line.size();
+        bool const is_end = is_coast && !is_closed && (step.vertex == 0 || step.vertex + 1 == count);
+        Vec2 const by = (is_end ? on_border(is_.grid, to) : to) - before[step.vertex % count];
+        for (std::size_t i = 0; i < count; ++i) {
+            bool const is_other_end = is_coast && !is_closed && (i == 0 || i + 1 == count);
+            double const share =
+                way_between(before, count, is_closed, step.vertex % count, i) / std::max(step.reach_m, 1e-9);
+            bool const is_moved = i == step.vertex % count;
+            if (is_moved || (share < 1.0 && !is_other_end)) {
+                double const weight = is_moved ? 1.0 : (1.0 - share * share) * (1.0 - share * share);
+                line[i] = in_grid(is_.grid, before[i] + weight * by);
+            }
+        }
+        if (is_coast && is_closed) {
+            line.back() = line.front();
+        }
+        settle(step.of, 0, line.size() - 1);
+    }
+
+    /// Along a line, or around a ring, the shorter way. [m]
+    static double way_between(DrawnLine const& line, std::size_t count, bool is_closed, std::size_t a, std::size_t b) {
+        double whole = 0.0;
+        double between = 0.0;
+        for (std::size_t i = 0; i < count; ++i) {
+            double const step = i + 1 < count || is_closed ? distance(line[i], line[(i + 1) % count]) : 0.0;
+            whole += step;
+            between += i >= std::min(a, b) && i < std::max(a, b) ? step : 0.0;
+        }
+        return is_closed ? std::min(between, whole - between) : between;
+    }
+
+    /// Checks what was changed between two vertices.
+    void settle(Part const& part, std::size_t first, std::size_t last) {
+        DrawnLine& line = line_of(part, 0);
+        line = without_repeats(std::move(line));
+        switch (part.kind) {
+        case Part::Kind::river: {
+            require_no_loop(line, false, touching * is_.grid.cell_m);
+            std::size_t const end = std::min(last + 1, line.size() - 1);
+            require_clear(is_, part.number, first > 0 ? std::min(first, end) - 1 : 0, end,
+                          0.5 * clearance * is_.grid.cell_m);
+            break;
+        }
+        case Part::Kind::coast: {
+            require_no_loop(line, line.front() == line.back(), touching * is_.grid.cell_m);
+            DrawnLine const changed = line;
+            remove(is_.coasts, part.number);
+            require_apart(changed);
+            is_.coasts.insert(is_.coasts.begin() + static_cast<std::ptrdiff_t>(part.number), changed);
+            cut_at_coasts();
+            break;
+        }
+        case Part::Kind::lake:
+        case Part::Kind::mask: {
+            DrawnLine ring = line;
+            ring.push_back(ring.front());
+            require_no_loop(ring, true, touching * is_.grid.cell_m);
+            break;
+        }
+        }
+    }
+
+    Drawing is_;
+    std::string name_;
+    std::vector<std::string> said_;
+};
+
+} // namespace
+
+namespace {
+
+void require_no_circle(Drawing const& drawing) {
+    std::vector<VertexOf> const below = ways_down(drawing);
+    std::vector<std::size_t> seen(below.size(), none); // from which river first
+    for (std::size_t r = 0; r < below.size(); ++r) {
+        for (std::size_t at = r; at != none && (seen[at] == none || seen[at] == r); at = below[at].river) {
+            if (seen[at] == r) {
+                throw NotDrawn("studio.drawing: the river would flow in a circle", drawing.rivers[at].line.back());
+            }
+            seen[at] = r;
+        }
+    }
+}
+
+} // namespace
+
+Drawn drawn(Drawing drawing, DrawStep const& step) {
+    Hand hand(std::move(drawing));
+    std::visit(hand, step);
+    Drawn result = hand.result();
+    require_no_circle(result.drawing);
+    return result;
+}
+
+std::vector<std::size_t> rivers_into(Drawing const& drawing, std::size_t river) {
+    std::vector<VertexOf> const below = ways_down(drawing);
+    std::vector<std::vector<std::size_t>> above(below.size());
+    for (std::size_t r = 0; r < below.size(); ++r) {
+        if (below[r].river != none) {
+            above[below[r].river].push_back(r);
+        }
+    }
+    std::set<std::size_t> found;
+    std::vector<std::size_t> next{river};
+    while (!next.empty()) {
+        std::size_t const one = next.back();
+        next.pop_back();
+        for (std::size_t const r : above[one]) {
+            if (r != river && found.insert(r).second) {
+                next.push_back(r);
+            }
+        }
+    }
+    return {found.begin(), found.end()};
+}
+
+namespace {
+
+/// The edges between land and sea, from corner to corner of cells, land at their left.
+class Outline {
+public:
+    explicit Outline(Mask const& land) : land_(land), grid_(land.grid()) {
+        for (std::int64_t row = 0; row < grid_.height; ++row) {
+            for (std::int64_t col = 0; col < grid_.width; ++col) {
+                if (land_[Cell{col, row}] == 0) {
+                    continue;
+                }
+                add({col, row + 1}, {col + 1, row + 1}, {col, row + 1}); // to the south: eastwards
+                add({col + 1, row + 1}, {col + 1, row}, {col + 1, row});
+                add({col + 1, row}, {col, row}, {col, row - 1});
+                add({col, row}, {col, row + 1}, {col - 1, row});
+            }
+        }
+    }
+
+    std::vector<DrawnLine> lines() {
+        std::vector<DrawnLine> found;
+        std::set<Corner> ends;
+        for (auto const& [from, to] : edges_) {
+            for (Corner const& corner : to) {
+                ends.insert(corner);
+            }
+        }
+        std::vector<Corner> begins; // open lines first
+        for (auto const& [from, to] : edges_) {
+            if (!ends.contains(from)) {
+                begins.push_back(from);
+            }
+        }
+        for (Corner const& from : begins) {
+            found.push_back(walk(from));
+        }
+        while (!edges_.empty()) {
+            found.push_back(walk(edges_.begin()->first));
+        }
+        return found;
+    }
+
+private:
+    using Corner = std::pair<std::int64_t, std::int64_t>; ///< column, row of the grid's lines
+
+    void add(Corner from, Corner to, Cell beyond) {
+        if (grid_.contains(beyond) && land_[beyond] == 0) {
+            edges_[from].push_back(to);
+        }
+    }
+
+    DrawnLine walk(Corner at) {
+        DrawnLine line{place(at)};
+        Corner const begin = at;
+        Corner before{at.first, at.second};
+        for (auto next = edges_.find(at); next != edges_.end(); next = edges_.find(at)) {
+            std::vector<Corner>& to = next->second;
+            // Where two cells touch at a corner, each keeps its own shore: the walk turns left.
+            auto const chosen = std::ranges::max_element(to, {}, [&](Corner const& c) {
+                return (at.first - before.first) * -(c.second - at.second) -
+                       -(at.second - before.second) * (c.first - at.first);
+            });
+            before = at;
+            at = *chosen;
+            to.erase(chosen);
+            if (to.empty()) {
+                edges_.erase(next);
+            }
+            line.push_back(place(at));
+            if (at == begin) {
+                break;
+            }
+        }
+        return line;
+    }
+
+    Vec2 place(Corner const& corner) const {
+        return {grid_.west + static_cast<double>(corner.first) * grid_.cell_m,
+                grid_.north - static_cast<double>(corner.second) * grid_.cell_m};
+    }
+
+    Mask const& land_;
+    Grid const& grid_;
+    std::map<Corner, std::vector<Corner>> edges_;
+};
+
+} // namespace
+
+std::vector<DrawnLine> coasts_of(Mask const& land) {
+    constexpr double tolerance = 0.75; // [cells]
+    std::vector<DrawnLine> coasts;
+    for (DrawnLine const& line : land.cells() > 0 ? Outline(land).lines() : std::vector<DrawnLine>()) {
+        DrawnLine coast = geometry::simplify(line, tolerance * land.grid().cell_m);
+        std::ranges::transform(coast, coast.begin(), [](Vec2 p) { return rounded(p); });
+        bool const is_closed = coast.front() == coast.back();
+        if (coast.size() >= (is_closed ? 4U : 2U)) {
+            coasts.push_back(std::move(coast));
+        }
+    }
+    return coasts;
+}
+
+} // namespace thalweg::studio

@@ -1,0 +1,385 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/drawing_files.hpp>
+
+#include <algorithm>
+#include <array>
+#include <cctype>
+#include <filesystem>
+#include <limits>
+#include <string_view>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/network/table.hpp>
+#include <thalweg/io/raster/polygons.hpp>
+
+namespace thalweg::studio {
+namespace {
+
+using pipeline::Recipe;
+
+constexpr std::array own_columns{"rosgen", "lambda", "natural", "fid"};
+constexpr char const* coastline = "coastline";
+
+/// In any case of letters.
+bool is_same_name(std::string_view a, std::string_view b) {
+    return std::ranges::equal(a, b,
+                              [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
+}
+
+DrawnLine open_ring(DrawnLine ring) {
+    if (ring.size() > 1 && ring.front() == ring.back()) {
+        ring.pop_back();
+    }
+    return ring;
+}
+
+io::Source file_of(Recipe const& recipe, std::string const& name) {
+    return {(std::filesystem::path(recipe.folder) / name).string(), io::Access::recipe};
+}
+
+DrawnLine line_in(std::vector<Vec3> const& vertices) {
+    DrawnLine line = in_plan(vertices);
+    line.erase(std::ranges::unique(line).begin(), line.end());
+    return line;
+}
+
+bool is_coast(AttributeTable const& attributes, std::int64_t record) {
+    auto const column = std::ranges::find(attributes.columns, "natural", &AttributeTable::Column::name);
+    if (column == attributes.columns.end() || record <= 0) {
+        return false;
+    }
+    auto const& value =
+        attributes
+            .rows[static_cast<std::size_t>(record - 1)][static_cast<std::size_t>(column - attributes.columns.begin())];
+    auto const* text = std::get_if<std::string>(&value);
+    return text != nullptr && *text == coastline;
+}
+
+/// Makes the outlet of every stroke that ends on another one a vertex of it.
+void join_outlets(std::vector<DrawnRiver>& rivers, double near_m) {
+    for (std::size_t r = 0; r < rivers.size(); ++r) {
+        Vec2& end = rivers[r].line.back();
+        for (std::size_t other = 0; other < rivers.size(); ++other) {
+            DrawnLine& line = rivers[other].line;
+            for (std::size_t i = 0; other != r && i + 1 < line.size(); ++i) {
+                geometry::Foot const foot = geometry::foot_on(line[i], line[i + 1], end);
+                if (distance(foot.at, end) > near_m) {
+                    continue;
+                }
+                if (distance(line[i], end) <= near_m || distance(line[i + 1], end) <= near_m) {
+                    end = distance(line[i], end) <= near_m ? line[i] : line[i + 1];
+                } else {
+                    line.insert(line.begin() + static_cast<std::ptrdiff_t>(i) + 1, end);
+                }
+                other = rivers.size() - 1;
+                break;
+            }
+        }
+    }
+}
+
+void read_rivers_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
+    pipeline::NetworkRecipe const& wanted = *recipe.network;
+    drawing.has_side_streams = wanted.source == pipeline::Source::tokunaga;
+    std::string const& name = drawing.has_side_streams ? wanted.tokunaga.strokes : wanted.lines.path;
+    io::ReadRiversParams params{.path = file_of(recipe, name), .crs = drawing.grid.crs};
+    params.layer = drawing.has_side_streams ? wanted.tokunaga.layer : wanted.lines.layer;
+    RiverLines lines;
+    try {
+        lines = io::read_rivers(params, run);
+    } catch (BadInput const&) {
+        if (std::filesystem::path(name).filename() != drawing_name) {
+            throw;
+        }
+        return; // an empty sheet
+    }
+    for (RiverLine& read : lines.lines) {
+        DrawnLine line = line_in(read.vertices);
+        if (line.size() < 2) {
+            continue;
+        }
+        if (is_coast(lines.attributes, read.feature)) {
+            drawing.coasts.push_back(std::move(line));
+            continue;
+        }
+        if (drawing.has_side_streams) { // drawn upstream
+            std::ranges::reverse(line);
+        }
+        drawing.rivers.push_back({std::move(line), read.type, read.lambda, read.feature});
+    }
+    if (drawing.has_side_streams) {
+        join_outlets(drawing.rivers, 1e-3 * drawing.grid.cell_m);
+    }
+    drawing.attributes = std::move(lines.attributes);
+}
+
+} // namespace
+
+bool is_drawn(Recipe const& recipe) {
+    if (!recipe.network) {
+        return false;
+    }
+    pipeline::NetworkRecipe const& wanted = *recipe.network;
+    return (wanted.source == pipeline::Source::tokunaga && !wanted.tokunaga.strokes.empty()) ||
+           (wanted.source == pipeline::Source::lines &&
+            std::filesystem::path(wanted.lines.path).filename() == drawing_name);
+}
+
+std::optional<Grid> grid_of(Recipe const& recipe) {
+    pipeline::GridRecipe const& wanted = recipe.grid;
+    if (wanted.width <= 0 || wanted.height <= 0 || !wanted.origin || !(wanted.cell_m > 0.0) || wanted.crs.empty()) {
+        return std::nullopt;
+    }
+    return Grid{wanted.width,        wanted.height,       wanted.cell_m,
+                (*wanted.origin)[0], (*wanted.origin)[1], io::projected_crs(wanted.crs)};
+}
+
+Drawing read_drawing(Recipe const& recipe, Grid const& grid, Run const& run) {
+    Drawing drawing;
+    drawing.grid = grid;
+    if (is_drawn(recipe)) {
+        read_rivers_into(drawing, recipe, run);
+    }
+    if (recipe.surface && !recipe.surface->equilibrium.lakes.empty()) {
+        for (Polygon& polygon :
+             io::read_polygons(file_of(recipe, recipe.surface->equilibrium.lakes), grid.crs, run).polygons) {
+            std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
+            drawing.lakes.push_back({std::move(polygon.rings), std::nullopt});
+        }
+    }
+    if (recipe.surface && !recipe.surface->mask.empty() && io::holds_polygons(file_of(recipe, recipe.surface->mask))) {
+        for (Polygon& polygon : io::read_polygons(file_of(recipe, recipe.surface->mask), grid.crs, run).polygons) {
+            drawing.masks.push_back(open_ring(std::move(polygon.rings.front())));
+        }
+    }
+    return drawing;
+}
+
+Drawing drawing_of(Grid const& grid, StreamNetwork const& network, Mask const& land, AttributeTable const& attributes) {
+    Drawing drawing;
+    drawing.grid = grid;
+    drawing.attributes = attributes;
+    for (Arc const& arc : network.arcs()) {
+        DrawnLine line;
+        std::ranges::transform(arc.line, std::back_inserter(line), [](Vec2 p) { return rounded(p); });
+        line.erase(std::ranges::unique(line).begin(), line.end());
+        bool const has_record = arc.feature > 0 && arc.feature <= static_cast<std::int64_t>(attributes.rows.size());
+        if (line.size() > 1) {
+            drawing.rivers.push_back({std::move(line), arc.type, 0, has_record ? arc.feature : 0});
+        }
+    }
+    drawing.coasts = coasts_of(land);
+    return drawing;
+}
+
+namespace {
+
+std::vector<Vec3> in_space(DrawnLine const& line) {
+    std::vector<Vec3> places;
+    for (Vec2 const p : line) {
+        places.push_back({p.x, p.y, std::numeric_limits<double>::quiet_NaN()});
+    }
+    return places;
+}
+
+io::Column user_column(std::string name, io::Column::Kind kind, std::function<io::Column::Value(std::size_t row)> at) {
+    io::Column column;
+    column.name = std::move(name);
+    column.kind = kind;
+    column.at = std::move(at);
+    column.is_users = true;
+    return column;
+}
+
+io::Table table_of_rivers(Drawing const& drawing) {
+    using Kind = io::Column::Kind;
+    using Value = io::Column::Value;
+    std::size_t const rivers = drawing.rivers.size();
+    io::Table table;
+    table.name = "rivers";
+    table.shape = io::Table::Shape::plan_line;
+    table.rows = rivers + drawing.coasts.size();
+    auto const text_or_null = [](std::string const& text) { return text.empty() ? Value() : Value(text); };
+    table.columns.push_back(user_column("rosgen", Kind::text, [&, text_or_null](std::size_t row) {
+        return row < rivers ? text_or_null(drawing.rivers[row].type) : Value();
+    }));
+    table.columns.push_back(user_column("lambda", Kind::integer, [&](std::size_t row) {
+        bool const has_one = row < rivers && drawing.rivers[row].lambda > 0;
+        return has_one ? Value(std::int64_t{drawing.rivers[row].lambda}) : Value();
+    }));
+    table.columns.push_back(user_column("natural", Kind::text, [&](std::size_t row) {
+        return row < rivers ? Value() : Value(std::string(coastline));
+    }));
+    for (std::size_t c = 0; c < drawing.attributes.columns.size(); ++c) {
+        AttributeTable::Column const& column = drawing.attributes.columns[c];
+        if (std::ranges::any_of(own_columns, [&](char const* own) { return is_same_name(own, column.name); })) {
+            continue;
+        }
+        // Both enumerations have one order.
+        table.columns.push_back(user_column(column.name, static_cast<Kind>(column.type), [&, c](std::size_t row) {
+            std::int64_t const record = row < rivers ? drawing.rivers[row].record : 0;
+            return record > 0 ? drawing.attributes.rows[static_cast<std::size_t>(record - 1)][c] : Value();
+        }));
+    }
+    table.shape_at = [&](std::size_t row) {
+        if (row >= rivers) {
+            return in_space(drawing.coasts[row - rivers]);
+        }
+        DrawnLine line = drawing.rivers[row].line;
+        if (drawing.has_side_streams) { // strokes are drawn upstream
+            std::ranges::reverse(line);
+        }
+        return in_space(line);
+    };
+    return table;
+}
+
+io::Table table_of_areas(std::string name, std::size_t rows,
+                         std::function<std::vector<DrawnLine>(std::size_t row)> const& rings_at) {
+    io::Table table;
+    table.name = std::move(name);
+    table.shape = io::Table::Shape::multi_polygon;
+    table.rows = rows;
+    table.parts_at = [rings_at](std::size_t row) {
+        std::vector<Polygon> parts(1);
+        for (DrawnLine ring : rings_at(row)) {
+            ring.push_back(ring.front());
+            parts.front().rings.push_back(std::move(ring));
+        }
+        return parts;
+    };
+    return table;
+}
+
+void write_lakes(Drawing const& drawing, std::string const& path) {
+    io::Table table =
+        table_of_areas("lakes", drawing.lakes.size(), [&](std::size_t row) { return drawing.lakes[row].rings; });
+    table.columns.push_back(user_column("level", io::Column::Kind::real, [&](std::size_t row) {
+        auto const& level_m = drawing.lakes[row].level_m;
+        return level_m ? io::Column::Value(*level_m) : io::Column::Value();
+    }));
+    io::write_tables({table}, drawing.grid.crs, path);
+}
+
+void write_masks(Drawing const& drawing, std::string const& path) {
+    io::Table const table = table_of_areas("masks", drawing.masks.size(),
+                                           [&](std::size_t row) { return std::vector<DrawnLine>{drawing.masks[row]}; });
+    io::write_tables({table}, drawing.grid.crs, path);
+}
+
+/// Steps that let drawn lines be all that decides where rivers run.
+void turn_into_lines(std::vector<Step>& steps, Recipe const& recipe) {
+    static constexpr std::array passing{"network.prune",
+                                        "network.meander",
+                                        "network.lines.layer",
+                                        "network.lines.source_crs",
+                                        "network.lines.type_field",
+                                        "network.lines.rank_field",
+                                        "network.lines.id_field",
+                                        "network.lines.down_field",
+                                        "network.lines.snap",
+                                        "network.lines.dem",
+                                        "network.lines.divergences",
+                                        "network.lines.filter",
+                                        "network.lines.coastlines",
+                                        "network.tokunaga.strokes",
+                                        "network.tokunaga.layer"};
+    static constexpr std::array of_files{"file", "soft", "fixed", "ends"};
+    for (pipeline::KeyValue const& key : pipeline::key_values(recipe)) {
+        bool const passes = std::ranges::find(passing, key.path) != passing.end();
+        bool const is_of_file =
+            key.path == "network.heights" && key.text && std::ranges::find(of_files, *key.text) != of_files.end();
+        if (key.text && (passes || is_of_file)) {
+            steps.emplace_back(UnsetKey{key.path});
+        }
+    }
+}
+
+void set_grid(std::vector<Step>& steps, Grid const& grid) {
+    steps.emplace_back(SetKey{"grid.width", fmt::format("{}", grid.width)});
+    steps.emplace_back(SetKey{"grid.height", fmt::format("{}", grid.height)});
+    steps.emplace_back(SetKey{"grid.cell", fmt::format("{}", grid.cell_m)});
+    steps.emplace_back(SetKey{"grid.origin", fmt::format("[{}, {}]", grid.west, grid.north)});
+    steps.emplace_back(SetKey{"grid.crs", grid.crs});
+}
+
+void set_rivers(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    if (!is_drawn(document.recipe)) {
+        turn_into_lines(steps, document.recipe);
+    }
+    if (!grid_of(document.recipe)) {
+        set_grid(steps, drawing.grid);
+    }
+    auto const write = [&](std::string const& path) { write_drawing(drawing, path); };
+    steps.emplace_back(SetKey{"network.source", drawing.has_side_streams ? "tokunaga" : "lines"});
+    steps.emplace_back(
+        put(drawing.has_side_streams ? "network.tokunaga.strokes" : "network.lines.path", drawing_name, write));
+    if (!drawing.has_side_streams) {
+        steps.emplace_back(SetKey{"network.lines.orientation", "as_drawn"});
+    }
+}
+
+/// A key that names a file of areas, or none where there are no areas.
+void set_areas(std::vector<Step>& steps, Document const& document, std::string const& key, std::size_t areas,
+               std::function<TakeInput()> const& put) {
+    if (areas > 0) {
+        steps.emplace_back(put());
+        return;
+    }
+    auto const keys = pipeline::key_values(document.recipe);
+    auto const now = std::ranges::find(keys, key, &pipeline::KeyValue::path);
+    if (now != keys.end() && now->text) {
+        steps.emplace_back(UnsetKey{key});
+    }
+}
+
+void set_lakes(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    set_areas(steps, document, "surface.lakes", drawing.lakes.size(), [&] {
+        return put("surface.lakes", "lakes.gpkg", [&](std::string const& path) { write_lakes(drawing, path); });
+    });
+}
+
+void set_masks(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    set_areas(steps, document, "surface.mask", drawing.masks.size(), [&] {
+        return put("surface.mask", "mask.gpkg", [&](std::string const& path) { write_masks(drawing, path); });
+    });
+}
+
+} // namespace
+
+void write_drawing(Drawing const& drawing, std::string const& path, Run const& run) {
+    io::write_tables({table_of_rivers(drawing)}, drawing.grid.crs, path, run);
+}
+
+Edit edit_between(Document const& document, Drawing const& before, Drawn const& after, PutInput const& put) {
+    Drawing const& now = after.drawing;
+    Edit edit{after.name, {}};
+    if (now.rivers != before.rivers || now.coasts != before.coasts || now.has_side_streams != before.has_side_streams) {
+        set_rivers(edit.steps, document, now, put);
+    }
+    if (now.lakes != before.lakes) {
+        set_lakes(edit.steps, document, now, put);
+    }
+    if (now.masks != before.masks) {
+        set_masks(edit.steps, document, now, put);
+    }
+    return edit;
+}
+
+Edit empty_sheet(Document const& document, Grid const& grid, PutInput const& put) {
+    Edit edit{"an empty sheet", {}};
+    Drawing empty;
+    empty.grid = grid;
+    set_rivers(edit.steps, document, empty, put);
+    set_lakes(edit.steps, document, empty, put);
+    set_masks(edit.steps, document, empty, put);
+    return edit;
+}
+
+} // namespace thalweg::studio

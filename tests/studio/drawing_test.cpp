@@ -1,0 +1,394 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/studio/drawing.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <random>
+#include <string>
+#include <vector>
+
+#include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
+#include <support.hpp>
+
+#include <thalweg/core/cells.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/network/import/import_lines.hpp>
+#include <thalweg/studio/drawing_files.hpp>
+#include <thalweg/studio/internal/messages.hpp>
+
+#include "random_draw.hpp"
+
+namespace drawing_test {
+
+using namespace thalweg;
+using namespace thalweg::studio;
+
+namespace {
+
+using nlohmann::json;
+
+Grid const grid{80, 60, 10.0, 5000.0, 9000.0, "EPSG:32631"};
+
+Drawing sheet() {
+    Drawing drawing;
+    drawing.grid = grid;
+    return drawing;
+}
+
+/// A place in cells.
+Vec2 at(double x, double y) {
+    return {grid.west + x * grid.cell_m, grid.north - y * grid.cell_m};
+}
+
+DrawnLine line_of(std::vector<Vec2> const& cells) {
+    DrawnLine line;
+    for (Vec2 const p : cells) {
+        line.push_back(at(p.x, p.y));
+    }
+    return line;
+}
+
+Drawn after(Drawing drawing, DrawStep const& step) {
+    return drawn(std::move(drawing), step);
+}
+
+Drawing with_river(Drawing drawing, std::vector<Vec2> const& cells) {
+    return drawn(std::move(drawing), DrawRiver{line_of(cells)}).drawing;
+}
+
+/// A trunk to the southern border, and a tributary from the west.
+Drawing two_rivers() {
+    return with_river(with_river(sheet(), {{40, 5}, {40, 59.5}}), {{10, 10}, {39, 30}});
+}
+
+NotDrawn refusal(Drawing const& drawing, DrawStep const& step) {
+    try {
+        drawn(drawing, step);
+    } catch (NotDrawn const& refused) {
+        return refused;
+    }
+    return NotDrawn("nothing was refused");
+}
+
+bool has(NotDrawn const& refused, std::string const& words) {
+    return std::string(refused.what()).find(words) != std::string::npos;
+}
+
+/// The laws, by what reads the lines of files: one way down from everywhere, and nothing to be mended.
+void expect_lawful(Drawing const& drawing) {
+    RiverLines lines;
+    lines.name = "drawing";
+    for (DrawnRiver const& river : drawing.rivers) {
+        ASSERT_GE(river.line.size(), 2U);
+        RiverLine line;
+        line.feature = static_cast<std::int64_t>(lines.lines.size()) + 1;
+        for (Vec2 const p : river.line) {
+            EXPECT_EQ(p, rounded(p));
+            EXPECT_TRUE(p.x >= grid.west && p.x <= grid.east() && p.y >= grid.south() && p.y <= grid.north);
+            line.vertices.push_back({p.x, p.y, std::nan("")});
+        }
+        EXPECT_EQ(std::ranges::adjacent_find(river.line), river.line.end());
+        lines.lines.push_back(std::move(line));
+    }
+    if (lines.lines.empty()) {
+        return;
+    }
+    network::ImportParams params;
+    params.orientation = network::Orientation::as_drawn;
+    params.divergences = network::Divergences::error;
+    network::Imported const imported = network::import_lines(lines, params);
+    for (Finding const& repair : imported.repairs) {
+        EXPECT_TRUE(repair.kind == "joined" || repair.kind == "split") << repair.kind << ": " << repair.text;
+        if (repair.kind == "split") { // where they meet, and nowhere else
+            EXPECT_TRUE(std::ranges::any_of(drawing.rivers, [&](DrawnRiver const& river) {
+                return distance(river.line.back(), repair.where) < 1e-5;
+            })) << repair.text;
+        }
+    }
+    EXPECT_TRUE(imported.secondary.empty());
+    for (DrawnRiver const& river : drawing.rivers) {
+        for (Vec2 const p : river.line) {
+            bool const at_coast = std::ranges::any_of(drawing.coasts, [&](DrawnLine const& coast) {
+                for (std::size_t i = 1; i < coast.size(); ++i) {
+                    double const whole = distance(coast[i - 1], coast[i]);
+                    if (distance(coast[i - 1], p) + distance(p, coast[i]) < whole + 1e-3) {
+                        return true;
+                    }
+                }
+                return false;
+            });
+            EXPECT_TRUE(is_land(drawing, p) || at_coast) << p.x << ' ' << p.y;
+        }
+    }
+}
+
+} // namespace
+
+TEST(Drawing, ARiverIsSmoothedAndSnapsToWhatItMeets) {
+    Drawing const one = with_river(sheet(), {{40, 5}, {40, 59.5}});
+    EXPECT_EQ(one.rivers.front().line.front(), at(40, 5));
+    EXPECT_EQ(one.rivers.front().line.back(), at(40, 60)) << "the border";
+    EXPECT_EQ(one.rivers.front().line.size(), 2U) << "straight";
+    Drawing const two = with_river(one, {{10, 10}, {39, 30}});
+    ASSERT_EQ(two.rivers.front().line.size(), 3U);
+    EXPECT_EQ(two.rivers.front().line[1], two.rivers.back().line.back());
+    expect_lawful(two);
+
+    DrawnLine wave;
+    for (double t = 0.0; t <= 1.0; t += 0.004) { // with the tremor of a hand
+        double const tremor = std::fmod(t * 1000.0, 8.0) < 4.0 ? 0.3 : -0.3;
+        wave.push_back(at(5.0 + 70.0 * t, 30.0 + 15.0 * std::sin(9.0 * t) + tremor));
+    }
+    DrawnLine const smooth = after(sheet(), DrawRiver{wave}).drawing.rivers.front().line;
+    EXPECT_LT(smooth.size(), 60U);
+    double off_m = 0.0;
+    for (Vec2 const p : smooth) {
+        double nearest_m = 1e9;
+        for (double t = 0.0; t <= 1.0; t += 0.0005) {
+            nearest_m = std::min(nearest_m, distance(p, at(5.0 + 70.0 * t, 30.0 + 15.0 * std::sin(9.0 * t))));
+        }
+        off_m = std::max(off_m, nearest_m);
+    }
+    EXPECT_LT(off_m, 0.8 * grid.cell_m);
+}
+
+TEST(Drawing, ARiverRunsToWhereItMeetsOtherWater) {
+    Drawing const trunk = with_river(sheet(), {{40, 5}, {40, 59.5}});
+    Drawn const against = after(trunk, DrawRiver{line_of({{41, 30}, {70, 10}})});
+    EXPECT_EQ(against.drawing.rivers.back().line.front(), at(70, 10));
+    EXPECT_FALSE(against.said.empty());
+    EXPECT_EQ(with_river(sheet(), {{40, 5}, {40, 50}}).rivers.front().line.front(), at(40, 5)) << "as drawn";
+    EXPECT_EQ(with_river(sheet(), {{40, 1}, {40, 40}}).rivers.front().line.back(), at(40, 0)) << "to the border";
+    // Where a river ends within the grid another goes on.
+    Drawing const inland = with_river(sheet(), {{10, 10}, {40, 30}});
+    Drawing const longer = with_river(inland, {{41, 31}, {70, 40}});
+    EXPECT_EQ(longer.rivers.back().line.front(), at(40, 30));
+    expect_lawful(longer);
+}
+
+TEST(Drawing, RefusesWhatWaterCannotDo) {
+    Drawing const rivers = two_rivers();
+    NotDrawn const crossing = refusal(rivers, DrawRiver{line_of({{10, 45}, {70, 45}})});
+    EXPECT_TRUE(has(crossing, "cross"));
+    ASSERT_TRUE(crossing.at);
+    EXPECT_LT(distance(*crossing.at, at(40, 45)), 1.0);
+    EXPECT_TRUE(has(refusal(rivers, DrawRiver{line_of({{41, 10}, {41, 55}})}), "")) << "beside the trunk";
+    EXPECT_TRUE(has(refusal(rivers, DrawRiver{line_of({{44, 10}, {41.2, 25}, {44, 40}, {60, 55}})}), "too near"));
+    EXPECT_TRUE(has(refusal(rivers, DrawRiver{line_of({{10, 50}, {12, 50}})}), "shorter"));
+    EXPECT_TRUE(has(refusal(rivers, DrawRiver{line_of({{50, 10}, {70, 10}, {70, 30}, {60, 30}, {60, 5}})}), "itself"));
+    // From the middle of one river into another.
+    EXPECT_TRUE(has(refusal(with_river(rivers, {{70, 5}, {70, 59}}), DrawRiver{line_of({{40, 20}, {70, 20}})}),
+                    "flow out of another"));
+    EXPECT_TRUE(has(refusal(rivers, JoinRiver{0, false, at(20, 17)}), "")) << "its outlet lies at the border";
+    Drawing const inland = with_river(with_river(sheet(), {{40, 5}, {40, 50}}), {{10, 10}, {39, 30}});
+    EXPECT_TRUE(has(refusal(inland, JoinRiver{0, false, at(20, 17)}), "circle"));
+    EXPECT_TRUE(has(refusal(rivers, MoveVertex{{Part::Kind::river, 9}, 0, at(1, 1)}), "not there"));
+    EXPECT_TRUE(has(refusal(rivers, MoveVertex{{Part::Kind::river, 0}, 99, at(1, 1)}), "no vertex"));
+    EXPECT_THROW(drawn(rivers, SetType{{0}, "Z"}), BadParameter);
+    EXPECT_THROW(drawn(rivers, SetLambda{{0}, 51}), BadParameter);
+    EXPECT_THROW(drawn(rivers, DrawRiver{{at(1, 1), {std::nan(""), 0.0}}}), NotDrawn);
+}
+
+TEST(Drawing, MovesWhatMeetsTogether) {
+    Drawing const rivers = two_rivers();
+    Drawing const moved = after(rivers, MoveVertex{{Part::Kind::river, 0}, 1, at(44, 33), 0.0}).drawing;
+    EXPECT_EQ(moved.rivers[0].line[1], at(44, 33));
+    EXPECT_EQ(moved.rivers[1].line.back(), at(44, 33));
+    expect_lawful(moved);
+    Drawing const bent = with_river(with_river(sheet(), {{40, 5}, {40, 59.5}}), {{10, 10}, {20, 28}, {39, 30}});
+    std::size_t const vertex = bent.rivers[1].line.size() / 2;
+    EXPECT_TRUE(has(refusal(bent, MoveVertex{{Part::Kind::river, 1}, vertex, at(60, 20), 0.0}), "cross"));
+
+    DrawnLine many;
+    for (int i = 0; i <= 40; ++i) {
+        many.push_back(at(20 + i, 10));
+    }
+    Drawing dense = sheet();
+    dense.rivers.push_back({many});
+    DrawnLine const soft =
+        after(dense, MoveVertex{{Part::Kind::river, 0}, 20, at(40, 15), 100.0}).drawing.rivers.front().line;
+    EXPECT_EQ(soft[20], at(40, 15));
+    EXPECT_EQ(soft[10], many[10]);
+    EXPECT_GT(distance(soft[15], many[15]), 0.5 * 50.0);
+    EXPECT_LT(distance(soft[15], many[15]), 0.6 * 50.0);
+}
+
+TEST(Drawing, CutsAndJoins) {
+    Drawing const rivers = two_rivers();
+    Drawn const cut = after(rivers, CutRiver{0, at(40, 15)});
+    ASSERT_EQ(cut.drawing.rivers.size(), 3U);
+    EXPECT_EQ(cut.drawing.rivers[0].line.front(), at(40, 15));
+    EXPECT_EQ(cut.drawing.rivers[2].line.back(), at(40, 11)) << "four cells above";
+    expect_lawful(cut.drawing);
+    Drawing const again = after(cut.drawing, JoinRiver{2, false, at(40, 15)}).drawing;
+    EXPECT_EQ(again.rivers[2].line.back(), again.rivers[0].line.front());
+    expect_lawful(again);
+    EXPECT_EQ(rivers_into(again, 0), (std::vector<std::size_t>{1, 2}));
+    // Where the source of one is carried to the end of another, that one goes on in it.
+    Drawing const from_below = after(cut.drawing, JoinRiver{0, true, at(40, 11)}).drawing;
+    EXPECT_EQ(from_below.rivers[2].line.back(), at(40, 15));
+    EXPECT_TRUE(has(refusal(rivers, JoinRiver{1, false, at(60, 20)}), "already"));
+    EXPECT_TRUE(has(refusal(rivers, CutRiver{0, at(40, 59)}), "too near"));
+    Drawing const elsewhere = after(cut.drawing, JoinRiver{2, false, at(70, 12)}).drawing;
+    EXPECT_EQ(elsewhere.rivers[2].line.back(), at(70, 12)) << "carried on where nothing is";
+}
+
+TEST(Drawing, ReversesARiverAndAllBelow) {
+    Drawn const turned = after(two_rivers(), ReverseRiver{1});
+    ASSERT_EQ(turned.drawing.rivers.size(), 3U);
+    EXPECT_EQ(turned.drawing.rivers[1].line.back(), at(10, 10)) << "the outlet of all";
+    EXPECT_EQ(turned.drawing.rivers[2].line.front(), at(40, 60));
+    EXPECT_EQ(turned.drawing.rivers[0].line.front(), at(40, 5)) << "above where they meet nothing changes";
+    EXPECT_EQ(rivers_into(turned.drawing, 1), (std::vector<std::size_t>{0, 2}));
+    expect_lawful(turned.drawing);
+    EXPECT_FALSE(turned.said.empty());
+}
+
+TEST(Drawing, ErasesWithAllThatFlowsInto) {
+    Drawing const rivers = with_river(two_rivers(), {{70, 5}, {70, 59}});
+    EXPECT_EQ(after(rivers, Erase{{Part::Kind::river, 0}}).drawing.rivers.size(), 1U);
+    EXPECT_EQ(after(rivers, Erase{{Part::Kind::river, 0}, true}).drawing.rivers.size(), 2U);
+    EXPECT_EQ(after(rivers, Erase{{Part::Kind::river, 1}}).drawing.rivers.size(), 2U);
+}
+
+TEST(Drawing, CoastsAreClosedOrReachTheBorderAndCutRivers) {
+    std::vector<Vec2> ring;
+    for (double turn = 0.0; turn < 6.2; turn += 0.2) {
+        ring.push_back({40 + 25 * std::cos(turn), 30 + 25 * std::sin(turn)}); // clockwise on the map
+    }
+    Drawing const island = after(sheet(), DrawCoast{line_of(ring)}).drawing;
+    EXPECT_EQ(island.coasts.front().front(), island.coasts.front().back());
+    EXPECT_TRUE(is_land(island, at(40, 30)));
+    EXPECT_FALSE(is_land(island, at(5, 5)));
+    Drawn const river = after(island, DrawRiver{line_of({{40, 30}, {40, 59}})});
+    EXPECT_NEAR(river.drawing.rivers.front().line.back().y, at(40, 55).y, 5.0) << "at the coast";
+    EXPECT_FALSE(river.said.empty());
+    EXPECT_TRUE(has(refusal(island, DrawRiver{line_of({{2, 2}, {30, 2}})}), "in the sea"));
+    Drawn const sea = after(river.drawing, SwapSides{0});
+    EXPECT_TRUE(sea.drawing.rivers.empty());
+    EXPECT_FALSE(sea.said.empty());
+    EXPECT_FALSE(is_land(sea.drawing, at(40, 30)));
+    // Where rivers lie outside, a closed coast is that of a sea within.
+    Drawing const outside = with_river(sheet(), {{2, 2}, {2, 59}});
+    EXPECT_TRUE(is_land(after(outside, DrawCoast{line_of(ring)}).drawing, at(2, 30)));
+    // An open one is carried to the border.
+    Drawing const open = after(sheet(), DrawCoast{line_of({{10, 20}, {40, 30}, {70, 20}})}).drawing;
+    EXPECT_EQ(open.coasts.front().front().x, grid.west);
+    EXPECT_EQ(open.coasts.front().back().x, grid.east());
+    EXPECT_NE(is_land(open, at(40, 5)), is_land(open, at(40, 55)));
+    EXPECT_TRUE(has(refusal(open, DrawCoast{line_of({{40, 2}, {40, 58}})}), "cross"));
+}
+
+TEST(Drawing, LakesHaveLevels) {
+    Drawn const lake = after(two_rivers(), DrawLake{line_of({{35, 40}, {45, 40}, {45, 50}, {35, 50}}), 120.0});
+    EXPECT_TRUE(lake.said.empty()) << "a river runs through it";
+    EXPECT_EQ(lake.drawing.lakes.front().level_m, 120.0);
+    EXPECT_EQ(after(lake.drawing, SetLevel{0, std::nullopt}).drawing.lakes.front().level_m, std::nullopt);
+    EXPECT_FALSE(after(two_rivers(), DrawLake{line_of({{60, 40}, {70, 40}, {70, 50}, {60, 50}}), {}}).said.empty());
+    EXPECT_TRUE(has(refusal(sheet(), DrawLake{line_of({{60, 40}, {61, 40}, {61, 41}}), {}}), "fewer than"));
+    EXPECT_THROW(drawn(lake.drawing, SetLevel{0, 1e6}), BadParameter);
+}
+
+TEST(Drawing, SideStreamsGrowFromWholeRivers) {
+    Drawing arcs = sheet();
+    arcs.rivers = {{line_of({{10, 10}, {40, 20}})},
+                   {line_of({{60, 10}, {40, 20}})},
+                   {line_of({{40, 20}, {40, 40}})},
+                   {line_of({{10, 40}, {40, 40}})},
+                   {line_of({{40, 40}, {40, 60}})}};
+    Drawing const streams = after(arcs, SetSideStreams{true}).drawing;
+    ASSERT_EQ(streams.rivers.size(), 3U);
+    EXPECT_TRUE(std::ranges::any_of(streams.rivers, [&](DrawnRiver const& r) {
+        return r.line == line_of({{10, 10}, {40, 20}, {40, 40}, {40, 60}});
+    })) << "the longest way";
+    expect_lawful(streams);
+    EXPECT_TRUE(has(refusal(streams, DrawCoast{line_of({{10, 20}, {70, 20}})}), "side streams"));
+}
+
+TEST(Drawing, CoastsOfAMaskSeparateLandFromSea) {
+    Mask land(grid);
+    std::mt19937_64 random(7);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        double const bay = 8.0 * std::sin(0.2 * static_cast<double>(c.row));
+        bool const is_island = squared_cells(c, {65, 30}) < 64;
+        land[i] = static_cast<double>(c.col) < 40.0 + bay || is_island ? 1 : 0;
+    }
+    Drawing drawing = sheet();
+    drawing.coasts = coasts_of(land);
+    EXPECT_EQ(drawing.coasts.size(), 2U);
+    std::int64_t wrong = 0;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        wrong += is_land(drawing, grid.centre(grid.at(i))) != (land[i] != 0) ? 1 : 0;
+    }
+    EXPECT_LT(wrong, 60) << "within a cell of the coast";
+    EXPECT_TRUE(coasts_of(Mask(grid, 1)).empty());
+    EXPECT_TRUE(coasts_of(Mask()).empty());
+}
+
+TEST(Drawing, AnyStepsKeepTheLaws) {
+    std::size_t accepted = 0;
+    for (unsigned seed = 1; seed <= 40; ++seed) {
+        std::mt19937_64 random(seed);
+        Drawing drawing = sheet();
+        for (int i = 0; i < 60; ++i) {
+            json const verb = random_draw(drawing, random);
+            SCOPED_TRACE(verb.dump());
+            try {
+                drawing = drawn(drawing, draw_step(verb.dump(), grid)).drawing;
+                ++accepted;
+            } catch (NotDrawn const& refused) {
+                EXPECT_FALSE(std::string(refused.what()).empty());
+                continue;
+            }
+            ASSERT_NO_THROW(expect_lawful(drawing)) << drawing_message(drawing, 0, true);
+            if (testing::Test::HasFailure()) {
+                return;
+            }
+        }
+    }
+    EXPECT_GT(accepted, 200U);
+}
+
+TEST(Drawing, FilesHoldItBitForBit) {
+    io::TemporaryFolder const folder("drawing");
+    Drawing drawing = two_rivers();
+    drawing.rivers[1].type = "C";
+    drawing.rivers[1].lambda = 3;
+    drawing = after(drawing, DrawCoast{line_of({{2, 2}, {78, 2}})}).drawing;
+    write_drawing(drawing, (folder.path() / "drawing.gpkg").string());
+    pipeline::Recipe recipe = pipeline::default_recipe_on(80, 60);
+    recipe.folder = folder.path().string();
+    recipe.network->source = pipeline::Source::lines;
+    recipe.network->lines.path = "drawing.gpkg";
+    ASSERT_TRUE(is_drawn(recipe));
+    Drawing const read = read_drawing(recipe, grid);
+    ASSERT_EQ(read.rivers.size(), drawing.rivers.size());
+    for (std::size_t r = 0; r < read.rivers.size(); ++r) {
+        EXPECT_EQ(read.rivers[r].line, drawing.rivers[r].line);
+        EXPECT_EQ(read.rivers[r].type, drawing.rivers[r].type);
+        EXPECT_EQ(read.rivers[r].lambda, drawing.rivers[r].lambda);
+    }
+    EXPECT_EQ(read.coasts, drawing.coasts);
+}
+
+TEST(Drawing, StepsAreReadFromWordsOfThePage) {
+    auto const fault = [](std::string const& what) { return test::message_of<Error>([&] { draw_step(what, grid); }); };
+    EXPECT_NE(fault("[]"), "");
+    EXPECT_NE(fault(R"({"verb":"fly"})").find("verb is one of river"), std::string::npos);
+    EXPECT_NE(fault(R"({"verb":"river","points":[1,2,3]})").find("points"), std::string::npos);
+    EXPECT_NE(fault(R"({"verb":"river","points":["a","b"]})").find("numbers"), std::string::npos);
+    EXPECT_NE(fault(R"({"verb":"move","of":{"hill":1},"vertex":0,"to":[1,2]})").find("part"), std::string::npos);
+    EXPECT_NE(fault(R"({"verb":"move","of":{"river":-1},"vertex":0,"to":[1,2]})").find("number from 0"),
+              std::string::npos);
+    EXPECT_NE(fault(R"({"verb":"cut","river":0,"at":[1]})").find("place"), std::string::npos);
+    auto const river =
+        std::get<DrawRiver>(draw_step(R"({"verb":"river","points":[0,0,1,2],"type":"C","lambda":2})", grid));
+    EXPECT_EQ(river.points, (DrawnLine{at(0, 0), at(1, 2)}));
+    EXPECT_EQ(river.lambda, 2);
+    EXPECT_EQ(std::get<SetLevel>(draw_step(R"({"verb":"level","lake":2,"level":null})", grid)).level_m, std::nullopt);
+}
+
+} // namespace drawing_test
