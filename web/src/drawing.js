@@ -199,6 +199,9 @@ export class Drawing {
     const wanted = spots(object.line);
     const unlike = ({ line }) => Math.min(off(spots(line), wanted), off(spots(line).reverse(), wanted));
     const best = all.reduce((least, one) => (unlike(one) < (least ? unlike(least) : Infinity) ? one : least), null);
-    return best && unlike(best) < 0.15 * (lengthOf(object.line) + 10) ? best : null;
+    if (best && unlike(best) < 0.15 * (lengthOf(object.line) + 10)) return best;
+    // It may be a piece of a longer one now.
+    const middle = 2 * Math.floor(object.line.length / 4);
+    return this.nearest({ x: object.line[middle], y: object.line[middle + 1] }, 1, ({ kind }) => kind === object.kind)?.object ?? null;
   }
 }

@@ -60,11 +60,11 @@ export function inspector(desk, types, hold) {
   const title = make('p', { className: 'what' });
   const note = make('p', { className: 'hint' });
   const type = make('select', { id: 'river-type' });
-  const lambda = make('input', { type: 'number', id: 'river-lambda', min: 1, max: 50, step: 1, placeholder: 'auto', autocomplete: 'off' });
+  const lambda = make('input', { type: 'number', id: 'river-lambda', min: 1, max: 50, step: 1, placeholder: 'recipe', autocomplete: 'off' });
   const level = make('input', { type: 'number', id: 'lake-level', step: 'any', placeholder: 'by the terrain', autocomplete: 'off' });
   const field = (label, control, unit) => make('div', { className: 'row' }, make('label', { htmlFor: control.id, textContent: label }), control, unit && make('span', { textContent: unit }));
-  const [typeRow, lambdaRow, levelRow] = [field('Type', type), field('Magnitude', lambda), field('Level', level, 'm')];
-  lambdaRow.title = 'How many sources the network of this river has';
+  const [typeRow, lambdaRow, levelRow] = [field('Type', type), field('Branching', lambda), field('Level', level, 'm')];
+  lambdaRow.title = 'Generator lambda of the side streams: 1 has none, 2 is dendritic, larger values are feathered; empty: as the recipe says';
 
   type.addEventListener('change', () => {
     const river = chosen('river');
@@ -146,7 +146,7 @@ export function inspector(desk, types, hold) {
 
   function show() {
     const { drawing, tool } = desk;
-    box.hidden = !tool || !desk.fits;
+    box.hidden = !tool || !drawing;
     hint.hidden = !drawing || drawing.rivers.length > 0 || !desk.fits || desk.ghosts.length > 0 || (tool?.line?.length ?? 0) > 0;
     if (box.hidden) return;
     words();

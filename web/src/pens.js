@@ -32,11 +32,13 @@ export class Pen extends Tool {
     this.desk.onchange();
   }
 
-  /** Whether the pointer is where the line began, and ends it there. */
+  /** Whether a line that ends here ends where it began: a coast is closed where its ends are a few cells or a seventh of its length apart. */
   get #rounds() {
     const { line } = this;
+    if (!this.closes || line.length < 6) return false;
     const at = this.#tip ?? { x: line.at(-2), y: line.at(-1) };
-    return this.closes && line.length >= 6 && Math.hypot(at.x - line[0], at.y - line[1]) < near * this.desk.scale(at);
+    const reach = near * this.desk.scale(at);
+    return Math.hypot(at.x - line[0], at.y - line[1]) < (this.closes === 'maybe' ? Math.max(reach, 6, 0.15 * this.#along) : reach);
   }
 
   #snap(at) {
@@ -311,7 +313,7 @@ export class Pen extends Tool {
       const whole = tip && !this.#refused ? [...line, tip.x, tip.y] : line;
       const wrong = this.#refused ? { i: 1, x: line[0], y: line[1] } : this.#wrong(tip);
       overlay.stroke(pen, place, whole, { colour: ink[this.kind], wrong, arrows: this.kind === 'river', turned: this.#turned() });
-      if (this.closes === true && whole.length >= 6) overlay.stroke(pen, place, [...whole.slice(-2), line[0], line[1]], { colour: ink[this.kind], width: 1, dashed: true });
+      if (whole.length >= 6 && (this.closes === true || this.#rounds)) overlay.stroke(pen, place, [...whole.slice(-2), line[0], line[1]], { colour: ink[this.kind], width: 1, dashed: true });
       for (const k of this.#marks) {
         const p = place(line[k], line[k + 1]);
         if (p) dot(pen, p, 3.4, { stroke: this.#refused ? red : ink[this.kind] });

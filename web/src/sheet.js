@@ -42,9 +42,9 @@ function drawingTools(desk, overlay) {
   ];
 }
 
-/** page: of page.js; ask(question): a promise of the reply; types: of rivers. */
-export function openSheet({ view, tools }, ask, types) {
-  const desk = new Desk(view, ask);
+/** page: of page.js; ask(question): a promise of the reply; revision(): of the document; types: of rivers. */
+export function openSheet({ view, tools }, { ask, revision, types }) {
+  const desk = new Desk(view, ask, revision);
   const overlay = new Overlay(desk);
   const beside = inspector(desk, types);
   const all = drawingTools(desk, overlay);
@@ -71,6 +71,8 @@ export function openSheet({ view, tools }, ask, types) {
   return {
     desk,
     take: (message) => desk.take(message),
+    /** The document or the land has changed. */
+    follow: () => desk.onchange(),
     /** Of a line that is drawn point by point the last step is taken back; false: there is none. */
     back: () => desk.tool?.back?.() ?? false,
   };

@@ -262,6 +262,7 @@ export function openStudio(about, state) {
     now = scene;
     if (page) {
       if (!holding) page.replace(scene, { home: !page.tools.held, ...options });
+      sheet?.follow();
       return;
     }
     page = createPage(scene, state, drawingKeys.concat([['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]));
@@ -277,16 +278,18 @@ export function openStudio(about, state) {
   let drawn = null; // the program's last message of it
   function draw() {
     if (!page || !drawn) return;
-    sheet ??= openSheet(page, ask, (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')));
+    sheet ??= openSheet(page, { ask, revision: () => state.revision, types: (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')) });
     sheet.take(drawn);
   }
 
   function drawing(message) {
-    const emptied = drawn?.rivers.length > 0;
+    const emptied = page && !now?.land.level;
     drawn = message;
-    // Land without rivers may be a given one, which comes.
-    if (message.rivers.length === 0 && emptied) flat(message.grid);
-    else if (message.rivers.length === 0 && !page) setTimeout(() => page || flat(message.grid), 300);
+    // Where rivers are shown and none is there, a given land comes.
+    if (message.kind === 'drawn' && message.rivers.length === 0) {
+      if (emptied) flat(message.grid);
+      else if (!page) setTimeout(() => page || flat(message.grid), 300);
+    }
     draw();
   }
 
@@ -413,6 +416,7 @@ export function openStudio(about, state) {
       form.show(message);
       above();
       command.replaceChildren(copyable(message.command, 'the command'));
+      sheet?.follow();
     },
     busy({ job, stage, share }) {
       working = true;
