@@ -162,7 +162,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
   const sockets = new Set();
   const asked = [];
   let values = { ...begin };
-  let drawn = drawing && { revision: 1, grid: lands[0][1].data.grid, ...drawing };
+  let drawn = drawing && { grid: lands[0][1].data.grid, ...drawing };
   let revision = 1;
   const done = [];
   const undone = [];
@@ -175,7 +175,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
   };
   const document = () => ({ type: 'document', revision, recipe: toml(), values, sections: [...new Set(Object.keys(values).map((k) => k.split('.').slice(0, -1).join('.')).filter(Boolean))],
     undo: done.at(-1)?.name ?? '', redo: undone.at(-1)?.name ?? '', command: "thalweg make 'studio/recipe.toml' -o out" });
-  const drawing_ = () => ({ type: 'drawing', ...drawn });
+  const drawing_ = () => ({ type: 'drawing', ...drawn, revision });
   const rest = () => new Promise((ok) => setTimeout(ok, pause));
 
   async function make(of, to = sockets, whole = false) {
@@ -235,11 +235,12 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
 
   /** One verb of drawing is an edit like any other. */
   function draw(socket, id, { revision: of, what }) {
-    if (of !== drawn.revision) throw new Error('the drawing has changed');
+    if (of !== revision) throw new Error('studio.draw: the document was changed meanwhile: draw on what is shown now');
     const { next, said } = drawnBy(drawn, what);
     done.push({ name: what.verb, values, drawn });
     undone.length = 0;
-    drawn = { ...next, revision: ++revision };
+    drawn = next;
+    ++revision;
     send(document());
     send(drawing_());
     send({ type: 'reply', id, ok: true, revision, said }, [socket]);
@@ -261,7 +262,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
       if (!change) return reply({});
       to.push({ name: change.name, values, drawn });
       values = change.values;
-      if (change.drawn !== drawn) drawn = { ...change.drawn, revision: revision + 1 };
+      drawn = change.drawn;
     } else if (what === 'try') {
       const next = applied(edit);
       reply({});
@@ -275,7 +276,7 @@ export async function fakeStudio({ lands, keys, values: begin, pause = 20, tree 
     }
     ++revision;
     send(document());
-    if (drawn?.revision === revision) send(drawing_());
+    if (drawn) send(drawing_());
     reply({});
     make(values);
     return undefined;

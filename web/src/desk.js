@@ -6,7 +6,7 @@ import { number } from './chart.js';
 import { Drawing, foot, lengthOf } from './drawing.js';
 
 export const nameOf = ({ kind, n }) => `${kind === 'river' ? 'River' : { coast: 'Coast', lake: 'Lake', mask: 'Mask' }[kind]} ${n + 1}`;
-const patience = 1500; // [ms] for a drawing that was promised by a reply
+const patience = 20000; // [ms] for rivers that are being made
 
 export class Desk {
   drawing = null;
@@ -20,7 +20,7 @@ export class Desk {
   type = ''; // of rivers to be drawn
   lambda = 0;
   level = null; // of lakes to be drawn
-  onchange = () => {};
+  onchange = () => {}; // of what stands beside the view too
   ontell = () => {}; // (text, {at: [x, y], bad})
   quiet = () => {}; // what was told is gone
   speak = () => {}; // to who does not see
@@ -28,20 +28,24 @@ export class Desk {
   #runs = false;
   #arrived = () => {};
 
-  /** view: of page.js; ask(question): a promise of the reply. */
-  constructor(view, ask) {
-    this.view = view;
-    this.ask = ask;
+  /** view: of page.js; ask(question): a promise of the reply; revision(): of the document now. */
+  constructor(view, ask, revision) {
+    Object.assign(this, { view, ask, revision });
+  }
+
+  /** Whether the drawing is of the document as it is now: rivers of a generator come with their land. */
+  get fresh() {
+    return (this.drawing?.revision ?? -1) >= this.revision();
   }
 
   get waits() {
     return this.#runs;
   }
 
-  /** The drawing lies on the land that is shown. */
+  /** The drawing is the document's, and lies on the land that is shown. */
   get fits() {
     const { grid } = this.view.land;
-    return this.drawing !== null && ['width', 'height', 'cell_m'].every((key) => grid[key] === this.drawing.grid[key]);
+    return this.fresh && this.drawing !== null && ['width', 'height', 'cell_m'].every((key) => grid[key] === this.drawing.grid[key]);
   }
 
   take(message) {
@@ -83,26 +87,36 @@ export class Desk {
   /** Gives the reply, or null where it was refused. */
   async #one({ what, ghost }) {
     try {
+      await this.#freshness();
       const { drawing } = this;
       const same = (object) => {
         const now = drawing.same(object);
         if (!now) throw new Error('it has changed meanwhile: try again');
         return now;
       };
-      const drawn = new Promise((done) => (this.#arrived = () => this.drawing.revision > drawing.revision && done()));
       const reply = await this.ask({ do: 'draw', revision: drawing.revision, what: typeof what === 'function' ? what(same) : what });
-      if (reply.revision > drawing.revision) await Promise.race([drawn, new Promise((done) => setTimeout(done, patience))]);
+      await this.#freshness();
       this.#forget(ghost);
       for (const text of reply.said ?? []) this.ontell(text, {});
       return reply;
     } catch (error) {
       if (ghost) ghost.state = 'refused';
+      if (ghost?.hides?.length === 1) this.choose(ghost.hides[0]);
       setTimeout(() => this.#forget(ghost), 900);
-      this.ontell(error.message, { at: error.at, bad: true });
+      this.ontell(error.message.replace(/^studio\.\w+: /, ''), { at: error.at, bad: true });
       this.onrefused?.(ghost);
       return null;
-    } finally {
-      this.#arrived = () => {};
+    }
+  }
+
+  /** When the drawing is of the document as it is now, or does not become so. */
+  async #freshness() {
+    const end = Date.now() + patience;
+    while (!this.fresh && Date.now() < end) {
+      await new Promise((done) => {
+        this.#arrived = done;
+        setTimeout(done, 250); // the document may have changed back
+      });
     }
   }
 
@@ -128,7 +142,7 @@ export class Desk {
   }
 
   #end(river) {
-    const below = this.drawing.below(river);
+    const below = this.drawing.downstream[river.n] ?? -1;
     if (below >= 0) return `joins river ${below + 1}`;
     const [x, y] = river.line.slice(-2);
     const { width, height, cell_m } = this.drawing.grid;

@@ -80,13 +80,16 @@ class Tiles {
   add(object, i, line) {
     for (const key of this.#over(line[i - 2], line[i - 1], line[i], line[i + 1])) {
       if (!this.#tiles.has(key)) this.#tiles.set(key, []);
-      this.#tiles.get(key).push([object, i]);
+      this.#tiles.get(key).push(object, i);
     }
   }
 
-  /** Segments about a box, some of them more than once: [object, place of the second vertex in its outline]. */
-  *about(x0, y0, x1, y1) {
-    for (const key of this.#over(x0, y0, x1, y1)) yield* this.#tiles.get(key) ?? [];
+  /** Segments about a box, some of them more than once: each(object, place of the second vertex in its outline). */
+  about(x0, y0, x1, y1, each) {
+    for (const key of this.#over(x0, y0, x1, y1)) {
+      const list = this.#tiles.get(key) ?? [];
+      for (let k = 0; k < list.length; k += 2) each(list[k], list[k + 1]);
+    }
   }
 }
 
@@ -96,7 +99,7 @@ class Tiles {
  */
 export class Drawing {
   #tiles = null;
-  #vertices = null;
+  #downstream = null;
 
   constructor(message) {
     const { grid, kind, branching, revision, rivers, coasts, lakes, masks } = message;
@@ -128,57 +131,53 @@ export class Drawing {
   /** The nearest place of an object that is accepted, within reach [cells]: {object, i: vertex after it, x, y, d}, or null. */
   nearest({ x, y }, reach, accept = () => true) {
     let found = null;
-    for (const [object, i] of this.tiles.about(x - reach, y - reach, x + reach, y + reach)) {
-      if (!accept(object)) continue;
+    this.tiles.about(x - reach, y - reach, x + reach, y + reach, (object, i) => {
+      if (!accept(object)) return;
       const line = object.outline;
       const at = foot(x, y, line[i - 2], line[i - 1], line[i], line[i + 1]);
       if (at.d < (found?.d ?? reach)) found = { object, i: i / 2, ...at };
-    }
+    });
     return found;
   }
 
   /** The first place where a–b meets an object that is accepted: {object, x, y, t}, or null. */
   crossed(ax, ay, bx, by, accept) {
     let found = null;
-    for (const [object, i] of this.tiles.about(ax, ay, bx, by)) {
-      if (!accept(object)) continue;
+    this.tiles.about(ax, ay, bx, by, (object, i) => {
+      if (!accept(object)) return;
       const line = object.outline;
       const t = meeting(ax, ay, bx, by, line[i - 2], line[i - 1], line[i], line[i + 1]);
       if (t >= 0 && t < (found?.t ?? 2)) found = { object, t, x: ax + t * (bx - ax), y: ay + t * (by - ay) };
-    }
+    });
     return found;
   }
 
-  #at(x, y) {
-    if (!this.#vertices) {
-      this.#vertices = new Map();
-      for (const { n, line } of this.rivers) {
-        for (let i = 0; i < line.length; i += 2) {
-          const key = `${line[i]} ${line[i + 1]}`;
-          const all = this.#vertices.get(key);
-          if (all) all.push(n);
-          else this.#vertices.set(key, [n]);
+  /** By river the number of the one that it flows into, or -1: the last vertex of one is a vertex of the other. */
+  get downstream() {
+    if (this.#downstream) return this.#downstream;
+    const below = (this.#downstream = new Int32Array(this.rivers.length).fill(-1));
+    const ends = new Map(); // by x, as numbers of rivers
+    for (const { n, line } of this.rivers) {
+      const x = line.at(-2);
+      if (ends.has(x)) ends.get(x).push(n);
+      else ends.set(x, [n]);
+    }
+    for (const { n: other, line } of this.rivers) {
+      for (let i = 0; i < line.length; i += 2) {
+        for (const n of ends.get(line[i]) ?? []) {
+          // Where two rivers end together, the later one flows into the earlier one.
+          const joins = this.rivers[n].line.at(-1) === line[i + 1] && n !== other && (i < line.length - 2 || other < n);
+          if (joins && below[n] < 0) below[n] = other;
         }
       }
     }
-    return this.#vertices.get(`${x} ${y}`) ?? [];
-  }
-
-  /** The number of the river that a river flows into, or -1. */
-  below(river) {
-    return this.#at(river.line.at(-2), river.line.at(-1)).find((n) => n !== river.n && !this.#endsThere(n, river)) ?? -1;
-  }
-
-  /** Where two rivers end together, the later one flows into the earlier one. */
-  #endsThere(n, river) {
-    const { line } = this.rivers[n];
-    return n > river.n && line.at(-2) === river.line.at(-2) && line.at(-1) === river.line.at(-1);
+    return below;
   }
 
   /** A river with all that drain into it. */
   above(river) {
     const into = this.rivers.map(() => []);
-    for (const one of this.rivers) into[this.below(one)]?.push(one);
+    this.downstream.forEach((below, n) => into[below]?.push(this.rivers[n]));
     const all = new Set([river]);
     for (const one of all) for (const next of into[one.n]) all.add(next);
     return [...all];
@@ -200,6 +199,9 @@ export class Drawing {
     const wanted = spots(object.line);
     const unlike = ({ line }) => Math.min(off(spots(line), wanted), off(spots(line).reverse(), wanted));
     const best = all.reduce((least, one) => (unlike(one) < (least ? unlike(least) : Infinity) ? one : least), null);
-    return best && unlike(best) < 0.15 * (lengthOf(object.line) + 10) ? best : null;
+    if (best && unlike(best) < 0.15 * (lengthOf(object.line) + 10)) return best;
+    // It may be a piece of a longer one now.
+    const middle = 2 * Math.floor(object.line.length / 4);
+    return this.nearest({ x: object.line[middle], y: object.line[middle + 1] }, 1, ({ kind }) => kind === object.kind)?.object ?? null;
   }
 }

@@ -155,9 +155,9 @@ export class Select extends Tool {
   #drag = null; // {object, vertex, insert, reach, from, to, target, moved}
   #beside = null; // where the view was pressed
 
-  #handles(place = (x, y) => this.view.place(x, y)) {
+  #handles() {
     const { chosen } = this.desk;
-    return chosen ? this.overlay.handles(chosen.line, place, chosen.closed) : [];
+    return chosen ? this.overlay.handles(chosen) : [];
   }
 
   #handleAt(px, reach) {
@@ -341,7 +341,7 @@ export class Select extends Tool {
       if (p) dot(pen, p, 5, { fill: orange, stroke: '#fff' });
     } else if (desk.chosen && desk.ghosts.length === 0) {
       const last = desk.chosen.line.length / 2 - 1;
-      for (const { i, x, y } of this.#handles(place)) {
+      for (const { i, x, y } of this.#handles()) {
         const end = desk.chosen.kind === 'river' && (i === 0 || i === last);
         if (i === desk.vertex) dot(pen, { x, y }, 5.5, { fill: orange, stroke: '#fff' });
         else if (!end) dot(pen, { x, y }, 3.6, { stroke: orange, width: 1.8 });

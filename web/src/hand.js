@@ -37,13 +37,18 @@ export class Tool {
     const { desk } = this;
     if (event.target !== this.view.canvas) return false;
     const by = arrows[event.key]?.map((v) => v * (event.shiftKey ? 10 : 1));
-    if (by) {
-      const at = desk.step(...by);
-      this.point(at);
-    } else if (event.key === ' ' || event.key === 'Enter') {
-      if (!desk.cursor) this.point(desk.step(0, 0));
-      else this.press(desk.cursor, event.key);
-    } else return false;
+    if (by) this.point(desk.step(...by));
+    else if (event.key === ' ' || event.key === 'Enter') return this.#pressed(event);
+    else return false;
+    return true;
+  }
+
+  /** The space bar is the view's own while no cursor is shown: with the left button it moves the view. */
+  #pressed({ key, repeat }) {
+    const { desk } = this;
+    if (!desk.cursor && key === ' ') return false;
+    if (!desk.cursor) this.point(desk.step(0, 0));
+    else if (!repeat) this.press(desk.cursor, key);
     return true;
   }
 

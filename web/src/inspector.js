@@ -60,11 +60,11 @@ export function inspector(desk, types, hold) {
   const title = make('p', { className: 'what' });
   const note = make('p', { className: 'hint' });
   const type = make('select', { id: 'river-type' });
-  const lambda = make('input', { type: 'number', id: 'river-lambda', min: 1, max: 50, step: 1, placeholder: 'auto', autocomplete: 'off' });
+  const lambda = make('input', { type: 'number', id: 'river-lambda', min: 1, max: 50, step: 1, placeholder: 'recipe', autocomplete: 'off' });
   const level = make('input', { type: 'number', id: 'lake-level', step: 'any', placeholder: 'by the terrain', autocomplete: 'off' });
   const field = (label, control, unit) => make('div', { className: 'row' }, make('label', { htmlFor: control.id, textContent: label }), control, unit && make('span', { textContent: unit }));
-  const [typeRow, lambdaRow, levelRow] = [field('Type', type), field('Magnitude', lambda), field('Level', level, 'm')];
-  lambdaRow.title = 'How many sources the network of this river has';
+  const [typeRow, lambdaRow, levelRow] = [field('Type', type), field('Branching', lambda), field('Level', level, 'm')];
+  lambdaRow.title = 'Generator lambda of the side streams: 1 has none, 2 is dendritic, larger values are feathered; empty: as the recipe says';
 
   type.addEventListener('change', () => {
     const river = chosen('river');
@@ -95,7 +95,9 @@ export function inspector(desk, types, hold) {
   });
   const erase = press('Delete', '', () => desk.remove());
   const alone = press('Delete alone', 'The rivers that flow into it stay (Shift+Delete)', () => desk.remove(true));
-  const actions = make('div', { className: 'actions' }, reverse, swap, erase, alone);
+  const finish = press('End the line', '(Enter, double click)', () => desk.tool.finish());
+  const back = press('Take back', 'The last point (Backspace)', () => desk.tool.back());
+  const actions = make('div', { className: 'actions' }, finish, back, reverse, swap, erase, alone);
 
   const branching = make('input', { type: 'checkbox', id: 'branching' });
   branching.title = 'Every river grows a network of side streams';
@@ -110,7 +112,8 @@ export function inspector(desk, types, hold) {
   box.setAttribute('aria-label', 'Drawing');
   const hint = make('p', { id: 'sheet-hint', hidden: true });
   hint.append('Draw a river ', make('kbd', { textContent: 'R' }), ': from its source to the sea, or the other way');
-  stage.append(hint, box);
+  document.getElementById('view').after(box);
+  stage.append(hint);
 
   /** A field shows a value unless somebody is typing in it. */
   const put = (input, value) => {
@@ -143,7 +146,7 @@ export function inspector(desk, types, hold) {
 
   function show() {
     const { drawing, tool } = desk;
-    box.hidden = !tool || !desk.fits;
+    box.hidden = !tool || !drawing;
     hint.hidden = !drawing || drawing.rivers.length > 0 || !desk.fits || desk.ghosts.length > 0 || (tool?.line?.length ?? 0) > 0;
     if (box.hidden) return;
     words();
@@ -155,7 +158,9 @@ export function inspector(desk, types, hold) {
     erase.textContent = desk.vertex >= 0 ? 'Delete vertex' : 'Delete';
     erase.title = `${desk.vertex >= 0 ? 'The chosen vertex' : river ? 'The river with all that flow into it' : 'What is chosen'} (Delete)`;
     alone.hidden = !river || desk.vertex >= 0 || drawing.above(river).length < 2;
-    actions.hidden = !desk.chosen;
+    const open = (tool.line?.length ?? 0) > 0;
+    finish.hidden = back.hidden = !open;
+    actions.hidden = !desk.chosen && !open;
     branching.checked = drawing.branching;
     clear.disabled = drawing.empty;
   }

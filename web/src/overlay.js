@@ -98,6 +98,7 @@ export function write(pen, text, { x, y }, colour) {
 export class Overlay {
   #paths = new Map(); // of objects, as long as the view stands still
   #drawing = null;
+  #handles = null;
 
   constructor(desk) {
     this.desk = desk;
@@ -106,6 +107,7 @@ export class Overlay {
   /** The view has moved, or shows another land. */
   stale() {
     this.#paths.clear();
+    this.#handles = null;
   }
 
   pieces(line, place) {
@@ -256,17 +258,22 @@ export class Overlay {
   }
 
   /** Vertices that can be taken; closer ones than 20 pixels stand for their neighbours: [{i, x, y}]. */
-  handles(line, place, closed) {
+  handles(object) {
+    if (this.#handles?.object !== object) this.#handles = { object, all: this.#thinned(object) };
+    return this.#handles.all;
+  }
+
+  #thinned({ line, closed }) {
     const count = line.length / 2;
-    const at = (i) => place(line[2 * i], line[2 * i + 1]);
+    const at = (i) => this.desk.view.place(line[2 * i], line[2 * i + 1]);
     const all = [];
-    const last = closed ? null : at(count - 1);
+    const end = at(closed ? 0 : count - 1);
     const room = (p, q) => !q || Math.hypot(p.x - q.x, p.y - q.y) >= 20;
     for (let i = 0; i < count; ++i) {
       const p = at(i);
-      if (p && (i === 0 || i === (closed ? -1 : count - 1) || (room(p, all.at(-1)) && room(p, closed ? all[0] : last)))) all.push({ i, x: p.x, y: p.y });
+      const first = i === 0 || (!closed && i === count - 1);
+      if (p && (first || (room(p, all.at(-1)) && room(p, end)))) all.push({ i, x: p.x, y: p.y });
     }
     return all;
   }
 }
-

@@ -32,6 +32,15 @@ export class Pen extends Tool {
     this.desk.onchange();
   }
 
+  /** Whether a line that ends here ends where it began: a coast is closed where its ends are a few cells or a seventh of its length apart. */
+  get #rounds() {
+    const { line } = this;
+    if (!this.closes || line.length < 6) return false;
+    const at = this.#tip ?? { x: line.at(-2), y: line.at(-1) };
+    const reach = near * this.desk.scale(at);
+    return Math.hypot(at.x - line[0], at.y - line[1]) < (this.closes === 'maybe' ? Math.max(reach, 6, 0.15 * this.#along) : reach);
+  }
+
   #snap(at) {
     return this.desk.snap(at, this.snaps, { pixels: near });
   }
@@ -44,6 +53,12 @@ export class Pen extends Tool {
       const [ax, ay] = line.slice(-2);
       if (ax === x && ay === y) return;
       const met = this.#met(ax, ay, x, y);
+      if (met?.loop < near * this.desk.scale({ x, y })) { // of a hand that trembles
+        this.#cutTo(met.from);
+        this.#add({ ...met, kind: 'own' });
+        this.#add({ x, y, kind: 'own' });
+        return;
+      }
       if (met) this.#crossings.push({ ...met, i: line.length / 2, along: this.#along + Math.hypot(met.x - ax, met.y - ay) });
       this.#along += Math.hypot(x - ax, y - ay);
     }
@@ -58,7 +73,9 @@ export class Pen extends Tool {
     const { line } = this;
     for (let i = 2; i + 3 < line.length; i += 2) {
       const t = meeting(ax, ay, x, y, line[i - 2], line[i - 1], line[i], line[i + 1]);
-      if (t >= 0) return { object: null, x: ax + t * (x - ax), y: ay + t * (y - ay) };
+      if (t < 0) continue;
+      const at = { x: ax + t * (x - ax), y: ay + t * (y - ay) };
+      return { object: null, ...at, from: i, loop: lengthOf([at.x, at.y, ...line.slice(i), at.x, at.y]) };
     }
     return null;
   }
@@ -70,7 +87,7 @@ export class Pen extends Tool {
     if (tip && this.line.length) {
       const [ax, ay] = this.line.slice(-2);
       const met = this.#met(ax, ay, tip.x, tip.y);
-      if (met && met.object !== this.#target?.object) all.push({ ...met, i: this.line.length / 2, along: total + Math.hypot(met.x - ax, met.y - ay) });
+      if (met && (!met.object || met.object !== this.#target?.object)) all.push({ ...met, i: this.line.length / 2, along: total + Math.hypot(met.x - ax, met.y - ay) });
       total += Math.hypot(tip.x - ax, tip.y - ay);
     }
     const slack = 1.5 * near * this.desk.scale(tip ?? { x: this.line[0], y: this.line[1] });
@@ -89,33 +106,37 @@ export class Pen extends Tool {
     this.#begin = this.#snap(at);
     this.#marks = [0];
     this.#add(this.#begin ?? at);
+    this.desk.onchange();
   }
 
-  /** Takes the last step back; false where there is none. */
+  /** Takes the last step back, of a stroke by hand a piece; false where there is none. */
   back() {
-    if (this.line.length === 0) return false;
-    this.desk.quiet();
-    this.#warned = false;
-    const to = this.#marks.at(-1);
-    const least = 24 * this.desk.scale({ x: this.line[0], y: this.line[1] });
-    // Of a stroke by hand only a piece.
-    let length = this.line.length;
-    for (let gone = 0; length > to && gone < least; length -= 2) gone += length > 2 ? Math.hypot(this.line[length - 2] - this.line[length - 4], this.line[length - 1] - this.line[length - 3]) : 0;
-    if (length <= Math.max(to, 2)) this.#marks.pop();
-    this.line.length = to === 0 && length <= 2 && this.#marks.length === 0 ? 0 : Math.max(length, to);
-    this.#along = lengthOf(this.line);
-    this.#crossings = this.#crossings.filter(({ i }) => i < this.line.length / 2);
-    this.#refused = false;
+    const { line, desk } = this;
+    if (line.length === 0) return false;
+    desk.quiet();
+    this.#warned = this.#refused = false;
     this.#target = null;
-    if (this.line.length === 0) this.clear();
+    const to = this.#marks.at(-1);
+    const piece = 2 * near * desk.scale({ x: line[0], y: line[1] });
+    let length = line.length - 2;
+    for (; length > to && lengthOf(line.slice(length - 2)) < piece; length -= 2);
+    if (length <= to) this.#marks.pop();
+    if (this.#marks.length) this.#cutTo(length);
+    else this.clear();
     this.#judge();
-    this.desk.speak(this.line.length ? `${this.line.length / 2} points` : 'nothing drawn');
+    desk.onchange();
+    desk.speak(this.line.length ? `${this.line.length / 2} points` : 'nothing drawn');
     return true;
+  }
+
+  #cutTo(length) {
+    this.line.length = length;
+    this.#along = lengthOf(this.line);
+    this.#crossings = this.#crossings.filter(({ i }) => i < length / 2);
   }
 
   #judge() {
     this.#warn(this.line.length ? this.#wrong(this.#target ?? this.#tip) : null);
-    this.desk.onchange();
   }
 
   // ── The pointer.
@@ -176,11 +197,7 @@ export class Pen extends Tool {
     this.#gesture = null;
     if (!g?.moved) return;
     if (g.fresh) this.clear();
-    else {
-      this.line.length = this.#marks.pop();
-      this.#along = lengthOf(this.line);
-      this.#crossings = this.#crossings.filter(({ i }) => i < this.line.length / 2);
-    }
+    else this.#cutTo(this.#marks.pop());
   }
 
   hover(at) {
@@ -296,14 +313,14 @@ export class Pen extends Tool {
       const whole = tip && !this.#refused ? [...line, tip.x, tip.y] : line;
       const wrong = this.#refused ? { i: 1, x: line[0], y: line[1] } : this.#wrong(tip);
       overlay.stroke(pen, place, whole, { colour: ink[this.kind], wrong, arrows: this.kind === 'river', turned: this.#turned() });
-      if (this.closes === true && whole.length >= 6) overlay.stroke(pen, place, [...whole.slice(-2), line[0], line[1]], { colour: ink[this.kind], width: 1, dashed: true });
+      if (whole.length >= 6 && (this.closes === true || this.#rounds)) overlay.stroke(pen, place, [...whole.slice(-2), line[0], line[1]], { colour: ink[this.kind], width: 1, dashed: true });
       for (const k of this.#marks) {
         const p = place(line[k], line[k + 1]);
         if (p) dot(pen, p, 3.4, { stroke: this.#refused ? red : ink[this.kind] });
       }
     }
     overlay.ring(pen, place, this.#begin);
-    overlay.ring(pen, place, this.#target);
+    overlay.ring(pen, place, this.#rounds ? { x: line[0], y: line[1] } : this.#target);
     super.draw(pen, place);
   }
 

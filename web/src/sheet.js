@@ -18,6 +18,10 @@ const icons = {
   mask: 'M2.5 2.5h15v15h-15ZM6 12.5l1.5-6 6-.5 1 5-3.5 3.5Z',
 };
 
+/** For the list of keys. */
+export const drawingKeys = [['R, O, A, S', 'draw a river, a coast, a lake, a mask: drag, or point by point'], ['Enter, double click', 'end of a line'], ['Backspace', 'back by a point'],
+  ['V, K, J', 'choose and edit, cut, join'], ['Delete', 'the chosen vertex, or all that is chosen'], ['Escape', 'put away'], ['space bar and drag', 'move the view with a tool in the hand']];
+
 /** The tools in the order of the toolbar. */
 function drawingTools(desk, overlay) {
   const points = (line) => line.map(round);
@@ -38,9 +42,9 @@ function drawingTools(desk, overlay) {
   ];
 }
 
-/** page: of page.js; ask(question): a promise of the reply; types: of rivers. */
-export function openSheet({ view, tools }, ask, types) {
-  const desk = new Desk(view, ask);
+/** page: of page.js; ask(question): a promise of the reply; revision(): of the document; types: of rivers. */
+export function openSheet({ view, tools }, { ask, revision, types }) {
+  const desk = new Desk(view, ask, revision);
   const overlay = new Overlay(desk);
   const beside = inspector(desk, types);
   const all = drawingTools(desk, overlay);
@@ -63,11 +67,12 @@ export function openSheet({ view, tools }, ask, types) {
   };
   desk.onrefused = (ghost) => {
     if (ghost?.pen && ghost.pen === desk.tool) ghost.pen.resume(ghost);
-    else desk.choose(null);
   };
   return {
     desk,
     take: (message) => desk.take(message),
+    /** The document or the land has changed. */
+    follow: () => desk.onchange(),
     /** Of a line that is drawn point by point the last step is taken back; false: there is none. */
     back: () => desk.tool?.back?.() ?? false,
   };

@@ -11,7 +11,7 @@ import { Link } from './link.js';
 import { createPage, tellAll } from './page.js';
 import { recipeForm } from './recipe.js';
 import { Rivers } from './rivers.js';
-import { openSheet } from './sheet.js';
+import { drawingKeys, openSheet } from './sheet.js';
 import { Water } from './water.js';
 
 const $ = (id) => document.getElementById(id);
@@ -262,9 +262,10 @@ export function openStudio(about, state) {
     now = scene;
     if (page) {
       if (!holding) page.replace(scene, { home: !page.tools.held, ...options });
+      sheet?.follow();
       return;
     }
-    page = createPage(scene, state, [['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]);
+    page = createPage(scene, state, drawingKeys.concat([['Ctrl+Z', 'undo'], ['Ctrl+Shift+Z, Ctrl+Y', 'redo'], ['B', 'hold: before the last edit']]));
     state.heights = () => link.heights;
     view.hidden = false;
     above();
@@ -277,16 +278,18 @@ export function openStudio(about, state) {
   let drawn = null; // the program's last message of it
   function draw() {
     if (!page || !drawn) return;
-    sheet ??= openSheet(page, ask, (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')));
+    sheet ??= openSheet(page, { ask, revision: () => state.revision, types: (key('network.rosgen')?.choices ?? []).filter((type) => !type.startsWith('by_')) });
     sheet.take(drawn);
   }
 
   function drawing(message) {
-    const emptied = drawn?.rivers.length > 0;
+    const emptied = page && !now?.land.level;
     drawn = message;
-    // Land without rivers may be a given one, which comes.
-    if (message.rivers.length === 0 && emptied) flat(message.grid);
-    else if (message.rivers.length === 0 && !page) setTimeout(() => page || flat(message.grid), 300);
+    // Where rivers are shown and none is there, a given land comes.
+    if (message.kind === 'drawn' && message.rivers.length === 0) {
+      if (emptied) flat(message.grid);
+      else if (!page) setTimeout(() => page || flat(message.grid), 300);
+    }
     draw();
   }
 
@@ -296,7 +299,7 @@ export function openStudio(about, state) {
     clearTimeout(alone);
     const land = new Land(grid, null);
     state.level = null;
-    show({ data: dataOf(grid), land, rivers: new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) });
+    show({ data: dataOf(grid, { command: current.command, recipe: current.recipe }), land, rivers: new Rivers(noData.rivers, null, ''), water: new Water(land, '', false) });
     stale(false);
   }
 
@@ -413,6 +416,7 @@ export function openStudio(about, state) {
       form.show(message);
       above();
       command.replaceChildren(copyable(message.command, 'the command'));
+      sheet?.follow();
     },
     busy({ job, stage, share }) {
       working = true;

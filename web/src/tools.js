@@ -50,6 +50,7 @@ export class Tools {
       if (this.held?.key?.(event)) {
         event.preventDefault();
         event.stopPropagation();
+        this.draw();
       } else if (event.key === 'Escape' && this.held) {
         if (this.#gesture !== null) this.#end();
         else this.hold(null);
