@@ -202,7 +202,10 @@ describe('two minutes on an empty sheet', () => {
     execFileSync(exe, ['check', out, '--dem', path.join(out, 'dem.tif')], { stdio: 'ignore' });
     execFileSync(exe, ['make', path.join(folder, 'recipe.toml'), '-o', path.join(place, 'made'), '-q'], { stdio: 'ignore' });
     for (const name of ['dem.tif', 'network.gpkg', 'lakes.tif']) assert.ok(fs.readFileSync(path.join(out, name)).equals(fs.readFileSync(path.join(place, 'made', name))), name);
-    if (process.env.THALWEG_KEEP) fs.cpSync(out, process.env.THALWEG_KEEP, { recursive: true });
+    const inputs = fs.readdirSync(path.join(folder, 'inputs'), { recursive: true }).filter((name) => name.endsWith('.gpkg')).map((name) => path.join(folder, 'inputs', name));
+    assert.ok(inputs.length >= 6);
+    const qgis = path.join(process.env.THALWEG_SOURCE_DIR, 'tests/clients/check_qgis.py');
+    execFileSync('/usr/bin/python3', [qgis, out, ...inputs], { stdio: ['ignore', 'ignore', 'inherit'] });
   });
 
   test('undo leads back to the empty sheet', async () => {

@@ -355,7 +355,7 @@ TEST_F(Studios, DrawnRiversBecomeTheTerrain) {
 
     json const erased = window.draw({{"verb", "erase"}, {"river", 0}});
     ASSERT_EQ(erased["ok"], true) << erased;
-    EXPECT_TRUE(test::has(erased["said"].dump(), "drawn lines now", "undo brings it back"));
+    EXPECT_TRUE(test::has(erased["said"].dump(), "drawn lines now, ", "undo brings it back"));
     EXPECT_EQ(window.drawing()["kind"], "drawn");
     EXPECT_LT(window.drawing()["rivers"].size(), shown["rivers"].size());
     EXPECT_TRUE(test::has(recipe(), "source = 'lines'", "drawing.gpkg"));
