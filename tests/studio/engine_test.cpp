@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,9 @@
 #include <support.hpp>
 
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/studio/document.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 
 #include "random_edits.hpp"
 

@@ -97,7 +97,7 @@ export class Desk {
       const reply = await this.ask({ do: 'draw', revision: drawing.revision, what: typeof what === 'function' ? what(same) : what });
       await this.#freshness();
       this.#forget(ghost);
-      for (const text of reply.said ?? []) this.ontell(text, {});
+      if (reply.said?.length) this.ontell(reply.said.join('; '), {});
       return reply;
     } catch (error) {
       if (ghost) ghost.state = 'refused';

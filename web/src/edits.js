@@ -216,8 +216,8 @@ export class Select extends Tool {
 
   #lift(what, at, px) {
     const { chosen } = this.desk;
-    const handles = this.#handles().length;
-    const reach = this.#dense() ? round((2.5 * lengthOf(chosen.outline)) / Math.max(1, handles - 1)) : 0;
+    // Of a dense line what lies within two or three handles follows.
+    const reach = this.#dense() && at ? round(50 * this.desk.scale(at)) : 0;
     this.#drag = { object: chosen, reach, px, to: at, moved: false, target: null, ...what };
   }
 

@@ -96,7 +96,8 @@ export function write(pen, text, { x, y }, colour) {
 }
 
 export class Overlay {
-  #paths = new Map(); // of objects, as long as the view stands still
+  #paths = new Map(); // of what is chosen and hovered, as long as the view stands still
+  #picture = null; // likewise of all else: {stamp, canvas}
   #drawing = null;
   #handles = null;
 
@@ -108,6 +109,7 @@ export class Overlay {
   stale() {
     this.#paths.clear();
     this.#handles = null;
+    if (this.#picture) this.#picture.stamp = '';
   }
 
   pieces(line, place) {
@@ -134,15 +136,33 @@ export class Overlay {
     if (drawing !== this.#drawing) this.stale();
     this.#drawing = drawing;
     const hidden = new Set(desk.ghosts.filter((one) => one.state === 'sent').flatMap((one) => one.hides ?? []));
-    const seen = (objects) => objects.filter((one) => !hidden.has(one));
-    pen.globalAlpha = held ? 1 : 0.6;
-    this.#masks(pen, place, seen(drawing.masks), held);
-    for (const lake of seen(drawing.lakes)) this.#lake(pen, place, lake, held);
-    for (const coast of seen(drawing.coasts)) this.#line(pen, place, coast, 1.8, held && ticks(this.#of(coast, place).pieces));
-    pen.globalAlpha = 1;
-    if (held && drawing.kind === 'drawn') for (const river of seen(drawing.rivers)) this.#line(pen, place, river, 1.5, heads(this.#of(river, place).pieces, 90));
+    const { clientWidth, clientHeight } = desk.view.parent;
+    if (held || drawing.objects.length > drawing.rivers.length) pen.drawImage(this.#still(place, held, hidden), 0, 0, clientWidth, clientHeight);
     if (held) this.#choice(pen, place, hidden);
     for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+  }
+
+  /** What stays as it is while only the pointer moves, as a picture. */
+  #still(place, held, hidden) {
+    const { parent } = this.desk.view;
+    const ratio = Math.min(window.devicePixelRatio || 1, 2);
+    const [width, height] = [Math.round(parent.clientWidth * ratio), Math.round(parent.clientHeight * ratio)];
+    const stamp = [held, width, height, ratio, ...Array.from(hidden, ({ kind, n }) => kind + n)].join(' ');
+    if (this.#picture?.stamp === stamp) return this.#picture.canvas;
+    const canvas = this.#picture?.canvas ?? document.createElement('canvas');
+    Object.assign(canvas, { width, height });
+    const pen = canvas.getContext('2d');
+    pen.setTransform(ratio, 0, 0, ratio, 0, 0);
+    pen.lineJoin = pen.lineCap = 'round';
+    pen.globalAlpha = held ? 1 : 0.6;
+    const { drawing } = this.desk;
+    const seen = (objects) => objects.filter((one) => !hidden.has(one));
+    this.#masks(pen, place, seen(drawing.masks), held);
+    for (const lake of seen(drawing.lakes)) this.#lake(pen, place, lake, held);
+    this.#lines(pen, place, seen(drawing.coasts), 1.8, held && ticks);
+    if (held && drawing.kind === 'drawn') this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path));
+    this.#picture = { stamp, canvas };
+    return canvas;
   }
 
   #masks(pen, place, masks, held) {
@@ -151,21 +171,20 @@ export class Overlay {
     const { clientWidth, clientHeight } = this.desk.view.parent;
     all.rect(0, 0, clientWidth, clientHeight);
     const land = this.desk.drawing.grid;
-    const within = new Path2D();
-    trace(this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place), true, within);
-    for (const mask of masks) all.addPath(this.#of(mask, place).path);
+    const within = trace(this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place), true);
+    for (const mask of masks) trace(this.pieces(mask.outline, place), true, all);
     pen.save();
     pen.clip(within);
     pen.fillStyle = held ? shade.held : shade.faint;
     pen.fill(all, 'evenodd');
     pen.restore();
-    for (const mask of masks) this.#line(pen, place, mask, 1.6, null);
+    this.#lines(pen, place, masks, 1.6);
   }
 
   #lake(pen, place, lake, held) {
     pen.fillStyle = 'rgb(52 136 206 / 0.32)';
-    pen.fill(this.#of(lake, place).path);
-    this.#line(pen, place, lake, 1.6, null);
+    pen.fill(trace(this.pieces(lake.outline, place), true));
+    this.#lines(pen, place, [lake], 1.6);
     if (!held || lake.level === null) return;
     const { line } = lake;
     const n = line.length / 2;
@@ -174,17 +193,22 @@ export class Overlay {
     if (at) write(pen, `${lake.level} m`, at, '#10508c');
   }
 
-  #line(pen, place, object, width, marks) {
-    const { path } = this.#of(object, place);
-    pen.strokeStyle = casing;
-    pen.lineWidth = width + 2.2;
-    pen.stroke(path);
-    if (marks) pen.stroke(marks);
-    pen.strokeStyle = ink[object.kind];
-    pen.lineWidth = width;
-    pen.stroke(path);
-    pen.lineWidth = 1.5;
-    if (marks) pen.stroke(marks);
+  /** Lines of one kind at once; marks: (pieces, path) adds what stands along them. */
+  #lines(pen, place, objects, width, marks = null) {
+    if (objects.length === 0) return;
+    const [lines, beside] = [new Path2D(), new Path2D()];
+    for (const { outline, closed } of objects) {
+      const pieces = this.pieces(outline, place);
+      trace(pieces, closed, lines);
+      if (marks) marks(pieces, beside);
+    }
+    for (const [style, more] of [[casing, 2.2], [ink[objects[0].kind], 0]]) {
+      pen.strokeStyle = style;
+      pen.lineWidth = width + more;
+      pen.stroke(lines);
+      pen.lineWidth = 1.5 + more;
+      pen.stroke(beside);
+    }
   }
 
   /** What is under the pointer and what is chosen, with the way it runs. */
