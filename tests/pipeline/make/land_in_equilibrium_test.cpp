@@ -184,6 +184,48 @@ TEST(LandInEquilibrium, LakesAreLevelAndReported) {
     EXPECT_TRUE(std::ranges::equal(ponds.terrain.surface->dem.values(), t.terrain.surface->dem.values()));
 }
 
+namespace {
+
+std::string lake(std::string const& west, std::string const& south, std::string const& east, std::string const& north,
+                 std::string const& properties = "") {
+    return polygon("[" + west + "," + south + "],[" + east + "," + south + "],[" + east + "," + north + "],[" + west +
+                       "," + north + "],[" + west + "," + south + "]",
+                   properties);
+}
+
+} // namespace
+
+TEST(LandInEquilibrium, PolygonsMaskLand) {
+    Files const files;
+    // The western five sixths, in another CRS than the grid, which reaches from 3.000 to 3.053 degrees east.
+    files.write("west.geojson", R"({"type":"FeatureCollection","features":[)" +
+                                    polygon("[2.9,45],[3.045,45],[3.045,45.3],[2.9,45.3],[2.9,45]") + "]}");
+    files.write("east.geojson", geojson(lake("501200", "4990000", "510000", "5010000")));
+    Made const t = made(lines + path + "[surface]\nmask = \"west.geojson\"\n", files.folder());
+    EXPECT_EQ(t.terrain.equilibrium->edge, surface::Edge::coast);
+    Raster<float> const& dem = t.terrain.surface->dem;
+    Made const dilated =
+        made(lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"west.geojson\"\n", files.folder());
+    // 0.045 degrees of longitude are 3536 m there.
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        double const x = dem.grid().centre(dem.grid().at(i)).x;
+        if (std::fabs(x - 503536.0) > 10.0) {
+            EXPECT_EQ(std::isnan(dem[i]), x > 503536.0 && std::isnan(t.terrain.valley.z[i]));
+            EXPECT_EQ(std::isnan(dilated.terrain.surface->dem[i]), x > 503536.0);
+        }
+    }
+    // Rivers outside are land in equilibrium; dilation refuses them, as with rasters.
+    Made const kept = made(lines + path + "[surface]\nmask = \"east.geojson\"\n", files.folder());
+    Cell const source = kept.terrain.grid.cell_of({501000, 5003000});
+    EXPECT_FALSE(std::isnan(kept.terrain.surface->dem[source]));
+    test::expect_faults(
+        {{lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"east.geojson\"\n",
+          "surface.mask = \"east.geojson\" leaves out cell ("},
+         {lines + path + "[surface]\nmask = \"dry.geojson\"\nmethod = \"dilate\"\n", "where a river runs"},
+         {lines + path + "[surface]\nmask = \"rivers.geojson\"\n", "rivers.geojson"}},
+        files.folder());
+}
+
 TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {
     Files const files;
     Made const even = made(lines + path + equilibrium, files.folder());

@@ -71,7 +71,7 @@ surface::EquilibriumFields equilibrium_fields(Plan const& plan, Planform const& 
     Grid const& grid = planform.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), planform.land, channels);
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid, run), planform.land, channels);
     fields.uplift = with_pattern(read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run),
                                  recipe, grid, run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);

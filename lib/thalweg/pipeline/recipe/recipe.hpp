@@ -169,7 +169,8 @@ struct SurfaceRecipe {
     Base base = Base::harmonic;
     surface::DilateParams dilate;
     surface::DiffuseParams diffuse;
-    std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
+    /// polygons: what lies outside is left out; or a raster on the grid: cells with 0 or no data are; "" for none
+    std::string mask;
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
     std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
     skeleton::RegressParams regress;

@@ -412,7 +412,8 @@ std::span<Row const> recipe_rows() {
         key("surface.allow_negative", yes_no, "", {"true", "false"}, "by_dilation", "keep increments below 0",
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.allow_negative; }),
         key("surface.mask", file, "", {}, "[network] or surface.source or (from_points and no [statistics])",
-            "raster on the grid: cells with 0 or no data get no height",
+            "polygons: cells whose middle lies in none of them get no height; or a raster on the grid: cells with 0 or "
+            "no data get none",
             [](Recipe& r, Item) -> Field { return &r.surface->mask; }),
         key("surface.mean_slope", number, "degrees", {0, 60, left_open}, "by_equilibrium and surface.relief = 0",
             "mean slope of the terrain; left out: 25, around rivers of a file less on cells above 30 m",
