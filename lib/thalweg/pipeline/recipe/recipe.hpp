@@ -151,7 +151,7 @@ struct EquilibriumRecipe {
     double uplift_contrast = 4.0;
     double uplift_wave_m = 12'000.0;
     std::string erodibility; ///< raster on the grid, or polygons with a field of that name; "" for none
-    std::string lakes;       ///< polygons; "" for none
+    std::string lakes;       ///< polygons, with levels or without; "" for none
     double lake_share = 0.0; ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
