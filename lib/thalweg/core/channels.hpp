@@ -19,6 +19,7 @@ struct Channels {
     std::vector<ChannelId> receiver; ///< position in these vectors; -1: an outlet or sink
     std::vector<float> z;            ///< [m] prescribed heights, NaN: free; empty: all free
     std::vector<std::uint8_t> level; ///< 1: lake, as high as its receiver; empty: no lakes
+    std::vector<float> lake_z = {};  ///< [m] level that a lake's outlet must have, NaN: any; empty: no lake has one
 };
 
 } // namespace thalweg

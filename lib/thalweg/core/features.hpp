@@ -35,7 +35,7 @@ struct RidgeLines {
 struct Polygon {
     std::int64_t feature = 0;             ///< id in the file
     std::vector<std::vector<Vec2>> rings; ///< [m] implicitly closed; even-odd rule
-    double value = 0.0;                   ///< of the requested field
+    double value = 0.0;                   ///< of the requested field; NaN: it has none
 };
 
 /// The polygons of a file.

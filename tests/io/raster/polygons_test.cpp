@@ -216,6 +216,27 @@ TEST(ReadPolygons, KeepsCoordinatesInTheSameCrs) {
     EXPECT_EQ(read.polygons[0].rings[1], (std::vector<Vec2>{{500020, 20}, {500040, 20}, {500040, 40}}));
 }
 
+TEST(ReadPolygons, TakesNumbersThatAreThere) {
+    std::string const ring = "[500000,0],[500100,0],[500100,100],[500000,0]";
+    auto const values = [&](std::string const& features) {
+        ScratchFolder const folder;
+        write(folder / "a.geojson", test::geojson(features));
+        std::vector<double> found;
+        for (Polygon const& one : io::read_polygons_valued(folder / "a.geojson", "EPSG:32631", "level").polygons) {
+            found.push_back(std::isnan(one.value) ? -1.0 : one.value);
+        }
+        return found;
+    };
+    auto const polygon = [&](std::string const& properties) { return test::polygon(ring, properties); };
+    EXPECT_EQ(values(polygon("\"Level\":12.5") + "," + polygon("\"Level\":null") + "," + polygon("")),
+              (std::vector<double>{12.5, -1.0, -1.0}));
+    EXPECT_EQ(values(polygon("\"level\":null")), std::vector<double>{-1.0});
+    EXPECT_EQ(values(polygon("\"name\":\"a\"")), std::vector<double>{-1.0});
+    EXPECT_EQ(values(polygon("\"LEVEL\":7")), std::vector<double>{7.0});
+    EXPECT_TRUE(has(error_of([&] { values(polygon("\"level\":\"high\"")); }), "BadInput",
+                    "no finite value in the field level"));
+}
+
 TEST(ReadPolygons, BringsPartsIntoTheGridsCrs) {
     ScratchFolder const folder;
     // On the equator at the zone's middle meridian, a thousandth of a degree wide.

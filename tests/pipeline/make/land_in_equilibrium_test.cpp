@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <numeric>
+#include <set>
 #include <string>
 #include <string_view>
 #include <vector>
@@ -20,6 +21,7 @@
 #include <thalweg/measure/laws/network_laws.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
 
 #include "ascii_grid.hpp"
@@ -182,6 +184,157 @@ TEST(LandInEquilibrium, LakesAreLevelAndReported) {
     EXPECT_EQ(ponds.terrain.lakes, 1);
     EXPECT_EQ(count(repairs_of(ponds), "lake_left_out"), 1); // a pond between cells' centres and one off the grid
     EXPECT_TRUE(std::ranges::equal(ponds.terrain.surface->dem.values(), t.terrain.surface->dem.values()));
+}
+
+namespace {
+
+/// The levels at which the cells of a polygon's inner part stand, and whether they are lake.
+std::set<float> levels_within(Made const& t, Vec2 from, Vec2 to) {
+    std::set<float> levels;
+    Mask const lakes = lake_cells(t.terrain.channels);
+    for (std::int64_t i = 0; i < t.terrain.grid.cells(); ++i) {
+        Vec2 const at = t.terrain.grid.centre(t.terrain.grid.at(i));
+        if (at.x > from.x && at.x < to.x && at.y > from.y && at.y < to.y) {
+            EXPECT_EQ(lakes[i], 1) << at.x << " " << at.y;
+            levels.insert(t.terrain.surface->dem[i]);
+        }
+    }
+    return levels;
+}
+
+std::string lake(std::string const& west, std::string const& south, std::string const& east, std::string const& north,
+                 std::string const& properties = "") {
+    return polygon("[" + west + "," + south + "],[" + east + "," + south + "],[" + east + "," + north + "],[" + west +
+                       "," + north + "],[" + west + "," + south + "]",
+                   properties);
+}
+
+std::vector<std::string> texts(std::vector<Finding> const& findings, std::string_view kind) {
+    std::vector<std::string> out;
+    for (Finding const& one : findings) {
+        if (one.kind == kind) {
+            out.push_back(one.text);
+        }
+    }
+    return out;
+}
+
+} // namespace
+
+// What the terrain gives the lake of lakes.geojson is 19 m.
+TEST(LandInEquilibrium, LakesHaveTheLevelsOfTheirPolygons) {
+    Files const files;
+    std::string const keys = lines + path + "[surface]\nlakes = \"levels.geojson\"\n";
+    for (double const level : {0.25, 5.0, 19.0, 30.0, 60.0}) {
+        files.write("levels.geojson",
+                    geojson(lake("501850", "5001200", "502250", "5001700", "\"Level\":" + std::to_string(level))));
+        Made const t = made(keys, files.folder());
+        expect_lawful(t);
+        EXPECT_EQ(levels_within(t, {501910, 5001260}, {502190, 5001640}), std::set{static_cast<float>(level)});
+        EXPECT_EQ(count(repairs_of(t), "lake_level"), 0);
+        EXPECT_EQ(t.terrain.surface->dem[t.terrain.channels.cell[0]], 0.0F) << "the outlet";
+        for (std::size_t n = 0; n < t.terrain.channels.cell.size(); ++n) {
+            std::int64_t const r = t.terrain.channels.receiver[n];
+            EXPECT_TRUE(r < 0 || t.terrain.channels.level[n] != 0 ||
+                        t.terrain.surface->dem[t.terrain.channels.cell[n]] >
+                            t.terrain.surface->dem[t.terrain.channels.cell[static_cast<std::size_t>(r)]]);
+        }
+    }
+    files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":null")));
+    Made const free = made(keys, files.folder());
+    Made const without = made(lines + path + "[surface]\nlakes = \"lakes.geojson\"\n", files.folder());
+    EXPECT_TRUE(std::ranges::equal(free.terrain.surface->dem.values(), without.terrain.surface->dem.values()));
+    files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":1e9")));
+    test::expect_faults({{keys, "levels.geojson\": feature 0 has the level 1000000000 m"}}, files.folder());
+}
+
+TEST(LandInEquilibrium, LevelsThatWaterCannotKeepAreTold) {
+    Files const files;
+    std::string const keys = lines + path + "[surface]\nlakes = \"levels.geojson\"\n";
+    files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":20") + "," +
+                                          lake("501900", "5000400", "502300", "5000800", "\"level\":35.5") + "," +
+                                          lake("503500", "5000300", "503800", "5000600", "\"level\":7") + "," +
+                                          lake("400000", "5000300", "400800", "5000600", "\"level\":8")));
+    std::string said;
+    thalweg::Run run;
+    run.log = [&said](std::string_view text) { said += std::string(text) + "\n"; };
+    Made const t = made(keys, files.folder(), run);
+    expect_lawful(t);
+    std::set<float> const above = levels_within(t, {501910, 5001260}, {502190, 5001640});
+    EXPECT_EQ(levels_within(t, {501960, 5000460}, {502240, 5000740}), std::set{35.5F});
+    ASSERT_EQ(above.size(), 1U);
+    EXPECT_GT(*above.begin(), 35.5F);
+    EXPECT_LT(*above.begin(), 35.52F);
+    auto const notes = repairs_of(t);
+    std::vector<std::string> const missed = texts(notes, "lake_level");
+    ASSERT_EQ(missed.size(), 1U);
+    EXPECT_TRUE(test::has(missed[0], "lake 1 at (")) << missed[0];
+    EXPECT_TRUE(test::has(missed[0], "m, not 20 m: lake 2 stands ")) << missed[0];
+    EXPECT_TRUE(test::has(missed[0], " cells downstream at 35.5 m")) << missed[0];
+    EXPECT_TRUE(test::has(said, "warning: " + missed[0]));
+    std::vector<std::string> const left_out = texts(notes, "lake_left_out");
+    ASSERT_EQ(left_out.size(), 2U);
+    EXPECT_TRUE(test::has(left_out[0] + left_out[1], "1 of them have levels, the first is feature 3 with 8 m"));
+    EXPECT_TRUE(test::has(left_out[0] + left_out[1], "no river runs through it; level asked for: 7 m"));
+    EXPECT_TRUE(test::has(said, "level asked for: 7 m"));
+    EXPECT_TRUE(test::has(said, "with 8 m"));
+    files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":-12")));
+    Made const low = made(keys, files.folder());
+    expect_lawful(low);
+    ASSERT_EQ(count(repairs_of(low), "lake_level"), 1);
+    EXPECT_TRUE(test::has(texts(repairs_of(low), "lake_level")[0], "m, not -12 m: its river ends "));
+    EXPECT_LT(*levels_within(low, {501910, 5001260}, {502190, 5001640}).begin(), 0.02F);
+}
+
+TEST(LandInEquilibrium, LakesHaveTheirLevelsAmongGivenHeightsAndTargets) {
+    Files const files;
+    files.write("levels.geojson", geojson(lake("501850", "5001200", "502250", "5001700", "\"level\":45.75")));
+    std::string const surface = "[surface]\nlakes = \"levels.geojson\"\n";
+    std::string const falling = "[network.lines]\npath = \"falling.geojson\"\n";
+    for (std::string const& recipe :
+         {lines + "heights = \"fixed\"\n" + falling + surface, lines + "heights = \"soft\"\n" + falling + surface,
+          lines + "heights = \"ends\"\n" + falling + surface, lines + falling + surface,
+          lines + path + surface + "mean_slope = 15\n", lines + path + surface + "relief = 400\n",
+          lines + path + surface + "edge = \"closed\"\n",
+          lines + "fill_space = true\nsupport = 200\n" + path + surface}) {
+        Made const t = made(recipe, files.folder());
+        EXPECT_EQ(levels_within(t, {501910, 5001260}, {502190, 5001640}), std::set{45.75F}) << recipe;
+        EXPECT_EQ(t.assessment.pits, 0) << recipe;
+        for (Check const& c : t.assessment.checks) {
+            EXPECT_TRUE(c.ok) << c.name << " " << c.value << " " << recipe;
+        }
+    }
+}
+
+TEST(LandInEquilibrium, PolygonsMaskLand) {
+    Files const files;
+    // The western five sixths, in another CRS than the grid, which reaches from 3.000 to 3.053 degrees east.
+    files.write("west.geojson", R"({"type":"FeatureCollection","features":[)" +
+                                    polygon("[2.9,45],[3.045,45],[3.045,45.3],[2.9,45.3],[2.9,45]") + "]}");
+    files.write("east.geojson", geojson(lake("501200", "4990000", "510000", "5010000")));
+    Made const t = made(lines + path + "[surface]\nmask = \"west.geojson\"\n", files.folder());
+    EXPECT_EQ(t.terrain.equilibrium->edge, surface::Edge::coast);
+    Raster<float> const& dem = t.terrain.surface->dem;
+    Made const dilated =
+        made(lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"west.geojson\"\n", files.folder());
+    // 0.045 degrees of longitude are 3536 m there.
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        double const x = dem.grid().centre(dem.grid().at(i)).x;
+        if (std::fabs(x - 503536.0) > 10.0) {
+            EXPECT_EQ(std::isnan(dem[i]), x > 503536.0 && std::isnan(t.terrain.valley.z[i]));
+            EXPECT_EQ(std::isnan(dilated.terrain.surface->dem[i]), x > 503536.0);
+        }
+    }
+    // Rivers outside are land in equilibrium; dilation refuses them, as with rasters.
+    Made const kept = made(lines + path + "[surface]\nmask = \"east.geojson\"\n", files.folder());
+    Cell const source = kept.terrain.grid.cell_of({501000, 5003000});
+    EXPECT_FALSE(std::isnan(kept.terrain.surface->dem[source]));
+    test::expect_faults(
+        {{lines + path + "[surface]\nmethod = \"dilate\"\nmask = \"east.geojson\"\n",
+          "surface.mask = \"east.geojson\" leaves out cell ("},
+         {lines + path + "[surface]\nmask = \"dry.geojson\"\nmethod = \"dilate\"\n", "where a river runs"},
+         {lines + path + "[surface]\nmask = \"rivers.geojson\"\n", "rivers.geojson"}},
+        files.folder());
 }
 
 TEST(LandInEquilibrium, HardRockAndUpliftMakeHighLand) {

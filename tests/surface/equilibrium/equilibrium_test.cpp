@@ -624,6 +624,13 @@ TEST(Equilibrium, RefusesWhatCannotBe) {
                         }
                     }),
                     "column 0, row 0"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.lake_z = {1, 2}; }), "levels of lakes; give one each"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) {
+                        s.rivers.level = {0, 0, 1, 0, 0, 0};
+                        s.rivers.lake_z.assign(6, std::nanf(""));
+                        s.rivers.lake_z[2] = 5.0F;
+                    }),
+                    "column 4, row 5 is 5 m within a lake"));
     EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.theta = 0.0; }), "theta"));
     EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.relief_m = 0.0; }), "relief_m"));
     EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.mean_slope_deg = 61.0; }), "mean_slope_deg"));
@@ -631,6 +638,138 @@ TEST(Equilibrium, RefusesWhatCannotBe) {
     EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.floor_width_km = -1.0; }), "floor_width_km"));
     EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.roughness = 2.0; }), "roughness"));
     EXPECT_TRUE(has(bad_parameter([](Scene& s) { s.params.longest_wave_m = 0.0; }), "longest_wave_m"));
+}
+
+namespace {
+
+bool is_lake(Channels const& rivers, std::size_t n) {
+    return !rivers.level.empty() && rivers.level[n] != 0 && rivers.receiver[n] >= 0;
+}
+
+/// Gives some lakes levels at random.
+void add_levels(Channels& rivers, std::uint64_t seed) {
+    rivers.lake_z.assign(rivers.cell.size(), std::numeric_limits<float>::quiet_NaN());
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        auto const r = static_cast<std::size_t>(std::max<std::int64_t>(rivers.receiver[n], 0));
+        if (is_lake(rivers, n) && !is_lake(rivers, r) && random_word(seed, 61, r) % 3 > 0) {
+            rivers.lake_z[r] = static_cast<float>(300.0 * unit(random_word(seed, 62, r)) - 50.0);
+        }
+    }
+}
+
+/// The least height from which water falls to the next lake with a level downstream of an outlet, or to the end.
+float least_level(Scene const& scene, EquilibriumTerrain const& land, std::size_t outlet) {
+    Channels const& rivers = scene.rivers;
+    int falls = 0;
+    std::size_t at = outlet;
+    do {
+        if (rivers.receiver[at] < 0) {
+            bool const given = scene.params.heights != RiverHeights::graded;
+            float const end = given ? rivers.z[at] : land.dem[rivers.cell[at]];
+            if (std::isnan(end)) {
+                return -std::numeric_limits<float>::infinity();
+            }
+            float z = end;
+            for (; falls > 0; --falls) {
+                z = std::max(z + 0x1p-13F, std::nextafter(z, 1e30F));
+            }
+            return z;
+        }
+        falls += is_lake(rivers, at) ? 0 : 1;
+        at = static_cast<std::size_t>(rivers.receiver[at]);
+    } while (std::isnan(rivers.lake_z[at]));
+    float z = land.dem[rivers.cell[at]];
+    for (; falls > 0; --falls) {
+        z = std::max(z + 0x1p-13F, std::nextafter(z, 1e30F));
+    }
+    return z;
+}
+
+} // namespace
+
+// A lake has its level to the bit, or the least one from which its water falls; water falls below it and into it, and
+// nothing of all this costs the land its drainage.
+TEST(Equilibrium, LakesHaveTheirLevels) {
+    EXPECT_TRUE(rc::check("lakes have their levels", [] {
+        Scene scene = any_scene();
+        scene.room = Room::apart;
+        add_lakes(scene.rivers, scene.params.seed);
+        add_levels(scene.rivers, scene.params.seed);
+        EquilibriumTerrain const land = land_of(scene);
+        Channels const& rivers = scene.rivers;
+        auto const z = [&](std::size_t n) { return land.dem[rivers.cell[n]]; };
+        auto const cells = river_cells(scene, land);
+        for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+            if (!std::isnan(rivers.lake_z[n])) {
+                RC_ASSERT(cells.contains(rivers.cell[n]));
+                RC_ASSERT(z(n) == std::max(rivers.lake_z[n], least_level(scene, land, n)));
+            }
+            if (rivers.receiver[n] >= 0 && cells.contains(rivers.cell[n])) {
+                auto const r = static_cast<std::size_t>(rivers.receiver[n]);
+                RC_ASSERT((is_lake(rivers, n) ? z(n) == z(r) : z(n) > z(r)));
+            }
+        }
+        RC_ASSERT(cells_in_depressions(scene, land.dem) == 0);
+    }));
+}
+
+TEST(Equilibrium, LevelsThatNoLakeHasChangeNothing) {
+    Scene scene = square(80);
+    scene.rivers.level.assign(scene.rivers.cell.size(), 0);
+    std::fill(scene.rivers.level.begin() + 20, scene.rivers.level.begin() + 30, std::uint8_t{1});
+    Scene same = scene;
+    same.rivers.lake_z.assign(same.rivers.cell.size(), std::numeric_limits<float>::quiet_NaN());
+    auto const dem = [](Scene const& s) { return equilibrium(s.rivers, {}, s.params).dem; };
+    EXPECT_TRUE(std::ranges::equal(dem(scene).values(), dem(same).values()));
+    // The level that it has anyway leaves the terrain as high as it is.
+    Raster<float> const without = dem(scene);
+    same.rivers.lake_z[19] = without[scene.rivers.cell[19]];
+    Raster<float> const with = dem(same);
+    double sum = 0.0;
+    for (std::int64_t i = 0; i < with.cells(); ++i) {
+        sum += std::fabs(static_cast<double>(with[i]) - static_cast<double>(without[i]));
+    }
+    EXPECT_LT(sum / static_cast<double>(with.cells()), 2.0);
+}
+
+TEST(Equilibrium, LandRisesAndFallsWithALake) {
+    Scene scene = square(160);
+    scene.rivers.level.assign(scene.rivers.cell.size(), 0);
+    std::fill(scene.rivers.level.begin() + 60, scene.rivers.level.begin() + 70, std::uint8_t{1});
+    scene.params.region = 3.0;
+    scene.params.bring_to_target = false;
+    EquilibriumTerrain const free = equilibrium(scene.rivers, {}, scene.params);
+    float const own = free.dem[scene.rivers.cell[59]];
+    ASSERT_TRUE(free.in_region);
+    for (float const by : {-0.9F * own, -5.0F, 5.0F, 40.0F, 150.0F}) {
+        scene.rivers.lake_z.assign(scene.rivers.cell.size(), std::numeric_limits<float>::quiet_NaN());
+        scene.rivers.lake_z[59] = own + by;
+        EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
+        EXPECT_TRUE(land.in_region);
+        EXPECT_EQ(land.dem[scene.rivers.cell[0]], free.dem[scene.rivers.cell[0]]);
+        EXPECT_EQ(land.dem[scene.rivers.cell[59]], own + by);
+        EXPECT_EQ(land.dem[scene.rivers.cell[69]], own + by);
+        // Halfway down the river has half the change, more or less, and upstream most of it.
+        float const above = land.dem[scene.rivers.cell[80]] - free.dem[scene.rivers.cell[80]];
+        EXPECT_GT(above / by, 0.6F) << by;
+        EXPECT_LT(above / by, 1.4F) << by;
+        float const middle = land.dem[scene.rivers.cell[30]] - free.dem[scene.rivers.cell[30]];
+        EXPECT_GT(middle / by, 0.2F) << by;
+        EXPECT_LT(middle / by, 0.8F) << by;
+    }
+}
+
+TEST(Equilibrium, ALakeStandsAboveTheNextOne) {
+    Scene scene = square(80);
+    scene.rivers.level.assign(scene.rivers.cell.size(), 0);
+    std::fill(scene.rivers.level.begin() + 11, scene.rivers.level.begin() + 20, std::uint8_t{1});
+    std::fill(scene.rivers.level.begin() + 31, scene.rivers.level.begin() + 40, std::uint8_t{1});
+    scene.rivers.lake_z.assign(scene.rivers.cell.size(), std::numeric_limits<float>::quiet_NaN());
+    scene.rivers.lake_z[10] = 50.0F;
+    scene.rivers.lake_z[30] = 20.0F;
+    EquilibriumTerrain const land = equilibrium(scene.rivers, {}, scene.params);
+    EXPECT_EQ(land.dem[scene.rivers.cell[15]], 50.0F);
+    EXPECT_EQ(land.dem[scene.rivers.cell[35]], 50.0F + 11.0F * 0x1p-13F); // eleven cells above the lower lake
 }
 
 TEST(Equilibrium, StopsWhenAsked) {

@@ -108,33 +108,45 @@ void add_parts(OGRGeometry const& geometry, std::int64_t feature, std::string co
     polygons.push_back(std::move(polygon));
 }
 
-/// Finds a field by name, ignoring case; -1: "". Throws if there is no such numeric field.
-int field_in(OGRLayer& layer, std::string const& name, std::string const& field) {
-    int const at = field.empty() ? -1 : layer.GetLayerDefn()->GetFieldIndex(field.c_str());
-    if (field.empty()) {
-        return at;
-    }
-    OGRFieldType const type = at < 0 ? OFTString : layer.GetLayerDefn()->GetFieldDefn(at)->GetType();
-    if (type != OFTReal && type != OFTInteger && type != OFTInteger64) {
+enum class Values : std::uint8_t { required, optional };
+
+/// A field of numbers from which polygons take their values.
+struct ValueField {
+    std::string name = {}; ///< in letters of any case; "": none, and values are 0
+    Values values = Values::required;
+};
+
+bool holds_numbers(OGRFieldDefn const& field) {
+    OGRFieldType const type = field.GetType();
+    return type == OFTReal || type == OFTInteger || type == OFTInteger64;
+}
+
+/// The number of a field; -1: none. Throws if there is no numeric field where one is required.
+int field_in(OGRLayer& layer, std::string const& name, ValueField const& field) {
+    int const at = field.name.empty() ? -1 : layer.GetLayerDefn()->GetFieldIndex(field.name.c_str());
+    bool const is_missing = at < 0 || !holds_numbers(*layer.GetLayerDefn()->GetFieldDefn(at));
+    if (!field.name.empty() && field.values == Values::required && is_missing) {
         refuse_polygons(
-            fmt::format("layer {} of {} has no field {} of numbers; add one", layer.GetName(), name, field));
+            fmt::format("layer {} of {} has no field {} of numbers; add one", layer.GetName(), name, field.name));
     }
     return at;
 }
 
-double value_in(OGRFeature const& feature, int field, std::string const& name) {
-    if (field < 0) {
-        return 0.0;
+double value_in(OGRFeature const& feature, int at, ValueField const& field, std::string const& name) {
+    bool const has_value = at >= 0 && feature.IsFieldSetAndNotNull(at) != 0;
+    if (!has_value && (field.name.empty() || field.values == Values::optional)) {
+        return field.name.empty() ? 0.0 : std::nan("");
     }
-    double const value = feature.IsFieldSetAndNotNull(field) ? feature.GetFieldAsDouble(field) : std::nan("");
+    bool const is_number = has_value && holds_numbers(*feature.GetFieldDefnRef(at));
+    double const value = is_number ? feature.GetFieldAsDouble(at) : std::nan("");
     if (!std::isfinite(value)) {
         refuse_polygons(fmt::format("feature {} of {} has no finite value in the field {}", feature.GetFID(), name,
-                                    feature.GetFieldDefnRef(field)->GetNameRef()));
+                                    feature.GetFieldDefnRef(at)->GetNameRef()));
     }
     return value;
 }
 
-std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string const& field, Run const& run) {
+std::vector<Polygon> take(OGRLayer& layer, std::string const& name, ValueField const& field, Run const& run) {
     std::vector<Polygon> polygons;
     int const valued = field_in(layer, name, field);
     for (auto const& feature : layer) {
@@ -147,7 +159,7 @@ std::vector<Polygon> take(OGRLayer& layer, std::string const& name, std::string 
         std::size_t const first = polygons.size();
         add_parts(*straight, feature->GetFID(), name, polygons);
         for (std::size_t p = first; p < polygons.size(); ++p) {
-            polygons[p].value = value_in(*feature, valued, name);
+            polygons[p].value = value_in(*feature, valued, field, name);
         }
     }
     return polygons;
@@ -206,11 +218,9 @@ PolygonsCrs crs_of_polygons(Source const& source) {
     return own.IsEmpty() != 0 ? PolygonsCrs() : PolygonsCrs{name_of(own), is_projected_in_metres(own)};
 }
 
-Polygons read_polygons(Source const& source, std::string const& crs, Run const& run) {
-    return read_polygons(source, crs, "", run);
-}
+namespace {
 
-Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
+Polygons read_with(Source const& source, std::string const& crs, ValueField const& field, Run const& run) {
     auto const name = std::filesystem::path(source.path).filename().string();
     Driver const driver;
     Dataset const data = open_file(source, GDAL_OF_VECTOR, "io.read_polygons: " + source.path);
@@ -229,6 +239,20 @@ Polygons read_polygons(Source const& source, std::string const& crs, std::string
         reproject(read.polygons, from, crs, name, driver);
     }
     return read;
+}
+
+} // namespace
+
+Polygons read_polygons(Source const& source, std::string const& crs, Run const& run) {
+    return read_with(source, crs, {}, run);
+}
+
+Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
+    return read_with(source, crs, {field}, run);
+}
+
+Polygons read_polygons_valued(Source const& source, std::string const& crs, std::string const& field, Run const& run) {
+    return read_with(source, crs, {field, Values::optional}, run);
 }
 
 namespace {

@@ -53,6 +53,14 @@ Polygons read_polygons(Source const& source, std::string const& crs, Run const& 
 /// \throws Error also BadInput when the layer has no such field, or a feature no finite value in it
 Polygons read_polygons(Source const& source, std::string const& crs, std::string const& field, Run const& run = {});
 
+/// \param source the file
+/// \param crs "EPSG:n" or WKT; "": none
+/// \param field name of a numeric field, in letters of any case
+/// \return the same, but NaN where the layer has no such field or a feature no value in it.
+/// \throws Error also BadInput where a value is not a finite number
+Polygons read_polygons_valued(Source const& source, std::string const& crs, std::string const& field,
+                              Run const& run = {});
+
 /// The catchment of an arc as a row.
 struct CatchmentRow {
     std::int64_t arc_id = 0;

@@ -151,6 +151,9 @@ Channels left_of(Channels const& channels, ChannelFlags const& is_gone, std::vec
         if (!channels.level.empty()) {
             out.level.push_back(channels.level[i]);
         }
+        if (!channels.lake_z.empty()) {
+            out.lake_z.push_back(channels.lake_z[i]);
+        }
     }
     return out;
 }

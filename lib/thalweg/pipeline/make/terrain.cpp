@@ -94,18 +94,20 @@ std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network
 }
 
 /// The cells of the terrain: those of the recipe's mask, or all; without the sea.
-Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley) {
+Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley, Run const& run) {
     if (recipe.surface->mask.empty()) {
         return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
     }
     Grid const& grid = valley.z.grid();
-    Mask inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), grid);
+    Mask inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), grid, run);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
             Cell const c = grid.at(i);
-            throw BadInput(fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}), where a river runs",
-                                       recipe.surface->mask, c.col, c.row));
+            Vec2 const at = grid.centre(c);
+            throw BadInput(fmt::format("surface.mask = \"{}\" leaves out cell ({}, {}) at ({:.1f}, {:.1f}), where a "
+                                       "river runs",
+                                       recipe.surface->mask, c.col, c.row, at.x, at.y));
         }
     }
     return inside;
@@ -292,7 +294,7 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
     Remarks remarks = std::move(solved.remarks);
     append(remarks.notes, std::move(raised.notes));
-    Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley);
+    Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley, run);
     std::optional<FeaturePoints> own;
     if (scatters_points(recipe)) {
         skeleton::Scattered found = scattered(plan, valley, inside, stage_log, run);

@@ -2,12 +2,14 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <iterator>
 #include <limits>
 
 #include <fmt/format.h>
 
 #include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/network/channels/channels.hpp>
@@ -71,7 +73,7 @@ surface::EquilibriumFields equilibrium_fields(Plan const& plan, Planform const& 
     Grid const& grid = planform.grid;
     SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid), planform.land, channels);
+    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid, run), planform.land, channels);
     fields.uplift = with_pattern(read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run),
                                  recipe, grid, run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
@@ -149,11 +151,13 @@ std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& 
 }
 
 /// Checks the relief or mean slope that the recipe asks for, with a warning where it is missed.
+/// by_levels: lakes have levels.
 Remarks target_remarks(surface::EquilibriumTerrain const& surface, surface::EquilibriumParams const& params,
-                       Run const& run) {
+                       bool by_levels, Run const& run) {
     constexpr double allowed = 0.05;
     Remarks remarks;
-    if (params.heights != surface::RiverHeights::graded && !params.bring_to_target) {
+    bool const given = params.heights != surface::RiverHeights::graded;
+    if ((given || by_levels) && !params.bring_to_target) {
         return remarks;
     }
     double const error = std::fabs(surface.target_share - 1.0);
@@ -162,8 +166,9 @@ Remarks target_remarks(surface::EquilibriumTerrain const& surface, surface::Equi
         double const asked = params.relief_m ? *params.relief_m : params.mean_slope_deg;
         char const* const unit = params.relief_m ? "m" : "degrees";
         std::string const text =
-            fmt::format("surface.{} = {:.6g} {} cannot be reached with the heights of the rivers: it is {:.4g} {}",
-                        params.relief_m ? "relief" : "mean_slope", asked, unit, surface.target_share * asked, unit);
+            fmt::format("surface.{} = {:.6g} {} cannot be reached with the {}: it is {:.4g} {}",
+                        params.relief_m ? "relief" : "mean_slope", asked, unit,
+                        given ? "heights of the rivers" : "levels of the lakes", surface.target_share * asked, unit);
         run.say("warning: " + text);
         remarks.findings.push_back({"target_missed", 0, {}, surface.target_share * asked, text});
     }
@@ -178,8 +183,9 @@ bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channel
     return static_cast<double>(land.walled.size()) > most_walled(channels);
 }
 
-/// Checks how many river cells only walls hold up. given: rivers have input heights.
-Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const& channels, bool given, Run const& run) {
+/// Checks how many river cells only walls hold up. remedy: for the warning.
+Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const& channels, char const* remedy,
+                     Run const& run) {
     constexpr std::size_t listed = 1000;
     bool const ok = !too_walled(surface, channels);
     Remarks remarks;
@@ -187,9 +193,7 @@ Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const&
         {"walled_cells", static_cast<double>(surface.walled.size()), std::floor(most_walled(channels)), ok});
     if (!ok) {
         run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. {}", surface.walled.size(),
-                            channels.cell.size(),
-                            given ? R"(network.heights = "graded" or "soft" lets rivers follow it.)"
-                                  : "A smaller grid.cell gives slopes room between rivers."));
+                            channels.cell.size(), remedy));
     }
     Grid const& grid = surface.dem.grid();
     for (std::size_t i = 0; i < std::min(listed, surface.walled.size()); ++i) {
@@ -203,8 +207,8 @@ Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const&
     return remarks;
 }
 
-/// One note for all lakes of a file that cover no cell.
-std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels) {
+/// One note for all lakes of a file that cover no cell, with a warning where levels are lost.
+std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels, Run const& run) {
     std::vector<std::uint8_t> seen(polygons.polygons.size() + 1);
     for (std::int32_t const label : labels.values()) {
         seen[static_cast<std::size_t>(label)] = 1;
@@ -215,16 +219,46 @@ std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t>
     }
     auto const count = std::count(first, seen.end(), 0);
     Polygon const& one = polygons.polygons[static_cast<std::size_t>(first - seen.begin() - 1)];
-    return {{"lake_left_out", one.feature, one.rings.front().front(), static_cast<double>(count),
-             fmt::format("{} of the {} lakes of {} lie off the grid, between the centres of its cells or under others",
-                         count, polygons.polygons.size(), polygons.name)}};
+    std::string text =
+        fmt::format("{} of the {} lakes of {} lie off the grid, between the centres of its cells or under others",
+                    count, polygons.polygons.size(), polygons.name);
+    std::vector<std::string> lost;
+    for (std::size_t i = 0; i < polygons.polygons.size(); ++i) {
+        Polygon const& lake = polygons.polygons[i];
+        if (seen[i + 1] == 0 && !std::isnan(lake.value)) {
+            lost.push_back(fmt::format("feature {} with {:.6g} m", lake.feature, lake.value));
+        }
+    }
+    if (!lost.empty()) {
+        text += fmt::format("; {} of them have levels, the first is {}", lost.size(), lost.front());
+        run.say("warning: " + text);
+    }
+    return {{"lake_left_out", one.feature, one.rings.front().front(), static_cast<double>(count), std::move(text)}};
 }
 
 /// By cell: number of its lake; 0: none; without cells: no lakes are requested.
 struct Lakes {
     Raster<std::int32_t> labels;
     std::vector<Finding> notes = {};
+    std::vector<double> level = {}; ///< [m] by number from 1; NaN: it follows from the terrain; empty: all do
+
+    double level_of(std::int64_t number) const {
+        return level.empty() ? std::nan("") : level[static_cast<std::size_t>(number - 1)];
+    }
 };
+
+/// The lakes of a file.
+Polygons lake_polygons(Plan const& plan, Grid const& grid, Run const& run) {
+    constexpr double most_m = 1e5;
+    std::string const& path = plan.recipe.surface->equilibrium.lakes;
+    Polygons polygons = io::read_polygons_valued(file_in(plan.recipe, path), grid.crs, "level", run);
+    for (Polygon const& lake : polygons.polygons) {
+        refuse_if<BadInput>(std::fabs(lake.value) > most_m,
+                            "surface.lakes = \"{}\": feature {} has the level {} m, which is not from {} to {} m", path,
+                            lake.feature, lake.value, -most_m, most_m);
+    }
+    return polygons;
+}
 
 Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfArcs const& rivers, Run const& run) {
     EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
@@ -236,9 +270,10 @@ Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfAr
     if (wanted.lakes.empty()) {
         return {};
     }
-    Polygons const polygons = io::read_polygons(file_in(plan.recipe, wanted.lakes), planform.grid.crs, run);
+    Polygons const polygons = lake_polygons(plan, planform.grid, run);
     Lakes lakes{blend::number_polygons(polygons, planform.grid)};
-    lakes.notes = unseen_lakes(polygons, lakes.labels);
+    lakes.notes = unseen_lakes(polygons, lakes.labels, run);
+    std::ranges::transform(polygons.polygons, std::back_inserter(lakes.level), &Polygon::value);
     return lakes;
 }
 
@@ -316,9 +351,82 @@ void warn_of_heights(Raster<float> const& dem, Run const& run) {
 /// Channels with the requested lakes.
 struct WithLakes {
     network::ChannelsOfArcs rivers;
-    std::int64_t lakes = 0;
+    std::vector<network::Lake> lakes = {};
     std::vector<Finding> notes = {};
+    bool by_levels = false; ///< some have levels
 };
+
+/// One warning for all lakes that have not the levels asked.
+void warn_of(std::vector<std::string> const& lakes, Run const& run) {
+    if (!lakes.empty()) {
+        std::string const more =
+            lakes.size() > 1 ? fmt::format(". Levels of {} more lakes are missed, as listed", lakes.size() - 1) : "";
+        run.say("warning: " + lakes.front() + more);
+    }
+}
+
+/// Gives lakes their levels, and their notes; warns of lakes with levels that are left out.
+void set_levels(Lakes const& wanted, network::Flooded& flooded, Run const& run) {
+    Channels& channels = flooded.drawn.channels;
+    for (network::Lake const& lake : flooded.lakes) {
+        if (double const level = wanted.level_of(lake.label); !std::isnan(level)) {
+            channels.lake_z.resize(channels.cell.size(), none);
+            channels.lake_z[lake.outlet] = static_cast<float>(level);
+        }
+    }
+    std::vector<std::string> lost;
+    for (Finding& note : flooded.notes) {
+        double const level = wanted.level_of(note.feature);
+        if (std::isnan(level)) {
+            continue;
+        }
+        note.text += fmt::format("; level asked for: {:.6g} m", level);
+        if (note.kind == "lake_left_out") {
+            lost.push_back(note.text);
+        }
+    }
+    warn_of(lost, run);
+}
+
+/// What keeps the level of a lake up: the next lake with a level downstream, or the end of the river.
+std::string hindrance(WithLakes const& flooded, network::Lake const& lake, Raster<float> const& dem) {
+    Channels const& channels = flooded.rivers.channels;
+    std::int64_t cells = 0;
+    std::int64_t at = lake.outlet;
+    do {
+        if (channels.receiver[at] < 0) {
+            return fmt::format("its river ends {} cells downstream at {:.6g} m", cells, dem[channels.cell[at]]);
+        }
+        at = channels.receiver[at];
+        ++cells;
+    } while (std::isnan(channels.lake_z[at]));
+    auto const below = std::ranges::find(flooded.lakes, at, &network::Lake::outlet);
+    return fmt::format("lake {} stands {} cells downstream at {:.6g} m", below->label, cells, dem[channels.cell[at]]);
+}
+
+/// Notes and warnings on lakes that have not the levels asked.
+std::vector<Finding> missed_levels(WithLakes const& flooded, Raster<float> const& dem, Run const& run) {
+    std::vector<Finding> notes;
+    if (!flooded.by_levels) {
+        return notes;
+    }
+    std::vector<std::string> texts;
+    Channels const& channels = flooded.rivers.channels;
+    for (network::Lake const& lake : flooded.lakes) {
+        float const wanted = channels.lake_z[lake.outlet];
+        std::int64_t const cell = channels.cell[lake.outlet];
+        if (std::isnan(wanted) || dem[cell] == wanted) {
+            continue;
+        }
+        Vec2 const at = dem.grid().centre(dem.grid().at(cell));
+        notes.push_back({"lake_level", lake.label, at, static_cast<double>(dem[cell]),
+                         fmt::format("lake {} at ({:.3f}, {:.3f}) has the level {:.6g} m, not {:.6g} m: {}", lake.label,
+                                     at.x, at.y, dem[cell], wanted, hindrance(flooded, lake, dem))});
+        texts.push_back(notes.back().text);
+    }
+    warn_of(texts, run);
+    return notes;
+}
 
 WithLakes with_lakes(Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers, Run const& run) {
     Lakes lakes = lakes_of(plan, planform, rivers, run);
@@ -326,8 +434,10 @@ WithLakes with_lakes(Plan const& plan, Planform const& planform, network::Channe
         return {std::move(rivers)};
     }
     network::Flooded flooded = network::flood_lakes(rivers, lakes.labels, run);
+    set_levels(lakes, flooded, run);
     append(lakes.notes, flooded.notes);
-    return {std::move(flooded.drawn), static_cast<std::int64_t>(flooded.lakes.size()), std::move(lakes.notes)};
+    bool const by_levels = !flooded.drawn.channels.lake_z.empty();
+    return {std::move(flooded.drawn), std::move(flooded.lakes), std::move(lakes.notes), by_levels};
 }
 
 Valley valley_of(Channels const& channels, Raster<float> const& dem) {
@@ -357,15 +467,19 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     }
     WithLakes flooded = with_lakes(plan, planform, std::move(rivers), run);
     append(notes, flooded.notes);
-    result.lakes = flooded.lakes;
-    rivers = std::move(flooded.rivers);
-    Solved solved = solve(plan, planform, rivers.channels, stage_log, run);
+    result.lakes = std::ssize(flooded.lakes);
+    Solved solved = solve(plan, planform, flooded.rivers.channels, stage_log, run);
     surface::EquilibriumTerrain& surface = solved.land;
+    append(notes, missed_levels(flooded, surface.dem, run));
+    rivers = std::move(flooded.rivers);
     result.statistics = statistics_of(solved, rivers.channels);
-    append(result.remarks, target_remarks(surface, solved.params, run));
+    append(result.remarks, target_remarks(surface, solved.params, flooded.by_levels, run));
     bool const given = solved.params.heights != surface::RiverHeights::graded;
-    if (given || solved.params.heads == surface::Heads::kept) {
-        append(result.remarks, wall_remarks(surface, rivers.channels, given, run));
+    if (given || flooded.by_levels || solved.params.heads == surface::Heads::kept) {
+        char const* const remedy = given ? R"(network.heights = "graded" or "soft" lets rivers follow it.)"
+                                   : flooded.by_levels ? "Levels of lakes nearer to the terrain need fewer."
+                                                       : "A smaller grid.cell gives slopes room between rivers.";
+        append(result.remarks, wall_remarks(surface, rivers.channels, remedy, run));
     }
     warn_of_region(surface, plan.recipe.surface->equilibrium.region, run);
     warn_of_heights(surface.dem, run);

@@ -353,7 +353,7 @@ DetailedTerrain detail_alone(Plan const& plan, Grid const& grid, Run const& run)
 namespace {
 
 /// Removes the heights of cells without data in a raster, and of those outside the mask of [surface].
-Raster<float> left_out(Raster<float> land, Plan const& plan) {
+Raster<float> left_out(Raster<float> land, Plan const& plan, Run const& run) {
     Recipe const& recipe = plan.recipe;
     for (std::int64_t i = 0; i < plan.raster.cells(); ++i) {
         land[i] = std::isnan(plan.raster[i]) ? plan.raster[i] : land[i];
@@ -361,7 +361,7 @@ Raster<float> left_out(Raster<float> land, Plan const& plan) {
     if (!recipe.surface || recipe.surface->mask.empty()) {
         return land;
     }
-    Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid());
+    Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid(), run);
     if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
         throw BadInput(fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
     }
@@ -449,7 +449,7 @@ SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run cons
         stage_log.say(fmt::format("midpoint displacement, {} levels", levels));
     }
     if (!plan.recipe.statistics) {
-        return {.dem = left_out(std::move(dem), plan),
+        return {.dem = left_out(std::move(dem), plan, run),
                 .tin = std::move(coarse.tin),
                 .diffusion = coarse.diffusion,
                 .detail = detail,

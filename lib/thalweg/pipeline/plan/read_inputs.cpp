@@ -59,9 +59,12 @@ Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& w
     return under;
 }
 
-Mask read_mask_of_land(io::Source const& source, Grid const& grid) {
+Mask read_mask_of_land(io::Source const& source, Grid const& grid, Run const& run) {
     if (source.path.empty()) {
         return {};
+    }
+    if (io::holds_polygons(source)) {
+        return blend::mask_polygons(io::read_polygons(source, grid.crs, run), grid);
     }
     Raster<float> const given = io::read_dem(source, {.values = io::CellValues::numbers});
     refuse_if<BadInput>(given.width() != grid.width || given.height() != grid.height,

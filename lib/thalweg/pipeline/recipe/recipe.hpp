@@ -151,7 +151,7 @@ struct EquilibriumRecipe {
     double uplift_contrast = 4.0;
     double uplift_wave_m = 12'000.0;
     std::string erodibility; ///< raster on the grid, or polygons with a field of that name; "" for none
-    std::string lakes;       ///< polygons; "" for none
+    std::string lakes;       ///< polygons, with levels or without; "" for none
     double lake_share = 0.0; ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
@@ -169,7 +169,8 @@ struct SurfaceRecipe {
     Base base = Base::harmonic;
     surface::DilateParams dilate;
     surface::DiffuseParams diffuse;
-    std::string mask; ///< raster on the grid: cells with 0 or no data are left out; "" for none
+    /// polygons: what lies outside is left out; or a raster on the grid: cells with 0 or no data are; "" for none
+    std::string mask;
     Interpolation interpolation = Interpolation::linear; ///< of a TIN
     std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
     skeleton::RegressParams regress;

@@ -412,7 +412,8 @@ std::span<Row const> recipe_rows() {
         key("surface.allow_negative", yes_no, "", {"true", "false"}, "by_dilation", "keep increments below 0",
             [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.allow_negative; }),
         key("surface.mask", file, "", {}, "[network] or surface.source or (from_points and no [statistics])",
-            "raster on the grid: cells with 0 or no data get no height",
+            "polygons: cells whose middle lies in none of them get no height; or a raster on the grid: cells with 0 or "
+            "no data get none",
             [](Recipe& r, Item) -> Field { return &r.surface->mask; }),
         key("surface.mean_slope", number, "degrees", {0, 60, left_open}, "by_equilibrium and surface.relief = 0",
             "mean slope of the terrain; left out: 25, around rivers of a file less on cells above 30 m",
@@ -468,7 +469,9 @@ std::span<Row const> recipe_rows() {
             "raster over the grid, values above 0, or polygons with a field erodibility (1 elsewhere); only ratios "
             "count",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.erodibility; }),
-        key("surface.lakes", file, "", {}, "by_equilibrium", "polygons of lakes",
+        key("surface.lakes", file, "", {}, "by_equilibrium",
+            "polygons of lakes; a numeric field level [m] gives a lake's height, without a value it follows from the "
+            "terrain",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.lakes; }),
         key("surface.lake_share", number, "", {0, 1}, "by_equilibrium",
             "share of the reaches with enough water that run through a lake",

@@ -58,9 +58,11 @@ void check_order(Channels const& rivers) {
                         "surface.equilibrium: there are no rivers; give at least one cell in which water leaves");
     refuse_if<BadInput>(
         rivers.receiver.size() != rivers.cell.size() || (!rivers.z.empty() && rivers.z.size() != rivers.cell.size()) ||
-            (!rivers.level.empty() && rivers.level.size() != rivers.cell.size()),
-        "surface.equilibrium: {} river cells have {} receivers, {} heights and {} marks of lakes; give one each",
-        rivers.cell.size(), rivers.receiver.size(), rivers.z.size(), rivers.level.size());
+            (!rivers.level.empty() && rivers.level.size() != rivers.cell.size()) ||
+            (!rivers.lake_z.empty() && rivers.lake_z.size() != rivers.cell.size()),
+        "surface.equilibrium: {} river cells have {} receivers, {} heights, {} marks and {} levels of lakes; give one "
+        "each",
+        rivers.cell.size(), rivers.receiver.size(), rivers.z.size(), rivers.level.size(), rivers.lake_z.size());
     Mask taken(grid);
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
         std::int64_t const cell = rivers.cell[n];
@@ -148,6 +150,20 @@ void check_channel_heights(Channels const& rivers) {
     }
 }
 
+bool is_level(Channels const& rivers, std::size_t n) {
+    return !rivers.level.empty() && rivers.level[n] != 0 && rivers.receiver[n] >= 0;
+}
+
+void check_levels(Channels const& rivers) {
+    for (std::size_t n = 0; n < rivers.lake_z.size(); ++n) {
+        if (std::isinf(rivers.lake_z[n]) || (!std::isnan(rivers.lake_z[n]) && is_level(rivers, n))) {
+            throw BadInput(fmt::format("surface.equilibrium: the level of a lake at {} is {} m{}",
+                                       place(rivers.grid, rivers.cell[n]), rivers.lake_z[n],
+                                       is_level(rivers, n) ? " within a lake; give it to the outlet" : ""));
+        }
+    }
+}
+
 void check_equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
     check_params(params);
     check_grid(rivers.grid);
@@ -156,6 +172,7 @@ void check_equilibrium(Channels const& rivers, EquilibriumFields const& fields, 
     check_field(rivers.grid, fields.uplift, fields.land, "uplift");
     check_field(rivers.grid, fields.erodibility, fields.land, "erodibility");
     check_channel_heights(rivers);
+    check_levels(rivers);
 }
 
 constexpr int fine_rounds = 6;
@@ -263,7 +280,7 @@ public:
         run_.check();
         flood_terrain(level);
         int const rounds = rounds_of(number, levels);
-        bool const given = !level.rivers.asked.empty();
+        bool const given = params_.heights != RiverHeights::graded && !level.rivers.asked.empty();
         if (number == 0 && !given && params_.heads == Heads::kept) {
             take(remove_touching_tips(level));
         }
@@ -436,6 +453,70 @@ bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
            std::any_of(rivers.z.begin(), rivers.z.end(), [](float z) { return !std::isnan(z); });
 }
 
+bool has_levels(Channels const& rivers) {
+    return std::any_of(rivers.lake_z.begin(), rivers.lake_z.end(), [](float z) { return !std::isnan(z); });
+}
+
+constexpr float none = std::numeric_limits<float>::quiet_NaN();
+
+/// The levels of lakes that their water can keep: as wanted, or the least from which it falls to the next such lake and
+/// the river's end.
+/// \param end_z [m] by number: the height of each end, which stays; NaN: free
+std::vector<float> kept_levels(Channels const& rivers, std::vector<float> const& end_z) {
+    std::vector<float> kept(rivers.cell.size(), none);
+    std::vector<float> lowest(kept.size());
+    for (std::size_t n = 0; n < kept.size(); ++n) {
+        std::int64_t const r = rivers.receiver[n];
+        if (r < 0) {
+            lowest[n] = std::isnan(end_z[n]) ? -std::numeric_limits<float>::infinity() : end_z[n];
+        } else {
+            lowest[n] = is_level(rivers, n) ? lowest[r] : least_above(lowest[r]);
+        }
+        if (!std::isnan(rivers.lake_z[n])) {
+            kept[n] = std::max(rivers.lake_z[n], lowest[n]);
+            lowest[n] = kept[n];
+        }
+    }
+    return kept;
+}
+
+/// The least metres per unit at which levels of lakes are numbers that floats tell from the next ones.
+double least_metres(Channels const& rivers, double base_m) {
+    constexpr double most_units = 4096.0;
+    double metres = 0.0;
+    for (std::size_t n = 0; n < rivers.lake_z.size(); ++n) {
+        if (!std::isnan(rivers.lake_z[n])) {
+            metres = std::max(metres, (static_cast<double>(rivers.lake_z[n]) - base_m) / most_units);
+        }
+    }
+    return metres;
+}
+
+/// Prescribed heights that follow the levels of lakes: not below those downstream, below those upstream. Ends stay.
+Channels with_levels(Channels rivers) {
+    rivers.lake_z = kept_levels(rivers, rivers.z);
+    std::vector<float> most(rivers.z.size(), std::numeric_limits<float>::infinity());
+    for (std::size_t n = most.size(); n-- > 0;) {
+        most[n] = std::isnan(rivers.lake_z[n]) ? most[n] : rivers.lake_z[n];
+        if (std::int64_t const r = rivers.receiver[n]; r >= 0) {
+            most[r] = std::min(most[r], is_level(rivers, n) ? most[n] : least_below(most[n]));
+        }
+    }
+    std::vector<float> least(most.size(), -std::numeric_limits<float>::infinity());
+    for (std::size_t n = 0; n < most.size(); ++n) {
+        std::int64_t const r = rivers.receiver[n];
+        float& z = rivers.z[n];
+        if (!std::isnan(rivers.lake_z[n])) {
+            z = rivers.lake_z[n];
+            least[n] = z;
+        } else if (r >= 0) {
+            least[n] = least[r];
+            z = is_level(rivers, n) ? rivers.z[r] : std::isnan(z) ? z : std::max(std::min(z, most[n]), least[n]);
+        }
+    }
+    return rivers;
+}
+
 /// Height of the solver's 0 if heights are prescribed: the sea, otherwise the lowest of them.
 float base_of(Channels const& rivers, Edge edge) {
     float low = std::numeric_limits<float>::infinity();
@@ -455,32 +536,36 @@ Held solved_terrain(Channels const& rivers, EquilibriumFields const& fields, Equ
                     double metres, Run const& run) {
     Channels drawn = rivers;
     double const base_m = base_of(rivers, params.edge);
-    for (float& z : drawn.z) {
-        z = static_cast<float>((static_cast<double>(z) - base_m) / metres);
+    for (std::vector<float>* heights : {&drawn.z, &drawn.lake_z}) {
+        for (float& z : *heights) {
+            z = static_cast<float>((static_cast<double>(z) - base_m) / metres);
+        }
     }
     HeightConversion const conversion{metres, base_m, 0.0};
     return {solved(drawn, fields, params, &conversion, run), metres};
 }
 
 /// Solves again with other metres per unit until the terrain reaches its target; returns the closest solution.
-Held terrain_at_target(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                       double metres, Run const& run) {
+/// \param solve the terrain for metres per unit
+template <class Solve>
+Held terrain_at_target(Grid const& grid, Mask const& land, EquilibriumParams const& params, double metres,
+                       Solve solve_with) {
     constexpr int most_solves = 6;
     constexpr double near_enough = 0.01;
     constexpr double widest = 2.0;              // [log] of one step
     auto const off_by = [&](Held const& held) { // [log]
-        Window const window{rivers.grid, fields.land, held.land.margin};
+        Window const window{grid, land, held.land.margin};
         double const share = share_of_target(held.land.level, window, held.metres, params);
         return portable::log(std::max(share, 1e-6));
     };
-    Held best = solved_terrain(rivers, fields, params, metres, run);
+    Held best = solve_with(metres);
     double best_off = off_by(best);
     double at = portable::log(metres);
     double off = best_off;
     double step = -1.5 * off;
     for (int solve = 1; solve < most_solves && std::fabs(best_off) > near_enough; ++solve) {
         step = std::clamp(step, -widest, widest);
-        Held next = solved_terrain(rivers, fields, params, portable::exp(at + step), run);
+        Held next = solve_with(portable::exp(at + step));
         double const next_off = off_by(next);
         double const per_step = (next_off - off) / step;
         at += step;
@@ -498,6 +583,105 @@ Held terrain_at_target(Channels const& rivers, EquilibriumFields const& fields, 
     return best;
 }
 
+/// Graded rivers with lakes that have levels. Their ends stay at the heights that they have without levels.
+class RiversWithLevels {
+public:
+    /// \param raise of the terrain without levels
+    RiversWithLevels(Channels const& rivers, TerrainLevel const& without, HeightConversion const& raise)
+        : rivers_(rivers), raise_(raise), ends_(rivers.cell.size(), none) {
+        RiverCells const& cells = without.rivers;
+        for (std::size_t n = 0; n < cells.cell.size(); ++n) {
+            if (cells.number[n] >= 0 && rivers.receiver[cells.number[n]] < 0) {
+                ends_[cells.number[n]] = without.z[cells.cell[n]];
+            }
+        }
+    }
+
+    HeightConversion conversion(double metres) const {
+        return {metres, raise_.base_m / raise_.metres * metres, raise_.mean_tangent};
+    }
+
+    /// Levels that the water can keep, in metres.
+    Channels in_metres(double metres) const {
+        HeightConversion const raise = conversion(metres);
+        Channels out = rivers_;
+        out.z = ends_;
+        for (float& z : out.z) {
+            z = static_cast<float>(raise.base_m + static_cast<double>(z) * metres);
+        }
+        out.lake_z = kept_levels(out, out.z);
+        return out;
+    }
+
+    /// Levels and ends in the solver's units.
+    Channels in_units(double metres) const {
+        HeightConversion const raise = conversion(metres);
+        Channels out = in_metres(metres);
+        out.z = ends_;
+        for (std::size_t n = 0; n < out.z.size(); ++n) {
+            if (float& z = out.lake_z[n]; !std::isnan(z)) {
+                z = static_cast<float>((static_cast<double>(z) - raise.base_m) / metres);
+                out.z[n] = z;
+            }
+        }
+        return out;
+    }
+
+private:
+    Channels const& rivers_;
+    HeightConversion raise_;
+    std::vector<float> ends_; ///< in the solver's units, by number
+};
+
+/// Terrain around graded rivers, with the levels of lakes that they have.
+EquilibriumTerrain graded_terrain(Solved&& land, Channels const& rivers, EquilibriumFields const& fields,
+                                  EquilibriumParams const& params, HeightConversion const& raise, Run const& run) {
+    Window const window{rivers.grid, fields.land, land.margin};
+    EquilibriumTerrain out =
+        extract_terrain(std::move(land.level), rivers, window, raise, std::move(land.shortened), params.heads, run);
+    out.inflows = std::move(land.inflows);
+    out.in_region = land.in_region;
+    out.target_share = share_of_target(out.dem, 1.0 / rivers.grid.cell_m, params);
+    return out;
+}
+
+/// \param without the terrain without levels, and the conversion of its heights
+EquilibriumTerrain terrain_with_levels(Channels const& rivers, EquilibriumFields const& fields,
+                                       EquilibriumParams const& params, Solved&& without, HeightConversion const& raise,
+                                       Run const& run) {
+    RiversWithLevels const lakes(rivers, without.level, raise);
+    without = {};
+    double const least = least_metres(rivers, 0.0);
+    auto const solve = [&](double wanted) {
+        double const metres = std::max(wanted, least);
+        HeightConversion const conversion = lakes.conversion(metres);
+        return Held{solved(lakes.in_units(metres), fields, params, &conversion, run), metres};
+    };
+    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, solve)
+                                       : solve(raise.metres);
+    return graded_terrain(std::move(held.land), lakes.in_metres(held.metres), fields, params,
+                          lakes.conversion(held.metres), run);
+}
+
+/// Terrain around prescribed heights of rivers.
+/// \param raise of terrain around graded rivers
+EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumFields const& fields,
+                                        EquilibriumParams const& params, HeightConversion const& raise,
+                                        Run const& run) {
+    double const least = least_metres(rivers, static_cast<double>(base_of(rivers, params.edge)));
+    auto const solve = [&](double metres) {
+        return solved_terrain(rivers, fields, params, std::max(metres, least), run);
+    };
+    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, solve)
+                                       : solve(raise.metres);
+    HeightConversion const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
+    Window const window{rivers.grid, fields.land, held.land.margin};
+    EquilibriumTerrain land =
+        extract_terrain_with_heights(std::move(held.land.level), rivers, window, given, params.heights, run);
+    land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
+    return land;
+}
+
 } // namespace
 
 EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
@@ -506,34 +690,30 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     run.check();
     Channels drawn = rivers;
     drawn.z.clear();
+    drawn.lake_z.clear();
     bool const is_asked = asks_heights(rivers, params);
+    bool const by_lakes = has_levels(rivers);
     EquilibriumParams wanted = params;
     // prescribed heights do not depend on the region
     wanted.region = is_asked ? 1.0 : params.region;
+    wanted.heights = is_asked ? params.heights : RiverHeights::graded;
     Run quiet = run; // heights that are prescribed are not in the first solution
-    quiet.preview = is_asked ? nullptr : run.preview;
+    quiet.preview = is_asked || by_lakes ? nullptr : run.preview;
     Solved graded = solved(drawn, fields, wanted, nullptr, quiet);
     Window const window{rivers.grid, fields.land, graded.margin};
     run.check();
     HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params);
     run.check();
-    if (!is_asked) {
-        EquilibriumTerrain land = extract_terrain(std::move(graded.level), rivers, window, raise,
-                                                  std::move(graded.shortened), params.heads, run);
-        land.inflows = std::move(graded.inflows);
-        land.in_region = graded.in_region;
-        land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
-        return land;
-    }
     // The scale of heights is known only now, so that prescribed metres can be converted to solver units.
-    graded = {};
-    Held held = params.bring_to_target ? terrain_at_target(rivers, fields, params, raise.metres, run)
-                                       : solved_terrain(rivers, fields, params, raise.metres, run);
-    HeightConversion const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
-    EquilibriumTerrain land =
-        extract_terrain_with_heights(std::move(held.land.level), rivers, window, given, params.heights, run);
-    land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
-    return land;
+    if (is_asked) {
+        graded = {};
+        drawn.z = rivers.z;
+        return terrain_with_heights(by_lakes ? with_levels(rivers) : drawn, fields, params, raise, run);
+    }
+    if (by_lakes) {
+        return terrain_with_levels(rivers, fields, wanted, std::move(graded), raise, run);
+    }
+    return graded_terrain(std::move(graded), rivers, fields, params, raise, run);
 }
 
 } // namespace thalweg::surface

@@ -63,8 +63,8 @@ struct EquilibriumParams {
     Heads heads = Heads::cut;
     Edge edge = Edge::open;
     RiverHeights heights = RiverHeights::graded;
-    /// with prescribed heights: solve again until the terrain has the target slope or relief; false: it is as high as
-    /// around graded rivers
+    /// with prescribed heights or levels of lakes: solve again until the terrain has the target slope or relief; false:
+    /// heights have the scale that they have without
     bool bring_to_target = true;
     std::uint64_t seed = 7;
 };
@@ -80,13 +80,14 @@ struct EquilibriumTerrain {
     Raster<float> dem;                   ///< [m] NaN: sea
     Raster<flow::Direction> direction;   ///< D8 flow directions; no_data at sea
     std::vector<std::int64_t> shortened; ///< numbers of channel cells removed because they were perched (tips)
-    std::vector<std::int64_t> walled;    ///< numbers of channel cells on walls (fixed, soft, heads kept)
-    double max_lowered_m = 0.0;          ///< soft: largest lowering below prescribed heights
-    double p95_lowered_m = 0.0;          ///< soft: its 95th percentile over channel cells with heights
-    bool in_region = false;              ///< whether coarse levels were solved on a region
-    std::vector<RegionInflow> inflows;   ///< of 1000 cells or more, by cell
-    double target_share = 1.0;           ///< mean slope or relief reached / target
-    double rise = 0.0;                   ///< height [m] of one unit of the solver / cell size
+    /// numbers of channel cells on walls (fixed, soft, heads kept; else those in and below lakes with levels)
+    std::vector<std::int64_t> walled;
+    double max_lowered_m = 0.0;        ///< soft: largest lowering below prescribed heights
+    double p95_lowered_m = 0.0;        ///< soft: its 95th percentile over channel cells with heights
+    bool in_region = false;            ///< whether coarse levels were solved on a region
+    std::vector<RegionInflow> inflows; ///< of 1000 cells or more, by cell
+    double target_share = 1.0;         ///< mean slope or relief reached / target
+    double rise = 0.0;                 ///< height [m] of one unit of the solver / cell size
 };
 
 /// Builds terrain in equilibrium with given rivers: uplift equals fluvial incision (K A^theta S, debris flows where A
@@ -98,10 +99,12 @@ struct EquilibriumTerrain {
 /// \return as float32, river cells drain to their receivers by steepest descent and lie below the terrain beside them;
 /// every land cell has a strictly lower neighbour, so the only depressions are sinks; lakes are level. Prescribed
 /// heights may prevent the target slope or relief: then the nearest found. The lowest river end is at 0 unless
-/// prescribed. The same bytes for any number of threads.
+/// prescribed. Lakes with levels have them exactly, or the lowest height above from which water falls to the next lake
+/// with a level and to the river's end; what is prescribed for rivers below and above yields. The same bytes for any
+/// number of threads.
 /// \throws BadParameter when a parameter is outside its range
 /// \throws BadInput for channels that break their law, fields on another grid, not above 0 or with holes on land, no
-/// land, a river at sea, or prescribed heights that rise
+/// land, a river at sea, prescribed heights that rise, or a level that is infinite or within a lake
 ///
 /// Source: \cite perron2009 (hillslope length); \cite braun2013 (order); \cite barnes2014 (flood); \cite stock2003
 /// (debris flows).

@@ -208,6 +208,9 @@ float wanted_height(TerrainLevel const& level, EquilibriumLaw const& law, std::s
     if (!rivers.asked.empty() && !std::isnan(rivers.asked[n])) {
         return rivers.asked[n];
     }
+    if (rivers.is_held(n)) {
+        return level.z[rivers.cell[n]];
+    }
     float const below = level.z[rivers.cell[rivers.receiver[n]]];
     float const length = level.side * step_lengths[rivers.direction[n]];
     return below + graded_tangent(level, law, rivers.cell[n]) * length;

@@ -164,7 +164,7 @@ void settle_terrain(TerrainLevel& level, float step, RiverHeights heights) {
         float& z = level.z[rivers.cell[n]];
         if (rivers.level[n] != 0) {
             z = below;
-        } else if (heights == RiverHeights::graded) {
+        } else if (heights == RiverHeights::graded && !rivers.is_held(n)) {
             z = std::max(z, above(below));
         } else if (rivers.number[r] >= 0) { // cells beyond the caller's grid must not raise prescribed heights
             z = std::max(z, std::nextafter(below, std::numeric_limits<float>::infinity()));
@@ -277,6 +277,22 @@ void keep_below_asked(TerrainLevel& level, Channels const& rivers) {
     }
 }
 
+/// Sets the outlets of lakes to their levels, and lowers what is below them as far as their water needs to fall.
+void hold_levels(TerrainLevel& level, Channels const& rivers) {
+    RiverCells const& cells = level.rivers;
+    std::vector<float> most(cells.hold.size(), std::numeric_limits<float>::infinity());
+    for (std::size_t n = most.size(); n-- > 0;) {
+        float& z = level.z[cells.cell[n]];
+        bool const is_outlet = cells.hold[n] == Hold::outlet;
+        most[n] = is_outlet ? rivers.lake_z[cells.number[n]] : most[n];
+        z = is_outlet ? most[n] : std::min(z, most[n]);
+        std::int32_t const r = cells.receiver[n];
+        if (r >= 0 && cells.number[r] >= 0) {
+            most[r] = std::min(most[r], cells.level[n] != 0 ? most[n] : least_below(most[n]));
+        }
+    }
+}
+
 /// Shifts heights so that the lowest river end is at 0, if all ends have risen.
 void lower_to_ends(TerrainLevel& level, Channels const& rivers) {
     RiverCells const& cells = level.rivers;
@@ -373,12 +389,16 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
     EquilibriumTerrain out;
     out.rise = raise.metres / window.grid.cell_m;
     to_metres(level, raise);
+    hold_levels(level, rivers);
     // Slightly lower than what counts as perched, as a margin for the settling that follows.
     lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
     if (heads == Heads::kept) {
         enforce_receivers(level, settled_step(raise));
-        lower_to_ends(level, rivers);
+        if (level.rivers.hold.empty()) {
+            lower_to_ends(level, rivers);
+        }
     }
+    hold_levels(level, rivers);
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     run.check();
     settle_terrain(level, settled_step(raise), RiverHeights::graded);
@@ -390,6 +410,9 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
     }
     auto const perched =
         heads == Heads::kept ? std::vector<std::int64_t>{} : remove_perched_tips(level, perched_m, TipBanks::stay);
+    if (heads == Heads::cut && !level.rivers.hold.empty()) {
+        out.walled = walled_cells(level, perched_m, Walls::by_lakes);
+    }
     shortened.insert(shortened.end(), perched.begin(), perched.end());
     std::sort(shortened.begin(), shortened.end());
     out.shortened = std::move(shortened);
@@ -412,8 +435,10 @@ EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels con
         }
     }
     keep_below_asked(level, rivers);
+    hold_levels(level, rivers);
     if (heights != RiverHeights::fixed) { // as for graded rivers
         lower_perched(level, 0.99F * perched_height(raise, window.grid), 4.0F * settled_step(raise));
+        hold_levels(level, rivers);
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }
     run.check();

@@ -19,7 +19,38 @@ std::vector<std::int32_t> steps_to_end(RiverCells const& rivers) {
     return steps;
 }
 
+/// Gives the outlets of lakes with levels, and their heights, to the coarse cells that hold them.
+/// \param coarse_of by river cell: number of its coarse cell
+template <class CoarseOf> void keep_outlets(RiverCells const& fine, RiverCells& coarse, CoarseOf coarse_of) {
+    coarse.hold.assign(coarse.cell.size(), Hold::none);
+    for (std::size_t n = 0; n < fine.hold.size(); ++n) {
+        auto const c = static_cast<std::size_t>(coarse_of(n));
+        bool const ends_lower = coarse.receiver[c] < 0 && fine.receiver[n] >= 0;
+        if (fine.hold[n] == Hold::outlet && coarse.level[c] == 0 && !ends_lower) {
+            coarse.hold[c] = Hold::outlet;
+            coarse.asked[c] = fine.asked[n];
+        }
+    }
+    mark_held(coarse);
+}
+
 } // namespace
+
+void mark_held(RiverCells& rivers) {
+    std::vector<Hold>& hold = rivers.hold;
+    for (std::size_t n = hold.size(); n-- > 0;) {
+        std::int32_t const r = rivers.receiver[n];
+        if (r >= 0 && hold[n] != Hold::none && hold[r] == Hold::none) {
+            hold[r] = Hold::below;
+        }
+    }
+    for (std::size_t n = 0; n < hold.size(); ++n) {
+        std::int32_t const r = rivers.receiver[n];
+        if (rivers.level[n] != 0 && (hold[r] == Hold::lake || hold[r] == Hold::outlet)) {
+            hold[n] = Hold::lake;
+        }
+    }
+}
 
 RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64_t coarse_width,
                      std::int64_t coarse_height) {
@@ -63,6 +94,9 @@ RiverCells coarsened(RiverCells const& fine, std::int64_t fine_width, std::int64
         std::size_t const there = above(fine.cell[fine.receiver[n]]);
         coarse.receiver.push_back(chosen[there]);
         coarse.direction.push_back(direction_between(here, there, coarse_width));
+    }
+    if (!fine.hold.empty()) {
+        keep_outlets(fine, coarse, [&](std::size_t n) { return chosen[above(fine.cell[n])]; });
     }
     return coarse;
 }
@@ -152,10 +186,24 @@ public:
                 out_.asked.back() = given_.z[n];
             }
         }
+        if (!given_.lake_z.empty()) {
+            hold_lakes(first);
+        }
         return std::move(out_);
     }
 
 private:
+    /// \param first number of the first cell on the caller's grid
+    void hold_lakes(std::int64_t first) {
+        out_.hold.assign(out_.cell.size(), Hold::none);
+        for (std::size_t n = 0; n < given_.lake_z.size(); ++n) {
+            if (!std::isnan(given_.lake_z[n])) {
+                out_.hold[first + static_cast<std::int64_t>(n)] = Hold::outlet;
+            }
+        }
+        mark_held(out_);
+    }
+
     void put(Cell c, std::int32_t receiver) {
         auto const i = static_cast<std::size_t>((c.row + margin_ + 1) * width_ + c.col + margin_ + 1);
         out_.cell.push_back(static_cast<std::uint32_t>(i));

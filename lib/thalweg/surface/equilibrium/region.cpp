@@ -92,8 +92,8 @@ private:
 } // namespace
 
 Region region_around(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
-    if (params.region <= 1.0 || params.edge != Edge::open || fields.land.cells() > 0 || !rivers.z.empty() ||
-        ends_inside(rivers)) {
+    bool const given = params.heights != RiverHeights::graded && !rivers.z.empty();
+    if (params.region <= 1.0 || params.edge != Edge::open || fields.land.cells() > 0 || given || ends_inside(rivers)) {
         return {};
     }
     std::int64_t const least = std::min(rivers.grid.width, rivers.grid.height);

@@ -60,31 +60,14 @@ float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::
     return std::min(graded, share_of_cap * std::min(level.cap[i], steepest_tangent));
 }
 
-void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
-    RiverCells const& rivers = level.rivers;
-    std::vector<float> const most = greatest_heights(level, law);
-    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        if (rivers.receiver[n] < 0) {
-            continue; // an end keeps its height
-        }
-        std::uint32_t const i = rivers.cell[n];
-        float const below = level.z[rivers.cell[rivers.receiver[n]]];
-        if (rivers.level[n] != 0) {
-            level.z[i] = below;
-            continue;
-        }
-        float const length = level.side * step_lengths[rivers.direction[n]];
-        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
-        level.z[i] = std::max(z, below + least_tangent * length);
-    }
-}
-
 namespace {
 
 /// Long profiles of rivers through prescribed heights.
 class Profiles {
 public:
-    Profiles(TerrainLevel const& level, EquilibriumLaw const& law) : level_(level), rivers_(level.rivers) {
+    /// \param asked by river cell: the prescribed height, or NaN
+    Profiles(TerrainLevel const& level, EquilibriumLaw const& law, std::vector<float> asked)
+        : level_(level), rivers_(level.rivers), asked_(std::move(asked)) {
         std::size_t const count = rivers_.cell.size();
         graded_.resize(count);
         anchor_.resize(count);
@@ -104,7 +87,7 @@ public:
     std::vector<float> heights() const {
         std::vector<float> z(graded_.size());
         for (std::size_t n = 0; n < z.size(); ++n) {
-            z[n] = is_asked(n) ? rivers_.asked[n] : is_end(n) ? end_height(n) : height_above(n, z[receiver(n)]);
+            z[n] = is_asked(n) ? asked_[n] : is_end(n) ? end_height(n) : height_above(n, z[receiver(n)]);
         }
         return z;
     }
@@ -117,16 +100,16 @@ private:
     static constexpr std::int32_t nothing = -1;
 
     /// A lake has its outlet's height; a prescribed one is ignored.
-    bool is_asked(std::size_t n) const { return !std::isnan(rivers_.asked[n]) && (is_end(n) || rivers_.level[n] == 0); }
+    bool is_asked(std::size_t n) const { return !std::isnan(asked_[n]) && (is_end(n) || rivers_.level[n] == 0); }
 
     /// The least rise per distance from the anchor downstream to the prescribed height upstream.
     float steepness(std::size_t asked) const {
         std::size_t const below = anchor_[asked];
         if (!is_asked(below)) {
-            return rivers_.asked[asked] - graded_[asked];
+            return asked_[asked] - graded_[asked];
         }
         constexpr float least = 1e-6F;
-        return (rivers_.asked[asked] - rivers_.asked[below]) / std::max(graded_[asked] - graded_[below], least);
+        return (asked_[asked] - asked_[below]) / std::max(graded_[asked] - graded_[below], least);
     }
 
     /// Finds for each cell the prescribed height upstream that requires the gentlest rise.
@@ -152,7 +135,7 @@ private:
             return 0.0F;
         }
         auto const above = static_cast<std::size_t>(aim_[n]);
-        return rivers_.asked[above] - graded_[above];
+        return asked_[above] - graded_[above];
     }
 
     float height_above(std::size_t n, float below) const {
@@ -161,26 +144,68 @@ private:
             return below + fall;
         }
         auto const above = static_cast<std::size_t>(aim_[n]);
-        return below + (rivers_.asked[above] - below) * (fall / (graded_[above] - graded_[receiver(n)]));
+        return below + (asked_[above] - below) * (fall / (graded_[above] - graded_[receiver(n)]));
     }
 
     TerrainLevel const& level_;
     RiverCells const& rivers_;
+    std::vector<float> asked_;
     std::vector<float> graded_;       ///< heights of graded rivers above their ends
     std::vector<std::size_t> anchor_; ///< number of the next cell downstream with a prescribed height, or of the end
     std::vector<std::int32_t> aim_;   ///< number of the cell upstream, itself included, towards which the cell rises
 };
 
+float just_above(float z) {
+    return std::nextafter(z, std::numeric_limits<float>::infinity());
+}
+
+/// Heights of graded rivers through the levels of lakes; ends keep their heights. Empty: no lake has a level.
+std::vector<float> heights_by_lakes(TerrainLevel const& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    if (rivers.hold.empty()) {
+        return {};
+    }
+    std::vector<float> asked = rivers.asked;
+    for (std::size_t n = 0; n < asked.size(); ++n) {
+        asked[n] = rivers.receiver[n] < 0 ? level.z[rivers.cell[n]] : asked[n];
+    }
+    return Profiles(level, law, std::move(asked)).heights();
+}
+
 } // namespace
 
+void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> const most = greatest_heights(level, law);
+    std::vector<float> const by_lakes = heights_by_lakes(level, law);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        if (rivers.receiver[n] < 0) {
+            continue; // an end keeps its height
+        }
+        std::uint32_t const i = rivers.cell[n];
+        float const below = level.z[rivers.cell[rivers.receiver[n]]];
+        if (rivers.level[n] != 0) {
+            level.z[i] = below;
+            continue;
+        }
+        if (!by_lakes.empty() && (rivers.is_held(n) || !std::isnan(rivers.asked[n]))) {
+            level.z[i] = std::max(by_lakes[n], just_above(below));
+            continue;
+        }
+        float const length = level.side * step_lengths[rivers.direction[n]];
+        float const z = std::min(below + graded_tangent(level, law, i) * length, most[n]);
+        level.z[i] = std::max(z, below + least_tangent * length);
+    }
+}
+
 void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
-    Profiles const profiles(level, law);
+    Profiles const profiles(level, law, level.rivers.asked);
     RiverCells const& rivers = level.rivers;
     std::vector<float> z = profiles.heights();
     bool const soft = heights == RiverHeights::soft;
     if (soft) {
         for (std::size_t n = z.size(); n-- > 0;) {
-            if (!profiles.is_end(n)) {
+            if (!profiles.is_end(n) && rivers.hold_of(profiles.receiver(n)) < Hold::lake) {
                 float& below = z[profiles.receiver(n)];
                 float const rise = rivers.level[n] != 0 ? 0.0F : least_tangent * profiles.length(n);
                 below = std::min(below, z[n] - rise);
@@ -193,10 +218,10 @@ void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHei
             float const below = z[profiles.receiver(n)];
             if (rivers.level[n] != 0) {
                 z[n] = below;
-            } else if (soft) {
+            } else if (soft && !rivers.is_held(n)) {
                 z[n] = std::max(std::min(z[n], most[n]), below + least_tangent * profiles.length(n));
             } else {
-                z[n] = std::max(z[n], std::nextafter(below, std::numeric_limits<float>::infinity()));
+                z[n] = std::max(z[n], just_above(below));
             }
         }
         level.z[rivers.cell[n]] = z[n];
@@ -213,14 +238,14 @@ float highest_lawful(TerrainLevel const& level, std::uint32_t cell, float tangen
 }
 
 /// Lowers a river cell to a height, and cells downstream of it as far as necessary; does nothing if that would take too
-/// long, or reach a lake or an end.
+/// long, or reach a lake, the outlet of one with a level or an end.
 void lower_reach(TerrainLevel& level, std::size_t from, float z, float step) {
     constexpr int longest = 256; // [cells] on a nearly level floor
     RiverCells const& rivers = level.rivers;
     std::size_t n = from;
     float wanted = z;
     for (int k = 0; level.z[rivers.cell[n]] > wanted; ++k, wanted -= step) {
-        if (k == longest || leaves_grid(rivers, n) || rivers.level[n] != 0) {
+        if (k == longest || leaves_grid(rivers, n) || rivers.level[n] != 0 || rivers.hold_of(n) == Hold::outlet) {
             return;
         }
         n = static_cast<std::size_t>(rivers.receiver[n]);
@@ -252,12 +277,13 @@ bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int
     return true;
 }
 
-std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent) {
+std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent, Walls walls) {
     constexpr int steps = 4; // reaches the second ring, with a bend
     RiverCells const& rivers = level.rivers;
     std::vector<std::int64_t> numbers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        if (rivers.number[n] < 0 || !is_perched(level, rivers.cell[n], tangent)) {
+        bool const counts = walls == Walls::all || rivers.hold_of(n) != Hold::none;
+        if (rivers.number[n] < 0 || !counts || !is_perched(level, rivers.cell[n], tangent)) {
             continue;
         }
         bool walled = false;
@@ -279,7 +305,7 @@ void lower_perched(TerrainLevel& level, float tangent, float step) {
     std::size_t const count = rivers.cell.size();
     for (std::size_t k = 0; k < passes * count; ++k) {
         std::size_t const n = k % count;
-        if (!leaves_grid(rivers, n) && rivers.level[n] == 0) {
+        if (!leaves_grid(rivers, n) && rivers.level[n] == 0 && rivers.hold_of(n) != Hold::outlet) {
             float& z = level.z[rivers.cell[n]];
             float const least = level.z[rivers.cell[rivers.receiver[n]]] + step;
             float const lawful = highest_lawful(level, rivers.cell[n], tangent);
@@ -339,7 +365,7 @@ std::vector<std::uint8_t> marked_tips(RiverCells const& rivers, std::vector<std:
             continue;
         }
         bool const below = marked[rivers.receiver[n]] != 0;
-        bool const tip = rivers.level[n] == 0 && upstream[n] <= longest;
+        bool const tip = rivers.level[n] == 0 && upstream[n] <= longest && !rivers.is_held(n);
         marked[n] = below || (tip && is(n)) ? 1 : 0;
     }
     return marked;
@@ -403,6 +429,9 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
         rivers.direction[kept] = rivers.direction[n];
         rivers.level[kept] = rivers.level[n];
         rivers.number[kept] = rivers.number[n];
+        if (!rivers.hold.empty()) {
+            rivers.hold[kept] = rivers.hold[n];
+        }
         if (!rivers.asked.empty()) {
             rivers.asked[kept] = rivers.asked[n];
         }
@@ -413,6 +442,7 @@ void compact(RiverCells& rivers, std::vector<std::uint8_t> const& gone) {
     rivers.direction.resize(kept);
     rivers.level.resize(kept);
     rivers.number.resize(kept);
+    rivers.hold.resize(rivers.hold.empty() ? 0 : kept);
     rivers.asked.resize(rivers.asked.empty() ? 0 : kept);
 }
 

@@ -23,9 +23,11 @@ Mask read_part(io::Source const& source, Grid const& grid, Run const& run);
 /// the grid.
 Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& what);
 
-/// The cells of a raster for surface.mask that are neither 0 nor no-data; without cells for "".
-/// \throws Error as io::read_dem; BadInput when it has not as many cells as the grid
-Mask read_mask_of_land(io::Source const& source, Grid const& grid);
+/// The cells of a raster for surface.mask that are neither 0 nor no-data, or whose centres lie in polygons; without
+/// cells for "".
+/// \throws Error as io::read_dem, io::read_polygons and blend::mask_polygons; BadInput when a raster has not as many
+/// cells as the grid
+Mask read_mask_of_land(io::Source const& source, Grid const& grid, Run const& run);
 
 /// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
 /// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.

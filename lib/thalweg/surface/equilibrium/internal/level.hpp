@@ -87,6 +87,14 @@ inline std::int8_t direction_between(std::size_t from, std::size_t to, std::int6
     return -1;
 }
 
+/// What a lake with a level makes of a river cell.
+enum class Hold : std::uint8_t {
+    none,
+    below, ///< the lake's water passes it
+    lake,  ///< part of the lake
+    outlet ///< of the lake, at its level
+};
+
 /// Channel cells in the frame of a level, downstream first. The vectors are parallel.
 struct RiverCells {
     std::vector<std::uint32_t> cell;    ///< index in the level
@@ -95,7 +103,15 @@ struct RiverCells {
     std::vector<std::uint8_t> level;    ///< 1: as high as its receiver
     std::vector<float> asked;           ///< prescribed height; NaN: free; empty: all free
     std::vector<std::int64_t> number;   ///< in the caller's Channels; -1: beyond its grid
+    std::vector<Hold> hold = {};        ///< empty: no lake has a level
+
+    Hold hold_of(std::size_t n) const { return hold.empty() ? Hold::none : hold[n]; }
+    /// Whether a lake's level decides on its height.
+    bool is_held(std::size_t n) const { return hold_of(n) == Hold::below || hold_of(n) == Hold::outlet; }
 };
+
+/// Marks the cells in and below lakes with levels, of which the outlets are marked.
+void mark_held(RiverCells& rivers);
 
 /// Coarsens rivers to half as many cells a side: a coarse cell takes its river cell with the fewest steps to the
 /// river's end (ties: the first), so that rivers stay trees. Widths include the frames.

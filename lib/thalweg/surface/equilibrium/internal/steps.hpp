@@ -226,7 +226,8 @@ void valley_floors(TerrainLevel& level, FloorParams const& params);
 float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i);
 
 /// Sets rivers to their graded heights for their contributing areas: at most a share of the hillslope cap, and not
-/// above the terrain two cells away, so that they are not perched. Lakes are level.
+/// above the terrain two cells away, so that they are not perched. Lakes are level; below those with levels, rivers
+/// rise to them whatever the terrain.
 void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law);
 
 /// Sets rivers to prescribed heights; between these they are graded as steeply as necessary, above the highest like the
@@ -241,8 +242,9 @@ bool leaves_grid(RiverCells const& rivers, std::size_t n);
 bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int steps);
 
 /// Lists river cells, by number in the caller's Channels and in order, that are perched above cells other than their
-/// own river's.
-std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent);
+/// own river's: all, or those in and below lakes with levels.
+enum class Walls : std::uint8_t { all, by_lakes };
+std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent, Walls walls = Walls::all);
 
 /// Lowers such cells as long as they stay a step above their receivers, which are lowered with them over a short
 /// distance.
@@ -266,6 +268,14 @@ std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level);
 void enforce_receivers(TerrainLevel& level, float least = least_tangent);
 
 // extract_terrain.cpp: from the solver's heights to metres
+
+/// [m] The next height of a river from cell to cell where a lake's level leaves no more: an eighth of a millimetre.
+inline float least_above(float z) {
+    return std::max(z + 0x1p-13F, std::nextafter(z, std::numeric_limits<float>::infinity()));
+}
+inline float least_below(float z) {
+    return std::min(z - 0x1p-13F, std::nextafter(z, -std::numeric_limits<float>::infinity()));
+}
 
 /// The ratio of the terrain's relief or mean slope to its target when heights in cells are multiplied by a factor; 1:
 /// reached.
@@ -301,7 +311,7 @@ Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, He
                              EquilibriumParams const& params);
 
 /// Extracts the caller's grid from a solved finest level, in metres, with its flow directions. Tips that are still
-/// perched are removed too, unless heads are kept.
+/// perched are removed too, unless heads are kept. Lakes have their levels, which their rivers' water can keep.
 EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, Window const& window,
                                    HeightConversion const& raise, std::vector<std::int64_t> shortened, Heads heads,
                                    Run const& run);
