@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <cctype>
+#include <cmath>
 #include <filesystem>
 #include <limits>
 #include <string_view>
@@ -148,9 +149,12 @@ Drawing read_drawing(Recipe const& recipe, Grid const& grid, Run const& run) {
     }
     if (recipe.surface && !recipe.surface->equilibrium.lakes.empty()) {
         for (Polygon& polygon :
-             io::read_polygons(file_of(recipe, recipe.surface->equilibrium.lakes), grid.crs, run).polygons) {
+             io::read_polygons_valued(file_of(recipe, recipe.surface->equilibrium.lakes), grid.crs, "level", run)
+                 .polygons) {
+            std::optional<double> const level_m =
+                std::isnan(polygon.value) ? std::nullopt : std::optional(polygon.value);
             std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
-            drawing.lakes.push_back({std::move(polygon.rings), std::nullopt});
+            drawing.lakes.push_back({std::move(polygon.rings), level_m});
         }
     }
     if (recipe.surface && !recipe.surface->mask.empty() && io::holds_polygons(file_of(recipe, recipe.surface->mask))) {
