@@ -360,7 +360,7 @@ struct WithLakes {
 void warn_of(std::vector<std::string> const& lakes, Run const& run) {
     if (!lakes.empty()) {
         std::string const more =
-            lakes.size() > 1 ? fmt::format(". Levels of {} more lakes are missed, as listed", lakes.size() - 1) : "";
+            lakes.size() > 1 ? fmt::format(". Others that miss their levels: {}", lakes.size() - 1) : "";
         run.say("warning: " + lakes.front() + more);
     }
 }
@@ -395,13 +395,13 @@ std::string hindrance(WithLakes const& flooded, network::Lake const& lake, Raste
     std::int64_t at = lake.outlet;
     do {
         if (channels.receiver[at] < 0) {
-            return fmt::format("its river ends {} cells downstream at {:.6g} m", cells, dem[channels.cell[at]]);
+            return fmt::format("its river ends at {:.6g} m, cells downstream: {}", dem[channels.cell[at]], cells);
         }
         at = channels.receiver[at];
         ++cells;
     } while (std::isnan(channels.lake_z[at]));
     auto const below = std::ranges::find(flooded.lakes, at, &network::Lake::outlet);
-    return fmt::format("lake {} stands {} cells downstream at {:.6g} m", below->label, cells, dem[channels.cell[at]]);
+    return fmt::format("lake {} stands at {:.6g} m, cells downstream: {}", below->label, dem[channels.cell[at]], cells);
 }
 
 /// Notes and warnings on lakes that have not the levels asked.
