@@ -13,7 +13,7 @@ const unit = (value, name) => `${value}\u00a0${name}`;
 const far = (m) => (m >= 2000 ? unit(number(m / 1000), 'km') : unit(number(m), 'm'));
 const high = (z) => unit(number(Math.round(10 * z) / 10 + 0, 6), 'm'); // no minus before 0
 const square = (m2) => (m2 >= 1e5 ? unit(number(m2 / 1e6), 'km²') : unit(number(m2), 'm²'));
-const angle = (degrees) => (Number.isFinite(degrees) ? `${number(Math.round(10 * degrees) / 10 + 0)}°` : '–');
+const angle = (degrees) => (Number.isFinite(degrees) ? `${(Math.round(10 * degrees) / 10 + 0).toFixed(1).replace('-', '\u2212')}°` : '–');
 const counted = (n, one, many = `${one}s`) => `${number(n)} ${n === 1 ? one : many}`;
 const facts = (rows) => make('dl', {}, ...rows.flatMap(([name, value]) => [make('dt', { textContent: name }), make('dd', { textContent: value })]));
 const ink = '#d95f02';

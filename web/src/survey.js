@@ -215,7 +215,7 @@ export function room({ grid }, x, y, ux, uy) {
 }
 
 /**
- * How far from a place the divide on one side is seen [cells]: the highest ground before it falls by half of what it has risen
+ * How far from a place the divide on one side is seen [cells]: the highest ground before it falls by a quarter of what it rose
  * and by a 50th of the land's range, but not before `look`; a sixth more, no farther than 0.3 of the grid's longer side.
  */
 function reachTo(land, { x, y, ux, uy }, sign, look) {
@@ -231,7 +231,7 @@ function reachTo(land, { x, y, ux, uy }, sign, look) {
     const z = heightOf(land, x + sign * d * ux, y + sign * d * uy);
     if (Number.isNaN(z)) break;
     if (z > top) [top, topAt] = [z, d];
-    else if (d > look && top - z > Math.max((top - floor) / 2, least)) return Math.min(end, Math.max(topAt + 4 * step, (7 / 6) * topAt));
+    else if (d > look && top - z > Math.max((top - floor) / 4, least)) return Math.min(end, Math.max(topAt + 4 * step, (7 / 6) * topAt));
   }
   return Math.max(step, Math.min(d - step, end));
 }
