@@ -4,6 +4,7 @@
 // make itself needs in the same process: `fill` on 256 x 256 and on 1024 x 1024 cells.
 #include <algorithm>
 #include <chrono>
+#include <cmath>
 #include <cstdint>
 #include <ctime>
 #include <memory>
@@ -13,7 +14,11 @@
 
 #include <benchmark/benchmark.h>
 
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/studio/document.hpp>
+#include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/drawing.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 #include <thalweg/studio/engine.hpp>
 
 namespace {
@@ -115,6 +120,52 @@ void BM_studio_seed(benchmark::State& state) {
     follow(state, "seed", true);
 }
 BENCHMARK(BM_studio_seed)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(5);
+
+/// A river is drawn on an island of 1024 x 1024 cells that is drawn by hand. Counts: from the pen's leaving to the
+/// first new land and to the finished heights, with the file written and the document saved.
+void BM_studio_draw(benchmark::State& state) {
+    double const small_s = fill_s(256);
+    io::TemporaryFolder const folder("thalweg-bench");
+    std::string const at = (folder.path() / "doc").string();
+    studio::new_sheet(at);
+    studio::DocumentFolder document(at);
+    document.edit({"", {studio::SetKey{"grid.width", "1024"}, studio::SetKey{"grid.height", "1024"}}});
+    Grid const grid = *studio::grid_of(document.document().recipe);
+    studio::Drawing drawing = studio::read_drawing(document.document().recipe, grid);
+    auto const place = [&](double x, double y) {
+        return Vec2{grid.west + x * grid.cell_m, grid.north - y * grid.cell_m};
+    };
+    auto const draw = [&](studio::DrawStep const& step) {
+        studio::Drawn after = studio::drawn(drawing, step);
+        document.edit(studio::edit_between(
+            document.document(), drawing, after,
+            [&](auto const& key, auto const& name, auto const& write) { return document.put(key, name, write); }));
+        drawing = std::move(after.drawing);
+    };
+    studio::DrawnLine shore;
+    for (double turn = 0.0; turn < 6.28; turn += 0.05) {
+        double const away = 400.0 + 40.0 * std::sin(5.0 * turn);
+        shore.push_back(place(512.0 + away * std::cos(turn), 512.0 - away * std::sin(turn)));
+    }
+    draw(studio::DrawCoast{shore});
+    Timed timed;
+    double x = 200.0;
+    for (auto _ : state) {
+        x += 60.0;
+        studio::DrawRiver const river{
+            {place(x, 470.0), place(x + 20.0, 560.0), place(x - 10.0, 700.0), place(x, 980.0)}};
+        auto const begin = Clock::now();
+        draw(river);
+        double const saved_s = seconds_since(begin);
+        Times const times = timed.make(document.document());
+        state.counters["saved_ms"] = 1e3 * saved_s;
+        state.counters["first_ms"] = 1e3 * (saved_s + times.first_s);
+        state.counters["full_ms"] = 1e3 * (saved_s + times.full_s);
+        state.counters["first_over_fill256"] = (saved_s + times.first_s) / small_s;
+        state.counters["full_over_fill"] = (saved_s + times.full_s) / stage_s(timed.made(), "fill");
+    }
+}
+BENCHMARK(BM_studio_draw)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime()->Iterations(6);
 
 /// The longest time [ms] from a new edit to the end of what ran, over 100 moments of a run of 1024 x 1024 cells;
 /// cpu_ms: of the process in that time, at the worst, in the stage that the label names.

@@ -6,6 +6,7 @@
 #include <cmath>
 #include <random>
 #include <string>
+#include <utility>
 #include <vector>
 
 #include <gtest/gtest.h>
@@ -152,6 +153,19 @@ TEST(Drawing, ARiverIsSmoothedAndSnapsToWhatItMeets) {
         off_m = std::max(off_m, nearest_m);
     }
     EXPECT_LT(off_m, 0.8 * grid.cell_m);
+}
+
+TEST(Drawing, TheBorderIsNeverCrossedByRounding) {
+    Drawing drawing;
+    drawing.grid = {40, 30, 1.0 / 3.0, 761899.1999999997, 4036556.2000000003, "EPSG:32616"};
+    Grid const& odd = drawing.grid;
+    for (auto const& [x, y] : std::vector<std::pair<double, double>>{{-1, 15}, {41, 15}, {20, -1}, {20, 31}}) {
+        Vec2 const outlet = {odd.west + x * odd.cell_m, odd.north - y * odd.cell_m};
+        Vec2 const middle = {odd.west + 20 * odd.cell_m, odd.north - 15 * odd.cell_m};
+        Vec2 const end = drawn(drawing, DrawRiver{{middle, outlet}}).drawing.rivers.front().line.back();
+        EXPECT_TRUE(end.x >= odd.west && end.x <= odd.east() && end.y >= odd.south() && end.y <= odd.north) << x << y;
+        EXPECT_EQ(end, rounded(end));
+    }
 }
 
 TEST(Drawing, ARiverRunsToWhereItMeetsOtherWater) {

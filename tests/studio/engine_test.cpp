@@ -7,6 +7,7 @@
 #include <condition_variable>
 #include <cstdint>
 #include <filesystem>
+#include <limits>
 #include <map>
 #include <memory>
 #include <mutex>
@@ -21,7 +22,9 @@
 #include <support.hpp>
 
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/studio/document.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 
 #include "random_edits.hpp"
 
@@ -345,6 +348,32 @@ TEST(Engine, SeesThatAFileWasChanged) {
     ASSERT_NE(high, nullptr) << watched.told(2).failed;
     EXPECT_FALSE(test::same_bits(low->terrain.surface->dem, high->terrain.surface->dem));
     EXPECT_TRUE(are_same(*high, pipeline::make(document.recipe)));
+}
+
+TEST(Engine, CutsRiversAtHolesOfADemThatItKept) {
+    io::TemporaryFolder const folder("thalweg-engine");
+    Grid const grid{60, 50, 10.0, 500000.0, 5000000.0, "EPSG:32631"};
+    Raster<float> dem(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        dem[i] = c.col > 48 ? std::numeric_limits<float>::quiet_NaN() : static_cast<float>(100 - c.col);
+    }
+    std::filesystem::create_directory(folder.path() / "inputs");
+    io::write_dem(dem, (folder.path() / "inputs/dem.tif").string());
+    Drawing drawing;
+    drawing.grid = grid;
+    drawing.rivers = {{{{500020.0, 4999750.0}, {500600.0, 4999750.0}}}};
+    write_drawing(drawing, (folder.path() / "inputs/drawing.gpkg").string());
+    std::string const surface = "[surface]\nmethod = \"raster\"\nsource = \"inputs/dem.tif\"\n";
+    std::string const rivers = "[network]\nsource = \"lines\"\n[network.lines]\npath = \"inputs/drawing.gpkg\"\n";
+    Document alone = document_of(surface);
+    Document cut = document_of("[grid]\nclip = true\n" + rivers + surface);
+    alone.recipe.folder = cut.recipe.folder = folder.path().string();
+    Watched watched;
+    ASSERT_NE(watched.make(alone).measured, nullptr);
+    Watched::Told const told = watched.make(cut);
+    ASSERT_NE(told.measured, nullptr) << told.failed;
+    EXPECT_TRUE(are_same(*told.measured, pipeline::make(cut.recipe)));
 }
 
 TEST(Engine, SaysWhyARecipeCannotBeMade) {

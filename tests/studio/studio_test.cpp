@@ -22,6 +22,7 @@
 #include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/studio/document_folder.hpp>
 
+#include "random_draw.hpp"
 #include "random_edits.hpp"
 
 namespace studio_test {
@@ -82,11 +83,17 @@ public:
                 return nullptr;
             }
             json message = frame.opcode == 1 ? json::parse(frame.payload) : json();
+            if (frame.opcode == 1 && message["type"] == "drawing") {
+                drawing_ = message;
+            }
             if (frame.opcode == 1 && message["type"] == type) {
                 return message;
             }
         }
     }
+    /// What is drawn, as it was told last.
+    json const& drawing() const { return drawing_; }
+    json draw(json const& what) { return ask(json{{"id", 1}, {"do", "draw"}, {"what", what}}.dump()); }
     /// Waits until the terrain of a revision is there.
     void wait_for(std::int64_t revision) {
         json idle = next("idle");
@@ -106,7 +113,36 @@ public:
 
 private:
     RawClient client_;
+    json drawing_;
 };
+
+/// A drawing as the page has it.
+Drawing drawing_in(json const& message) {
+    Drawing drawing;
+    json const& of = message["grid"];
+    drawing.grid = {of["width"], of["height"], of["cell_m"], of["west"], of["north"], of["crs"]};
+    auto const line_in = [&](json const& numbers) {
+        DrawnLine line;
+        for (std::size_t i = 0; i + 1 < numbers.size(); i += 2) {
+            line.push_back({drawing.grid.west + numbers[i].get<double>() * drawing.grid.cell_m,
+                            drawing.grid.north - numbers[i + 1].get<double>() * drawing.grid.cell_m});
+        }
+        return line;
+    };
+    for (json const& river : message["rivers"]) {
+        drawing.rivers.push_back({line_in(river["line"]), river["type"], river["lambda"]});
+    }
+    for (json const& coast : message["coasts"]) {
+        drawing.coasts.push_back(line_in(coast));
+    }
+    for (json const& lake : message["lakes"]) {
+        drawing.lakes.push_back({{line_in(lake["ring"])}, std::nullopt});
+    }
+    for (json const& mask : message["masks"]) {
+        drawing.masks.push_back(line_in(mask));
+    }
+    return drawing;
+}
 
 class Studios : public testing::Test {
 protected:
@@ -130,18 +166,30 @@ void edit_at_random(std::string const& folder, int edits, int compare_every, std
     std::mt19937_64 random(seed);
     Running const studio({.folder = folder, .threads = 2});
     Window window(studio);
+    window.next("drawing");
     auto const recipe = [&] { return test::bytes_of(folder + "/recipe.toml"); };
     std::string const first = recipe();
     int compared = 0;
+    int made = 0; // some steps of drawing change nothing, or are refused
+    int drawn = 0;
     for (int i = 1; i <= edits; ++i) {
-        auto const [edit, after] = random_edit(document_of(recipe()), random);
-        bool const sets = std::holds_alternative<SetKey>(edit.steps.front());
-        json const step = sets ? json{{"set", std::get<SetKey>(edit.steps.front()).key},
-                                      {"value", std::get<SetKey>(edit.steps.front()).value}}
-                               : json{{"unset", std::get<UnsetKey>(edit.steps.front()).key}};
-        json const reply = window.ask(json{{"id", i}, {"do", "edit"}, {"edit", {{"steps", {step}}}}}.dump());
-        ASSERT_EQ(reply["ok"], true) << step << reply;
-        ASSERT_EQ(recipe(), after.toml) << step;
+        std::string const before = recipe();
+        if (random() % 2 == 0 && !window.drawing().is_null()) {
+            json const reply = window.draw(random_draw(drawing_in(window.drawing()), random));
+            ASSERT_TRUE(reply["ok"] == true || reply["error"] != "") << reply;
+            made += recipe() != before ? 1 : 0;
+            drawn += recipe() != before ? 1 : 0;
+        } else {
+            auto const [edit, after] = random_edit(document_of(before), random);
+            bool const sets = std::holds_alternative<SetKey>(edit.steps.front());
+            json const step = sets ? json{{"set", std::get<SetKey>(edit.steps.front()).key},
+                                          {"value", std::get<SetKey>(edit.steps.front()).value}}
+                                   : json{{"unset", std::get<UnsetKey>(edit.steps.front()).key}};
+            json const reply = window.ask(json{{"id", i}, {"do", "edit"}, {"edit", {{"steps", {step}}}}}.dump());
+            ASSERT_EQ(reply["ok"], true) << step << reply;
+            ASSERT_EQ(recipe(), after.toml) << step;
+            ++made;
+        }
         if (i % compare_every != 0) {
             continue;
         }
@@ -161,12 +209,13 @@ void edit_at_random(std::string const& folder, int edits, int compare_every, std
         }
     }
     EXPECT_GT(compared, 0);
+    EXPECT_GT(drawn, 0);
     std::string const last = recipe();
-    for (int i = 0; i < edits; ++i) {
+    for (int i = 0; i < made; ++i) {
         ASSERT_EQ(window.ask(R"({"id": 0, "do": "undo"})")["ok"], true);
     }
     EXPECT_EQ(recipe(), first);
-    for (int i = 0; i < edits; ++i) {
+    for (int i = 0; i < made; ++i) {
         ASSERT_EQ(window.ask(R"({"id": 0, "do": "redo"})")["ok"], true);
     }
     EXPECT_EQ(recipe(), last);
@@ -294,6 +343,68 @@ TEST_F(Studios, ExportTheDocumentAfterAStop) {
 TEST_F(Studios, RefuseADocumentThatIsOpen) {
     Running const studio(params());
     EXPECT_TRUE(test::has(test::error_of([&] { Studio twice(params()); }), "open"));
+}
+
+TEST_F(Studios, DrawnRiversBecomeTheTerrain) {
+    Running const studio(params());
+    Window window(studio);
+    json const shown = window.next("drawing");
+    EXPECT_EQ(shown["kind"], "shown");
+    ASSERT_GT(shown["rivers"].size(), 1U);
+    std::string const grown = recipe();
+
+    json const erased = window.draw({{"verb", "erase"}, {"river", 0}});
+    ASSERT_EQ(erased["ok"], true) << erased;
+    EXPECT_TRUE(test::has(erased["said"].dump(), "drawn lines now, ", "undo brings it back"));
+    EXPECT_EQ(window.drawing()["kind"], "drawn");
+    EXPECT_LT(window.drawing()["rivers"].size(), shown["rivers"].size());
+    EXPECT_TRUE(test::has(recipe(), "source = 'lines'", "drawing.gpkg"));
+
+    EXPECT_EQ(window.ask(R"({"id": 2, "do": "undo"})")["ok"], true);
+    EXPECT_EQ(recipe(), grown) << "the generator is back";
+    EXPECT_EQ(window.next("drawing")["rivers"], shown["rivers"]);
+
+    EXPECT_EQ(window.draw({{"verb", "clear"}})["ok"], true);
+    EXPECT_TRUE(window.drawing()["rivers"].empty());
+    json const nothing = window.ask(R"({"id": 3, "do": "export"})");
+    EXPECT_TRUE(test::has(nothing["error"].get<std::string>(), "no river yet"));
+    Window late(studio);
+    EXPECT_TRUE(late.next("drawing")["rivers"].empty());
+    EXPECT_EQ(late.next("idle")["type"], "idle") << "and no terrain of before";
+
+    ASSERT_EQ(window.draw({{"verb", "river"}, {"points", {36, 5, 36, 60}}})["ok"], true);
+    json const second = window.draw({{"verb", "river"}, {"points", {5, 20, 35, 40}}, {"type", "C"}});
+    ASSERT_EQ(second["ok"], true) << second;
+    json const crossing = window.draw({{"verb", "river"}, {"points", {20, 50, 60, 50}}});
+    EXPECT_TRUE(test::has(crossing["error"].get<std::string>(), "cross"));
+    EXPECT_NEAR(crossing["at"][0].get<double>(), 36.0, 0.1);
+    EXPECT_NEAR(crossing["at"][1].get<double>(), 50.0, 0.1);
+    ASSERT_EQ(window.draw({{"verb", "lake"}, {"points", {32, 44, 40, 44, 40, 52, 32, 52}}})["ok"], true);
+    json const stale = window.ask(R"({"id": 4, "do": "draw", "revision": 1, "what": {"verb": "clear"}})");
+    EXPECT_TRUE(test::has(stale["error"].get<std::string>(), "meanwhile"));
+    json const written = window.ask(R"({"id": 5, "do": "export"})");
+    ASSERT_EQ(written["ok"], true) << written;
+    pipeline::run_make({.input = at("doc/recipe.toml"), .output = at("made")});
+    for (char const* name : {"dem.tif", "network.gpkg", "lakes.tif"}) {
+        EXPECT_EQ(test::bytes_of(at("doc/terrain/" + std::string(name))),
+                  test::bytes_of(at("made/" + std::string(name))))
+            << name;
+    }
+}
+
+TEST_F(Studios, AnEmptySheetIsDrawnOn) {
+    std::string const folder = document_for("", at("sheet"), true);
+    EXPECT_TRUE(test::has(test::error_of([&] { document_for(at("land.toml"), "", true); }), "--blank"));
+    EXPECT_FALSE(test::error_of([&] { document_for("", at("sheet"), true); }).empty()) << "it is there";
+    Running const studio({.folder = folder, .threads = 2});
+    Window window(studio);
+    EXPECT_EQ(window.next("drawing")["kind"], "drawn");
+    EXPECT_EQ(window.drawing()["grid"]["width"], 512);
+    EXPECT_EQ(window.draw({{"verb", "river"}, {"points", {200, 100, 220, 505}}})["ok"], true);
+    json const failed = window.draw({{"verb", "branching"}, {"on", true}});
+    EXPECT_EQ(failed["ok"], true) << failed;
+    EXPECT_EQ(window.drawing()["branching"], true);
+    window.wait_for(2);
 }
 
 TEST_F(Studios, FindTheDocumentMeant) {

@@ -17,6 +17,7 @@
 #include <serve/raw_client.hpp>
 
 #include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 
 #include "command.hpp"
 #include "spawned.hpp"
@@ -63,14 +64,15 @@ private:
 /// Edits through the page's socket as fast as answers come, kills the studio with SIGKILL at moments at random, and
 /// opens the document again: every edit that was answered must be there, and it must be one that was asked for.
 inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
+    using namespace thalweg;
     using namespace thalweg::studio;
     Workplace const place;
-    place.write("land.toml",
-                "seed = 7\n[grid]\nwidth = 256\nheight = 256\n[network]\nsource = \"forest\"\n[surface]\n");
     std::string const folder = (place.path() / "doc").string();
-    new_document(folder, (place.path() / "land.toml").string());
+    new_sheet(folder);
+    DocumentFolder(folder).edit({"", {SetKey{"grid.width", "256"}, SetKey{"grid.height", "256"}}});
     std::mt19937_64 random(seed);
     std::int64_t value = 1000; // the seed of the recipe counts the edits
+    std::int64_t strokes = 0;
     for (int round = 0; round < kills; ++round) {
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", kill " << round);
         StartedStudio studio({"doc", "-q"}, place.path());
@@ -82,6 +84,7 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
             kill(studio.process().pid(), SIGKILL);
         });
         std::int64_t answered = 0;
+        std::int64_t rivers = -1; // that were drawn and answered
         for (Frame next = {1, ""}; next.opcode != -1;) {
             ++value;
             client.send(text_frame(R"({"id":1,"do":"edit","edit":{"steps":[{"set":"seed","value":")" +
@@ -90,6 +93,21 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
                 next = client.read_message();
             } while (next.opcode != -1 && next.payload.find(R"("type":"reply")") == std::string::npos);
             answered = next.opcode != -1 ? value : answered;
+            if (next.opcode != -1) { // a river beside the last one, on a new sheet now and then
+                std::int64_t const number = strokes++ % 100;
+                std::string const x = std::to_string(4 + 5 * (number % 50));
+                std::string const y = number < 50 ? "20" : "140";
+                client.send(text_frame(number == 0
+                                           ? R"({"id":2,"do":"draw","what":{"verb":"clear"}})"
+                                           : R"({"id":2,"do":"draw","what":{"verb":"river","points":[)" + x + "," + y +
+                                                 "," + x + "," + std::to_string(std::stoi(y) + 60) + "]}}"));
+                do {
+                    next = client.read_message();
+                } while (next.opcode != -1 && next.payload.find(R"("type":"reply")") == std::string::npos);
+                EXPECT_TRUE(next.opcode == -1 || next.payload.find(R"("ok":true)") != std::string::npos)
+                    << next.payload;
+                rivers = next.opcode == -1 ? rivers : number;
+            }
         }
         EXPECT_EQ(studio.process().wait(30.0).code, -SIGKILL);
         DocumentFolder const document(folder);
@@ -98,6 +116,12 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
             EXPECT_TRUE(kept == answered || kept == answered + 1) << kept << " " << answered;
         }
         EXPECT_LE(kept, value);
+        pipeline::Recipe const& recipe = document.document().recipe;
+        if (is_drawn(recipe)) { // what is named is whole
+            std::size_t const there = read_drawing(recipe, *grid_of(recipe)).rivers.size();
+            EXPECT_TRUE(rivers < 0 || std::cmp_equal(there, rivers) || std::cmp_equal(there, rivers + 1) || there == 0)
+                << there << " " << rivers;
+        }
     }
     DocumentFolder document(folder);
     std::int64_t undone = 0;

@@ -60,7 +60,7 @@ function tick(value, log) {
 function layOut(series, what, width) {
   const points = series.flatMap((s) => s.points.concat(s.fit ?? []));
   const height = what.height ?? 150;
-  const y = scale(points.map((p) => p[1]).concat(what.zeroY ? [0] : []), { log: what.logY, least: 3 });
+  const y = scale(points.map((p) => p[1]).filter(Number.isFinite).concat(what.zeroY ? [0] : []), { log: what.logY, least: 3 });
   const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), { log: what.logX, whole: what.wholeX, least: width < 240 ? 2 : 4 });
   const widest = Math.max(...y.ticks.map((t) => tick(t, what.logY).length));
   const box = { left: 10 + 6 * widest, top: 22, right: width - 10, bottom: height - 32 };
@@ -69,6 +69,16 @@ function layOut(series, what, width) {
 }
 
 const path = (points, place) => points.map((p, i) => `${i ? 'L' : 'M'}${place(p).map((v) => v.toFixed(1)).join(' ')}`).join('');
+
+/** Points between gaps. */
+function runs(points) {
+  const all = [[]];
+  for (const p of points) {
+    if (Number.isFinite(p[1])) all.at(-1).push(p);
+    else if (all.at(-1).length) all.push([]);
+  }
+  return all.filter((run) => run.length);
+}
 
 function axes({ x, y, box, place, height, width }, what) {
   const parts = [];
@@ -93,24 +103,26 @@ function strokes(s, { y, place }) {
   const k = s.tone;
   if (s.kind === 'area') {
     const floor = y.low < 0 && y.high > 0 ? 0 : y.low;
-    const ends = [s.points.at(-1), s.points[0]].map((p) => [p[0], floor]);
-    parts.push(draw('path', { class: 'area', d: `${path(s.points.concat(ends), place)}Z` }));
+    for (const run of runs(s.points)) {
+      const ends = [run.at(-1), run[0]].map((p) => [p[0], floor]);
+      parts.push(draw('path', { class: 'area', d: `${path(run.concat(ends), place)}Z` }));
+    }
   }
   if (s.fit) parts.push(draw('path', { class: `fit s${k}`, d: path(s.fit, place) }));
   if (s.kind === 'points') parts.push(...s.points.map((p) => symbol(k, ...place(p).map((v) => Number(v.toFixed(1))))));
-  else parts.push(draw('path', { class: `line s${k}`, d: path(s.points, place) }));
+  else parts.push(draw('path', { class: `line s${k}`, d: runs(s.points).map((run) => path(run, place)).join('') }));
   return parts;
 }
 
 /**
  * all: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], …], tone: 0 | 1 | 2}]; those without
- * a point are not shown. what: {title, x, y (with their units, in brackets), logX, logY, wholeX, zeroX, zeroY, height,
+ * a point are not shown, and where a y is NaN a line has a gap. what: {title, x, y (with their units, in brackets), logX, logY, wholeX, zeroX, zeroY, height,
  * flags: [[x, y], …] places with a sign above them, note(index): a further word of a reading, onread(index or
  * null): what is told of it}. An index is that of a point of the first series, from the left.
  * Gives {figure, read(index or null)}; a reading by `read` is not told.
  */
 export function plot(all, what) {
-  const series = all.map((s, k) => ({ tone: k, ...s, points: [...s.points].sort((a, b) => a[0] - b[0]) })).filter((s) => s.points.length);
+  const series = all.map((s, k) => ({ tone: k, ...s, points: [...s.points].sort((a, b) => a[0] - b[0]) })).filter((s) => s.points.some((p) => Number.isFinite(p[1])));
   const figure = make('figure', {}, make('figcaption', { textContent: what.title }));
   if (!series.length) {
     figure.append(make('p', { className: 'hint', textContent: 'nothing to show' }));
@@ -149,7 +161,7 @@ export function plot(all, what) {
     if (index === null) return;
     const places = beside(index).map(laid.place);
     const [x] = places[0];
-    hair.append(draw('line', { x1: x, x2: x, y1: laid.box.top, y2: laid.box.bottom }), ...places.map(([cx, cy]) => draw('circle', { cx, cy, r: 3 })));
+    hair.append(draw('line', { x1: x, x2: x, y1: laid.box.top, y2: laid.box.bottom }), ...places.filter(([, y]) => Number.isFinite(y)).map(([cx, cy]) => draw('circle', { cx, cy, r: 3 })));
     tip.replaceChildren(...words(index).map((text) => make('span', { textContent: text })));
     const right = x > laid.width / 2;
     tip.style.left = right ? 'auto' : `${x + 8}px`;

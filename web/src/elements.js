@@ -61,6 +61,14 @@ export function rung(k) {
   return draw('path', { class: `rung s${k}`, d: k > 1 ? 'M0-6V6M-2.5-6h5M-2.5 6h5' : 'M0-6V6' });
 }
 
+/** Lets the reader save something: a Blob, under a name made of a title. */
+export function save(blob, title, ending) {
+  const name = title.replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '') || 'thalweg';
+  const link = make('a', { href: URL.createObjectURL(blob), download: `${name}.${ending}` });
+  link.click();
+  setTimeout(() => URL.revokeObjectURL(link.href), 10000);
+}
+
 export function copyable(text, label) {
   const button = make('button', { type: 'button', textContent: 'Copy' });
   button.setAttribute('aria-label', `Copy ${label}`);

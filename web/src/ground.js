@@ -62,9 +62,9 @@ ${shared}
 in vec2 place;
 in vec3 at;
 out vec4 colour;
-uniform sampler2D heights, surf, cover, shadow, values, palette, nearest, segments, styles;
+uniform sampler2D heights, surf, cover, shadow, values, palette, nearest, segments, styles, part;
 uniform vec2 size, fine;
-uniform float holes, sea, low, high, gain, contour, index, dpr, byClass, withLines, lineByClass, level;
+uniform float holes, sea, low, high, gain, contour, index, dpr, byClass, withLines, lineByClass, level, withPart;
 uniform vec3 sun, lineColours[8];
 
 float heightAt(vec2 p) {
@@ -172,6 +172,14 @@ void main() {
   }
   light = haze(light, at);
   if (holes > 0.5 && sea < 0.5) light = mix(behind(), light, smoothstep(0.02, 0.9, covers.r));
+  if (withPart > 0.5) {
+    float in_ = texture(part, uv).r;
+    vec2 right = across * 0.8 * dpr / size, under = down * 0.8 * dpr / size;
+    vec4 beside = vec4(texture(part, uv + right).r, texture(part, uv - right).r, texture(part, uv + under).r, texture(part, uv - under).r);
+    float step_ = max(max(beside.x, beside.y), max(beside.z, beside.w)) - min(min(beside.x, beside.y), min(beside.z, beside.w));
+    float rim = max(smoothstep(0.3, 0.6, step_), 1.0 - smoothstep(0.0, 1.0, abs(in_ - 0.5) / max(fwidth(in_), 1e-4) - 0.7 * dpr));
+    light = mix(light, haze(linear(vec3(1.0, 0.47, 0.0)), at), max(0.9 * rim, 0.2 * smoothstep(0.3, 0.7, in_)));
+  }
   if (withLines > 0.5) {
     vec4 line = linesAt(across, down);
     light = mix(light, haze(linear(line.rgb), at), line.a);
@@ -386,6 +394,7 @@ export class Ground {
     Object.assign(u.holes, { value: land.has ? 1 : 0 });
     Object.assign(u.sea, { value: sea && land.has ? 1 : 0 });
     Object.assign(u.level, { value: land.level ? 1 : 0 });
+    u.withPart.value = 0;
     this.air.unit.value = this.unit * land.cells;
     this.half.value.set(this.halfX, this.halfZ);
   }
@@ -447,6 +456,7 @@ export class Ground {
       styles: { value: texture(one, 1, 1, RGBAFormat, FloatType, NearestFilter) },
       holes: { value: land.has ? 1 : 0 }, sea: { value: this.sea && land.has ? 1 : 0 }, low: { value: land.min }, high: { value: land.max },
       gain: { value: 1 }, contour: { value: 0 }, index: { value: 5 }, dpr: { value: 1 }, byClass: { value: 0 }, withLines: { value: 0 }, lineByClass: { value: 0 },
+      part: { value: texture(new Uint8Array(1), 1, 1, RedFormat, UnsignedByteType, LinearFilter) }, withPart: { value: 0 },
       lineColours: { value: Array.from({ length: 8 }, () => new Vector3()) },
       level: { value: land.level ? 1 : 0 }, sun: { value: new Vector3(0, 1, 0) },
     };
@@ -544,6 +554,15 @@ export class Ground {
     Object.assign(u.low, { value: low });
     Object.assign(u.high, { value: high });
     u.byClass.value = byClass ? 1 : 0;
+  }
+
+  /** Shows a part of the land, 255 by value within it; null: none. */
+  emphasize(inside) {
+    const u = this.uniforms;
+    u.withPart.value = inside ? 1 : 0;
+    if (!inside) return;
+    u.part.value.dispose();
+    u.part.value = texture(inside, this.land.width, this.land.height, RedFormat, UnsignedByteType, LinearFilter);
   }
 
   /** Draws groups of lines (riverfield.js) on the land in place of those before. */

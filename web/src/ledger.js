@@ -6,10 +6,10 @@ import { draw, fold, make, table } from './elements.js';
 
 const percent = (share) => `${number(share > 0.99 ? Math.floor(1000 * share) / 10 : 100 * share, 3)}\u00a0%`;
 
-/** Where the length went: [{name, length}], the network first, then what was left out, the longest first. */
+/** Where the length of rivers went: [{name, length}], the network first, then what was left out, the longest first; coastlines are none. */
 export function parts(given) {
   const begin = 'left out: ';
-  const left = given.filter(([name]) => name.startsWith(begin)).map(([name, length]) => ({ name: name.slice(begin.length), length }));
+  const left = given.filter(([name]) => name.startsWith(begin) && !name.endsWith('coastlines')).map(([name, length]) => ({ name: name.slice(begin.length), length }));
   return [{ name: 'in the network', length: given.find(([name]) => name === 'in the network')?.[1] ?? 0 }, ...left.sort((a, b) => b.length - a.length)];
 }
 
@@ -18,10 +18,11 @@ export function ledger(parent, { given }) {
   if (!value('read')) return;
   const all = parts(given);
   const whole = all.reduce((sum, { length }) => sum + length, 0) || 1;
+  const coast = value('left out: coastlines')?.[1] ?? 0;
   const words = ([name, amount, unit]) => `${name} ${number(amount, 3)}\u00a0${unit}`;
   const further = ['in artificial channels', 'reversed', 'outlets extended by', 'ends moved by up to'].map(value)
     .filter((row) => row?.[1] > 0).map(words);
-  parent.append(make('p', { className: 'line' }, make('b', { textContent: `${number(value('read')[1], 4)}\u00a0km of rivers given` }),
+  parent.append(make('p', { className: 'line' }, make('b', { textContent: `${number(value('read')[1] - coast, 4)}\u00a0km of rivers given` }),
     `: ${percent(all[0].length / whole)} in the network${further.map((text) => `, ${text}`).join('')}`));
   if (all.length > 1) {
     let from = 0;

@@ -4,9 +4,11 @@
 import { ArcFinder } from './rivers.js';
 import { number } from './chart.js';
 import { css, modes, orderColours, riverStyle } from './colours.js';
+import { save } from './elements.js';
 import { keysDialog } from './keys.js';
 import { Land } from './land.js';
 import { slopes } from './light.js';
+import { measuring } from './measure.js';
 import { fillPanel, metres, summary } from './panel.js';
 import { Tools } from './tools.js';
 import { probe, View3d } from './view3d.js';
@@ -145,6 +147,7 @@ export function createPage(first, state, keys = []) {
     $('kept').textContent = `${number(now.kept)} of ${number(rivers.count)} links kept, to order ${highest}`;
     drawLines();
     legend();
+    measure.changed();
   }
   L.addEventListener('input', () => {
     prune();
@@ -314,6 +317,7 @@ export function createPage(first, state, keys = []) {
       moved = null;
       const found = pick(offsetX, offsetY);
       tell(found);
+      measure.hover(found && { x: found.px, y: found.py });
       if (found && found.number >= 0) panel.hover(found.px, found.py, found.number);
       else panel.hover(null, null, -1);
     });
@@ -322,6 +326,7 @@ export function createPage(first, state, keys = []) {
     if (moved) cancelAnimationFrame(moved);
     moved = null;
     tell(null);
+    measure.hover(null);
     panel.hover(null, null, -1);
   });
   view.canvas.addEventListener('pointerdown', (event) => (pressed = [event.offsetX, event.offsetY]));
@@ -363,7 +368,9 @@ export function createPage(first, state, keys = []) {
   });
   keysDialog($('bkeys'), [
     ['drag, arrow keys', view.mode === '2d' ? 'move the map' : 'turn the view'], ['Shift with arrow keys', 'move it'], ['wheel, + and −', 'zoom'],
-    ['M', 'map'], ['0', 'first view'], ['P', 'read what is in the middle'], ...keys, ['?', 'this list']]);
+    ['M', 'map'], ['0', 'first view'], ['P', 'read what is in the middle'],
+    ['L, X, C, D', 'measure: profile, cross-section, catchment, distance'], ['arrows, Enter', 'with such a tool: move the cross-hair, set a point'],
+    ['Backspace, Esc', 'take a point back, end the line, close the measurement'], ...keys, ['?', 'this list']]);
   $('bpicture').addEventListener('click', () => {
     view.draw();
     const whole = document.createElement('canvas');
@@ -371,12 +378,8 @@ export function createPage(first, state, keys = []) {
     whole.height = view.canvas.height;
     const pen = whole.getContext('2d');
     pen.drawImage(view.canvas, 0, 0);
-    pen.drawImage(view.labels.canvas, 0, 0, whole.width, whole.height);
-    whole.toBlob((blob) => {
-      const link = Object.assign(document.createElement('a'), { href: URL.createObjectURL(blob), download: `${data.title.replace(/[^\p{L}\p{N}]+/gu, '-').replace(/^-|-$/g, '') || 'thalweg'}.png` });
-      link.click();
-      setTimeout(() => URL.revokeObjectURL(link.href), 10000);
-    });
+    for (const over of [tools.canvas, view.labels.canvas]) pen.drawImage(over, 0, 0, whole.width, whole.height);
+    whole.toBlob((blob) => save(blob, data.title, 'png'));
   });
   const dark = matchMedia('(prefers-color-scheme: dark)');
   const theme = (name) => {
@@ -388,10 +391,11 @@ export function createPage(first, state, keys = []) {
 
   view.ondraw = (turn) => ($('north').style.transform = `rotate(${turn}rad)`);
   const tools = new Tools(view);
+  const measure = measuring({ view, tools, here: () => ({ data, land, rivers, water, orders, finder }) });
   // Labels keep out from under what lies over the view.
   view.keepOut = () => {
     const frame = $('view').getBoundingClientRect();
-    return ['ways', 'north', 'point', 'doing', 'toolbar', 'inspector'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
+    return ['ways', 'north', 'point', 'doing', 'toolbar', 'inspector', 'measure'].flatMap((id) => $(id)?.getBoundingClientRect() ?? []).filter((b) => b.width > 0)
       .map((b) => ({ x0: b.left - frame.left - 2, x1: b.right - frame.left + 2, y0: b.top - frame.top - 2, y1: b.bottom - frame.top + 2 }));
   };
   view.onlost = () => tellAll('The graphics device was lost; the view returns when the browser gives it back.');
@@ -481,6 +485,8 @@ export function createPage(first, state, keys = []) {
     contours: () => view.drawn ?? { step: view.contour, index: 5 * view.contour },
     /** A place [cells] on the view [pixels], or null. */
     project: (x, y) => view.project(x, y),
+    /** What is measured now, or null (docs/report_page.md). */
+    measured: () => measure.result(),
     /** When the view rests. */
     still: () => view.still?.(),
     ready: true,

@@ -157,7 +157,7 @@ export class Tools {
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [Math.round(parent.clientWidth * ratio), Math.round(parent.clientHeight * ratio)];
     if (this.canvas.width !== width || this.canvas.height !== height) Object.assign(this.canvas, { width, height });
-    const pen = this.canvas.getContext('2d', { willReadFrequently: this.view.software === true }); // a renderer in software strokes slowly
+    const pen = this.canvas.getContext('2d', { willReadFrequently: true }); // kept off the GPU, where Chromium may show it stale once it is empty
     pen.setTransform(1, 0, 0, 1, 0, 0);
     pen.clearRect(0, 0, width, height);
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);

@@ -36,7 +36,7 @@ export class View2d {
   }
 
   #hold(land, rivers, { lakes, sea }) {
-    Object.assign(this, { land, rivers, lakes });
+    Object.assign(this, { land, rivers, lakes, part: null });
     const { width, height } = land;
     this.shores = [];
     if (sea && land.has) {
@@ -120,6 +120,23 @@ export class View2d {
     this.painted = painted;
     if (this.how) this.#shade(this.how);
     this.redraw();
+  }
+
+  /** Shows a part of the land, as in view3d.js. */
+  emphasize(inside) {
+    this.part = null;
+    this.redraw();
+    if (!inside) return;
+    const { width, height } = this.land;
+    const picture = new ImageData(width, height);
+    inside.forEach((set, i) => {
+      if (!set) return;
+      const c = i % width;
+      const within = c > 0 && c + 1 < width && [i - 1, i + 1, i - width, i + width].every((k) => inside[k]);
+      picture.data.set([...markColour, within ? 56 : 230], 4 * i);
+    });
+    this.part = Object.assign(document.createElement('canvas'), { width, height });
+    this.part.getContext('2d').putImageData(picture, 0, 0);
   }
 
   #shade({ azimuth, altitude, shadeGain }) {
@@ -249,7 +266,7 @@ export class View2d {
       pen.beginPath();
       pen.rect(0, 0, this.land.grid.width, this.land.grid.height);
       pen.clip();
-      pen.drawImage(this.picture, 0, 0, this.land.width * this.land.cells, this.land.height * this.land.cells);
+      for (const layer of [this.picture, this.part]) if (layer) pen.drawImage(layer, 0, 0, this.land.width * this.land.cells, this.land.height * this.land.cells);
       pen.restore();
     }
     const px = this.ratio / scale;

@@ -239,6 +239,12 @@ export class View3d {
     this.redraw();
   }
 
+  /** Shows a part of the land, 255 by value within it; null: none. Other land in its place shows none. */
+  emphasize(inside) {
+    this.ground.emphasize(inside);
+    this.redraw();
+  }
+
   /** orders: by arc, 0: not shown. styles: by order {width, share}; ridges: whether to draw them; marked: lines to mark. */
   showLines({ orders, styles, ridges, marked, byClass, colours }) {
     const { rivers, land, ground } = this;

@@ -41,8 +41,13 @@ double length_along(DrawnLine const& line) {
     return sum;
 }
 
+/// A place in the grid as files hold it: rounding must not carry it over the border.
 Vec2 in_grid(Grid const& grid, Vec2 p) {
-    return rounded(Vec2{std::clamp(p.x, grid.west, grid.east()), std::clamp(p.y, grid.south(), grid.north)});
+    constexpr double step_m = 1e-6;
+    Vec2 q = rounded(Vec2{std::clamp(p.x, grid.west, grid.east()), std::clamp(p.y, grid.south(), grid.north)});
+    q.x = q.x > grid.east() ? rounded(q.x - step_m) : q.x < grid.west ? rounded(q.x + step_m) : q.x;
+    q.y = q.y > grid.north ? rounded(q.y - step_m) : q.y < grid.south() ? rounded(q.y + step_m) : q.y;
+    return q;
 }
 
 DrawnLine without_repeats(DrawnLine line) {
@@ -413,7 +418,7 @@ Vec2 on_border(Grid const& grid, Vec2 p) {
                                              {grid.east() - p.x, {grid.east(), p.y}},
                                              {p.y - grid.south(), {p.x, grid.south()}},
                                              {grid.north - p.y, {p.x, grid.north}}};
-    return rounded(std::ranges::min_element(sides, {}, &std::pair<double, Vec2>::first)->second);
+    return in_grid(grid, std::ranges::min_element(sides, {}, &std::pair<double, Vec2>::first)->second);
 }
 
 /// The share of the way from land to sea at which a straight line leaves the land.

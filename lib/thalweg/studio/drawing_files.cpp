@@ -322,6 +322,9 @@ void set_rivers(std::vector<Step>& steps, Document const& document, Drawing cons
         put(drawing.has_side_streams ? "network.tokunaga.strokes" : "network.lines.path", drawing_name, write));
     if (!drawing.has_side_streams) {
         steps.emplace_back(SetKey{"network.lines.orientation", "as_drawn"});
+        if (document.recipe.surface && !document.recipe.surface->source.empty()) { // a DEM may have holes
+            steps.emplace_back(SetKey{"grid.clip", "true"});
+        }
     }
 }
 

@@ -162,10 +162,14 @@ private:
             folder_.redo();
             changed();
             break;
-        case Request::Kind::attempt:
-            engine_.make(job_of(apply(folder_.document(), request.edit).document));
-            is_left_ = true;
+        case Request::Kind::attempt: {
+            Document const tried = apply(folder_.document(), request.edit).document;
+            if (!is_empty_sheet()) {
+                engine_.make(job_of(tried));
+                is_left_ = true;
+            }
             break;
+        }
         case Request::Kind::stop:
             engine_.stop();
             is_left_ = true;
@@ -197,8 +201,8 @@ private:
             return after.said;
         }
         folder_.edit(edit);
-        if (!was_drawn && is_drawn(folder_.document().recipe)) {
-            after.said.push_back(fmt::format("the network is {} drawn lines now; undo brings it back as it was{}",
+        if (!was_drawn && is_drawn(folder_.document().recipe) && !before.rivers.empty()) {
+            after.said.push_back(fmt::format("the network is drawn lines now, {}; undo brings it back as it was{}",
                                              after.drawing.rivers.size(),
                                              had_heights ? "; the heights of its file did not come along" : ""));
         }

@@ -2,12 +2,21 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/gdal/packed.hpp>
 
+#include <atomic>
+#include <filesystem>
+#include <string>
+#include <thread>
+#include <vector>
+
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/network/table.hpp>
 
 #include "unpacked.hpp"
 
@@ -45,6 +54,43 @@ TEST(Packed, BeyondTwoGibibytesIsRefused) {
     std::uint8_t const one = 0;
     std::span<std::uint8_t const> const too_many(&one, std::size_t{1} << 31U); // refused before a byte is read
     EXPECT_THROW(io::packed(too_many), BadInput);
+}
+
+TEST(Threads, OneReadsAFileOfARecipeWhileAnotherWritesElsewhere) {
+    io::TemporaryFolder const folder("thalweg-threads");
+    auto const lines = [](std::size_t rows) {
+        io::Table table;
+        table.name = "rivers";
+        table.shape = io::Table::Shape::plan_line;
+        table.rows = rows;
+        table.shape_at = [](std::size_t row) {
+            auto const y = static_cast<double>(row);
+            return std::vector<Vec3>{{500000.0, y, 0.0}, {500100.0, y, 0.0}};
+        };
+        return table;
+    };
+    std::string const read = (folder.path() / "read" / "rivers.gpkg").string();
+    std::filesystem::create_directories(folder.path() / "read");
+    std::filesystem::create_directories(folder.path() / "written");
+    io::write_tables({lines(200)}, "EPSG:32631", read);
+    std::atomic<bool> is_done = false;
+    std::string fault;
+    std::thread reader([&] {
+        while (!is_done) {
+            try {
+                EXPECT_EQ(io::read_rivers({.path = {read, io::Access::recipe}}).lines.size(), 200U);
+            } catch (std::exception const& error) {
+                fault = error.what();
+            }
+        }
+    });
+    for (int i = 0; i < 20; ++i) {
+        std::string const path = (folder.path() / "written" / (std::to_string(i) + ".gpkg")).string();
+        EXPECT_NO_THROW(io::write_tables({lines(3)}, "EPSG:32631", path)) << i;
+    }
+    is_done = true;
+    reader.join();
+    EXPECT_EQ(fault, "");
 }
 
 TEST(NamesConnection, DatabasesAndFilesBehindAnAddress) {

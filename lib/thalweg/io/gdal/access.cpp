@@ -11,9 +11,11 @@
 #include <exception>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <mutex>
 #include <string_view>
 #include <system_error>
+#include <thread>
 #include <utility>
 #include <vector>
 
@@ -89,8 +91,8 @@ thread_local Refusal refused;
 
 struct Roots {
     std::mutex mutex;
-    std::vector<std::string> folders; ///< two entries for each Confined
-    std::string tables;               ///< GDAL's own
+    std::map<std::thread::id, std::vector<std::string>> folders; ///< by thread: two entries for each Confined of it
+    std::string tables;                                          ///< GDAL's own
 };
 
 Roots& roots() {
@@ -124,12 +126,13 @@ bool lies_in(std::string const& path, std::string const& folder) {
 bool is_near(char const* path) {
     Roots& all = roots();
     std::lock_guard const lock(all.mutex);
-    if (all.folders.empty()) {
+    auto const own = all.folders.find(std::this_thread::get_id());
+    if (own == all.folders.end()) {
         return true;
     }
     std::string const real = real_path(path);
     return lies_in(real, all.tables) ||
-           std::ranges::any_of(all.folders, [&](std::string const& folder) { return lies_in(real, folder); });
+           std::ranges::any_of(own->second, [&](std::string const& folder) { return lies_in(real, folder); });
 }
 
 bool is_no_pipe(char const* path) {
@@ -317,7 +320,7 @@ Connection::~Connection() {
     }
 }
 
-Confined::Confined(std::string const& path) {
+Confined::Confined(std::string const& path) : thread_(std::this_thread::get_id()) {
     std::error_code ignored;
     fs::path const file = fs::absolute(path, ignored);
     fs::path const real = real_path(file);
@@ -325,16 +328,20 @@ Confined::Confined(std::string const& path) {
     near_ = real_path(is_folder ? file : file.parent_path());
     real_ = is_folder ? real.string() : real.parent_path().string();
     std::lock_guard const lock(roots().mutex);
-    roots().folders.insert(roots().folders.end(), {near_, real_});
+    std::vector<std::string>& folders = roots().folders[thread_];
+    folders.insert(folders.end(), {near_, real_});
 }
 
 Confined::~Confined() {
     std::lock_guard const lock(roots().mutex);
+    std::vector<std::string>& folders = roots().folders[thread_];
     for (std::string const& folder : {near_, real_}) {
-        auto& folders = roots().folders;
         if (auto const at = std::ranges::find(folders, folder); at != folders.end()) {
             folders.erase(at);
         }
+    }
+    if (folders.empty()) {
+        roots().folders.erase(thread_);
     }
 }
 

@@ -233,6 +233,8 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     refuse_if<IoError>(std::filesystem::exists(path, ignored), "{} exists already", what);
     Driver const driver;
     CPLConfigOptionSetter const date(date_option, fixed_date, false);
+    // What is written aside goes to the disk when it is whole, and not step by step.
+    CPLConfigOptionSetter const unhurried("OGR_SQLITE_SYNCHRONOUS", "OFF", true);
     OGRSpatialReference reference = crs.empty() ? OGRSpatialReference() : read_reference(crs);
     refuse_if<BadInput>(
         format == LayerFormat::geojson && (crs.empty() || reference.GetAuthorityCode(nullptr) == nullptr),

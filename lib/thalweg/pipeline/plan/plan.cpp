@@ -467,6 +467,7 @@ OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) 
     GridRecipe const settled = on.recipe.grid;
     on.recipe = recipe; // what is kept may come from another one
     on.recipe.grid = settled;
+    on.recipe.grid.clip = recipe.grid.clip;
     Grid const& grid = on.dem.grid();
     auto const without = std::ranges::count_if(on.dem.values(), [](float z) { return std::isnan(z); });
     stage_log.say(fmt::format("{}x{} cells of {:.6g} m{}", grid.width, grid.height, grid.cell_m,

@@ -52,9 +52,30 @@ std::optional<Sea> sea_beside(std::optional<surface::Edge> edge) {
 
 } // namespace
 
+namespace {
+
+/// The sea around land that reaches the grid's border nowhere goes on beyond it.
+std::optional<Sea> around_islands(std::optional<Sea> sea, Mask const& land) {
+    if (land.cells() == 0) {
+        return sea;
+    }
+    Grid const& grid = land.grid();
+    bool reaches_border = false;
+    for (std::int64_t col = 0; col < grid.width; ++col) {
+        reaches_border = reaches_border || land[Cell{col, 0}] != 0 || land[Cell{col, grid.height - 1}] != 0;
+    }
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        reaches_border = reaches_border || land[Cell{0, row}] != 0 || land[Cell{grid.width - 1, row}] != 0;
+    }
+    Sea result = sea.value_or(Sea{});
+    result.is_around = result.is_around || !reaches_border;
+    return result;
+}
+
+} // namespace
+
 std::optional<Sea> sea_of(Terrain const& terrain) {
-    std::optional<Sea> const sea = terrain.equilibrium ? sea_beside(terrain.equilibrium->edge) : std::nullopt;
-    return !sea && terrain.land.cells() > 0 ? Sea{} : sea;
+    return around_islands(terrain.equilibrium ? sea_beside(terrain.equilibrium->edge) : std::nullopt, terrain.land);
 }
 
 std::optional<Sea> sea_of(Plan const& plan, Planform const& planform) {
@@ -66,8 +87,7 @@ std::optional<Sea> sea_of(Plan const& plan, Planform const& planform) {
             recipe.network && recipe.network->source == Source::lines ? surface::Edge::mainland : surface::Edge::coast;
         edge = is_cut ? recipe.surface->equilibrium.edge.value_or(by_sea) : recipe.surface->equilibrium.edge;
     }
-    std::optional<Sea> const sea = sea_beside(edge);
-    return !sea && is_cut ? Sea{} : sea;
+    return around_islands(sea_beside(edge), planform.land);
 }
 
 std::optional<Sea> sea_of(Recipe const& made) {

@@ -3,6 +3,7 @@
 #pragma once
 
 #include <string>
+#include <thread>
 
 /// What GDAL may access.
 namespace thalweg::io {
@@ -20,7 +21,7 @@ public:
     Connection& operator=(Connection const&) = delete;
 };
 
-/// While an object lives, GDAL opens only files in the folder of this file, and its own tables.
+/// While an object lives, GDAL opens only files in the folder of this file, and its own tables, on this thread.
 class Confined {
 public:
     explicit Confined(std::string const& path);
@@ -29,6 +30,7 @@ public:
     Confined& operator=(Confined const&) = delete;
 
 private:
+    std::thread::id thread_;
     std::string near_; ///< the folder as in the path
     std::string real_; ///< the folder after resolving links
 };
