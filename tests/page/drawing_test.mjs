@@ -213,8 +213,8 @@ describe('a river', () => {
 });
 
 describe('what is drawn', () => {
-  test('is chosen and its vertices are moved, put in and taken out; an end joins a river', async () => {
-    await visit(three(), { map: true });
+  for (const flatly of [false, true]) test(`is chosen and its vertices are moved, put in and taken out${flatly ? ', without WebGL' : ''}; an end joins a river`, async () => {
+    await visit(three(), flatly ? { browser: flat } : { map: true });
     await page.keyboard.press('v');
     await click(152.5, 117.5);
     assert.match(await page.textContent('#inspector .what'), /^River 3, 1\.24 km, leaves at the border$/);

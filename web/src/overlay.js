@@ -151,7 +151,7 @@ export class Overlay {
     if (this.#picture?.stamp === stamp) return this.#picture.canvas;
     const canvas = this.#picture?.canvas ?? document.createElement('canvas');
     Object.assign(canvas, { width, height });
-    const pen = canvas.getContext('2d');
+    const pen = canvas.getContext('2d', { willReadFrequently: true });
     pen.setTransform(ratio, 0, 0, ratio, 0, 0);
     pen.lineJoin = pen.lineCap = 'round';
     pen.globalAlpha = held ? 1 : 0.6;
