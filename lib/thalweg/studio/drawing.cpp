@@ -1104,8 +1104,8 @@ private:
             }
         }
         if (cut > 0) {
-            said_.push_back(fmt::format("{} reach into the sea: {:.3g} km were left out", many(cut, "river", "rivers"),
-                                        lost_m / 1e3));
+            said_.push_back(fmt::format("{} into the sea: {:.3g} km were left out",
+                                        many(cut, "river reaches", "rivers reach"), lost_m / 1e3));
         }
         is_.rivers = std::move(on_land);
     }
