@@ -158,8 +158,11 @@ export class Overlay {
     const { drawing } = this.desk;
     const seen = (objects) => objects.filter((one) => !hidden.has(one));
     this.#masks(pen, place, seen(drawing.masks), held);
-    for (const lake of seen(drawing.lakes)) this.#lake(pen, place, lake, held);
-    this.#lines(pen, place, seen(drawing.coasts), 1.8, held && ticks);
+    // The land shows its coasts and lakes itself, and hides what lies behind it.
+    if (held || this.desk.view.land.level) {
+      for (const lake of seen(drawing.lakes)) this.#lake(pen, place, lake, held);
+      this.#lines(pen, place, seen(drawing.coasts), 1.8, held && ticks);
+    }
     if (held && drawing.kind === 'drawn') this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path));
     this.#picture = { stamp, canvas };
     return canvas;
