@@ -93,6 +93,15 @@ void expect_lawful(Drawing const& drawing) {
         EXPECT_EQ(std::ranges::adjacent_find(river.line), river.line.end());
         lines.lines.push_back(std::move(line));
     }
+    for (DrawnLine const& coast : drawing.coasts) {
+        ASSERT_GE(coast.size(), 2U);
+        EXPECT_EQ(std::ranges::adjacent_find(coast), coast.end());
+        EXPECT_TRUE(coast.front() != coast.back() || coast.size() > 3);
+    }
+    for (DrawnLake const& lake : drawing.lakes) {
+        EXPECT_GE(lake.rings.front().size(), 3U);
+        EXPECT_NE(lake.rings.front().front(), lake.rings.front().back());
+    }
     if (lines.lines.empty()) {
         return;
     }

@@ -51,6 +51,25 @@ inline nlohmann::json random_draw(thalweg::studio::Drawing const& drawing, std::
         }
         return points;
     };
+    // Something done to the first of a kind.
+    auto const shape = [&](char const* kind, thalweg::studio::DrawnLine const& line) {
+        std::size_t const vertex = random() % line.size();
+        json const near = cells(line[vertex]);
+        json const at{near[0].get<double>() + uniform(-5, 5), near[1].get<double>() + uniform(-5, 5)};
+        switch (random() % 6) {
+        case 0: return json{{"verb", "erase"}, {kind, 0}};
+        case 1: return json{{"verb", "insert"}, {"of", {{kind, 0}}}, {"vertex", vertex}, {"at", at}};
+        case 2: return json{{"verb", "remove"}, {"of", {{kind, 0}}}, {"vertex", vertex}};
+        case 3:
+            if (kind == std::string("coast")) {
+                return json{{"verb", "swap"}, {"coast", 0}};
+            }
+            [[fallthrough]];
+        default:
+            return json{
+                {"verb", "move"}, {"of", {{kind, 0}}}, {"vertex", vertex}, {"to", at}, {"reach", uniform(0, 10)}};
+        }
+    };
     std::size_t const rivers = drawing.rivers.size();
     auto const river = [&] { return rivers > 0 ? random() % rivers : 0; };
     std::size_t const one = river();
@@ -92,13 +111,13 @@ inline nlohmann::json random_draw(thalweg::studio::Drawing const& drawing, std::
     case 19: return {{"verb", "lambda"}, {"rivers", {one}}, {"lambda", 1 + random() % 4}};
     case 20:
         return drawing.coasts.empty() ? json{{"verb", "coast"}, {"points", ring(0.4 * std::min(wide, tall))}}
-                                      : json{{"verb", random() % 2 ? "swap" : "erase"}, {"coast", 0}};
+                                      : shape("coast", drawing.coasts.front());
     case 21:
         return drawing.lakes.empty() ? json{{"verb", "lake"}, {"points", ring(4.0)}, {"level", nullptr}}
-                                     : json{{"verb", "erase"}, {"lake", 0}};
+                                     : shape("lake", drawing.lakes.front().rings.front());
     case 22:
         return drawing.masks.empty() ? json{{"verb", "mask"}, {"points", ring(0.6 * std::min(wide, tall))}}
-                                     : json{{"verb", "erase"}, {"mask", 0}};
+                                     : shape("mask", drawing.masks.front());
     case 23: return {{"verb", "move"}, {"of", of}, {"vertex", line.size() - 1}, {"to", place()}, {"reach", 3}};
     }
 }

@@ -94,7 +94,7 @@ Command add_studio(CLI::App& app, Session& session) {
         "recipe.toml.\n\n"
         "Examples:\n"
         "  thalweg studio\n"
-        "  thalweg studio --blank -o out/island\n"
+        "  thalweg studio --blank -o out/sheet\n"
         "  thalweg studio samples/dla.toml -o out/cluster --no-browser\n"
         "  thalweg studio samples/walker_nhdplus.gpkg\n"
         "  thalweg studio samples/jacksboro_utm16.tif\n");
