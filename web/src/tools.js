@@ -130,11 +130,11 @@ export class Tools {
       if (this.#fingers.size > 1) this.#handOver();
       if (this.#fingers.size > 1 || event.button !== 0 || this.#space) return;
       const at = this.#at(event);
+      this.view.canvas.focus({ preventScroll: true }); // first: what is typed beside the view belongs to what is chosen now
       if (tool.down?.(at, event) === false) return; // it leaves the gesture to the view
       this.#gesture = event.pointerId;
       this.#begun = event;
       this.view.canvas.setPointerCapture(event.pointerId);
-      this.view.canvas.focus({ preventScroll: true });
     } else if (event.type === 'pointermove') {
       if (mine) for (const one of event.getCoalescedEvents?.().length ? event.getCoalescedEvents() : [event]) tool.move?.(this.#at(one), one);
       else if (event.buttons === 0) tool.hover?.(this.#at(event), event);
