@@ -151,7 +151,7 @@ export function openStudio(about, state) {
   });
 
   // ── The panel.
-  const undo = button('Undo', 'Undo (Ctrl+Z)', () => quietly(ask({ do: 'undo' })));
+  const undo = button('Undo', 'Undo (Ctrl+Z)', () => sheet?.desk.recall() || quietly(ask({ do: 'undo' })));
   const redo = button('Redo', 'Redo (Ctrl+Shift+Z, Ctrl+Y)', () => quietly(ask({ do: 'redo' })));
   const compare = make('button', { type: 'button', textContent: 'Before', title: 'Hold to see the terrain before the last edit (B)', disabled: true });
   compare.setAttribute('aria-pressed', 'false');
