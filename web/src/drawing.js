@@ -191,8 +191,9 @@ export class Drawing {
   /** What an object of an older drawing is in this one: the same line, or where asked for the one most like it; null: it is gone. */
   same(object, alike = false) {
     const all = this[{ river: 'rivers', coast: 'coasts', lake: 'lakes', mask: 'masks' }[object.kind]];
-    const text = object.line.join();
-    const exact = [all[object.n], ...all].find((one) => one && one.line.length === object.line.length && one.line.join() === text);
+    // What the page made of a step differs from what the program made by less than it rounds.
+    const { line } = object;
+    const exact = [all[object.n], ...all].find((one) => one && one.line.length === line.length && one.line.every((v, i) => Math.abs(v - line[i]) < 2e-3));
     if (exact || !alike) return exact ?? null;
     const spots = (line) => [line.slice(0, 2), line.slice(2 * Math.floor(line.length / 4)), line.slice(-2)];
     const off = (all, others) => all.reduce((sum, [x, y], i) => sum + Math.hypot(x - others[i][0], y - others[i][1]), 0);
