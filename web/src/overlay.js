@@ -132,14 +132,20 @@ export class Overlay {
   paint(pen, place, held) {
     const { desk } = this;
     const { drawing } = desk;
-    if (!desk.fits || document.documentElement.dataset.before === 'on') return;
+    if (document.documentElement.dataset.before === 'on') return;
+    if (desk.fits) this.#drawn(pen, place, held);
+    if (desk.fits || !desk.fresh) for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+  }
+
+  #drawn(pen, place, held) {
+    const { desk } = this;
+    const { drawing } = desk;
     if (drawing !== this.#drawing) this.stale();
     this.#drawing = drawing;
     const hidden = new Set(desk.ghosts.filter((one) => one.state === 'sent').flatMap((one) => one.hides ?? []));
     const { clientWidth, clientHeight } = desk.view.parent;
     if (held || drawing.objects.length > drawing.rivers.length) pen.drawImage(this.#still(place, held, hidden), 0, 0, clientWidth, clientHeight);
     if (held) this.#choice(pen, place, hidden);
-    for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
   }
 
   /** What stays as it is while only the pointer moves, as a picture. */
