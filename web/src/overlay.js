@@ -176,16 +176,16 @@ export class Overlay {
 
   #masks(pen, place, masks, held) {
     if (masks.length === 0) return;
-    const all = new Path2D();
     const { clientWidth, clientHeight } = this.desk.view.parent;
-    all.rect(0, 0, clientWidth, clientHeight);
     const land = this.desk.drawing.grid;
     const within = trace(this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place), true);
-    for (const mask of masks) trace(this.pieces(mask.outline, place), true, all);
     pen.save();
     pen.clip(within);
     pen.fillStyle = held ? shade.held : shade.faint;
-    pen.fill(all, 'evenodd');
+    pen.fillRect(0, 0, clientWidth, clientHeight);
+    pen.globalAlpha = 1;
+    pen.globalCompositeOperation = 'destination-out'; // masks may lie over one another
+    for (const mask of masks) pen.fill(trace(this.pieces(mask.outline, place), true), 'evenodd');
     pen.restore();
     this.#lines(pen, place, masks, 1.6);
   }
