@@ -65,16 +65,15 @@ export const upTo = (line, i, { x, y }) => [...line.slice(0, 2 * i), x, y];
 class Tiles {
   #tiles = new Map();
 
-  constructor(side, columns) {
-    this.side = side;
-    this.columns = columns;
+  constructor(side, columns, rows) {
+    Object.assign(this, { side, columns, rows });
   }
 
+  /** What lies beside the grid, as masks and lakes of files may far, counts to the tiles at its edge. */
   *#over(x0, y0, x1, y1) {
-    const { side } = this;
-    for (let r = Math.floor(Math.min(y0, y1) / side); r <= Math.floor(Math.max(y0, y1) / side); ++r) {
-      for (let c = Math.floor(Math.min(x0, x1) / side); c <= Math.floor(Math.max(x0, x1) / side); ++c) yield r * this.columns + c;
-    }
+    const within = (v, most) => Math.min(Math.max(Math.floor(v / this.side), 0), most - 1);
+    const [r1, c0, c1] = [within(Math.max(y0, y1), this.rows), within(Math.min(x0, x1), this.columns), within(Math.max(x0, x1), this.columns)];
+    for (let r = within(Math.min(y0, y1), this.rows); r <= r1; ++r) for (let c = c0; c <= c1; ++c) yield r * this.columns + c;
   }
 
   add(object, i, line) {
@@ -123,7 +122,7 @@ export class Drawing {
   get tiles() {
     if (this.#tiles) return this.#tiles;
     const side = Math.max(8, Math.max(this.grid.width, this.grid.height) / 128);
-    this.#tiles = new Tiles(side, Math.ceil(this.grid.width / side) + 2);
+    this.#tiles = new Tiles(side, Math.ceil(this.grid.width / side) + 2, Math.ceil(this.grid.height / side) + 2);
     for (const object of this.objects) for (let i = 2; i < object.outline.length; i += 2) this.#tiles.add(object, i, object.outline);
     return this.#tiles;
   }

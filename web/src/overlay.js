@@ -47,6 +47,10 @@ function along(pieces, every, at) {
     for (let i = 2; i < p.length; i += 2) {
       const [dx, dy] = [p[i] - p[i - 2], p[i + 1] - p[i - 1]];
       const length = Math.hypot(dx, dy);
+      if (!(length < 1e4)) { // beside the eye a line is as long as one likes
+        ahead = every / 2;
+        continue;
+      }
       for (; ahead <= length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
       ahead -= length;
     }
