@@ -119,7 +119,7 @@ export class Overlay {
   pieces(line, place) {
     const { view } = this.desk;
     const by = view.cellsPerPixel;
-    return project(line, place, { thin: 0.8 * by, piece: view.onmap || view.land.level ? Infinity : Math.max(8 * by, 0.5 * view.land.cells) });
+    return project(line, place, { thin: 0.8 * by, piece: view.onmap ? Infinity : Math.max(8 * by, 0.5 * view.land.cells) });
   }
 
   #of(object, place) {
