@@ -130,7 +130,7 @@ export class Pen extends Tool {
   }
 
   #cutTo(length) {
-    this.line.length = length;
+    this.line.length = Math.min(length, this.line.length); // of a hand that trembled less may be left
     this.#along = lengthOf(this.line);
     this.#crossings = this.#crossings.filter(({ i }) => i < length / 2);
   }
@@ -272,10 +272,11 @@ export class Pen extends Tool {
     let { line } = this;
     const slack = 1.5 * near * this.desk.scale({ x: line[0], y: line[1] });
     const last = this.#crossings.at(-1);
-    if (last?.object && this.#along - last.along <= slack && last.along > slack) line = upTo(line, last.i, last);
+    const cut = last?.object && this.#along - last.along <= slack && last.along > slack;
+    if (cut) line = upTo(line, last.i, last);
     else if (this.#target) line = [...line, this.#target.x, this.#target.y];
     const first = this.#crossings[0];
-    if (first?.object && first !== last && !this.#begin && first.along <= slack) line = [first.x, first.y, ...line.slice(2 * first.i)];
+    if (first?.object && !(cut && first === last) && !this.#begin && first.along <= slack) line = [first.x, first.y, ...line.slice(2 * first.i)];
     return line;
   }
 
