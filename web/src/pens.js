@@ -36,6 +36,7 @@ export class Pen extends Tool {
   get #rounds() {
     const { line } = this;
     if (!this.closes || line.length < 6) return false;
+    if (this.#begin?.kind === 'border' && this.#target?.kind === 'border') return false;
     const at = this.#tip ?? { x: line.at(-2), y: line.at(-1) };
     const reach = near * this.desk.scale(at);
     return Math.hypot(at.x - line[0], at.y - line[1]) < (this.closes === 'maybe' ? Math.max(reach, 6, 0.15 * this.#along) : reach);
@@ -282,7 +283,9 @@ export class Pen extends Tool {
 
   finish() {
     const { desk } = this;
-    const line = this.#trimmed();
+    // What is shown closed is sent closed.
+    const rounds = this.closes === 'maybe' && !this.#begin && this.#rounds;
+    const line = rounds ? [...this.line, this.line[0], this.line[1]] : this.#trimmed();
     if (line.length < (this.closes === true ? 6 : 4) || lengthOf(line) < 4 * desk.scale({ x: line[0], y: line[1] })) {
       desk.speak(this.closes === true ? 'an area needs three points' : 'a line needs two points');
       return;
