@@ -42,10 +42,15 @@ export class Desk {
     return this.#runs;
   }
 
-  /** The drawing is the document's, and lies on the land that is shown. */
-  get fits() {
+  /** The drawing lies on the land that is shown. */
+  get lies() {
     const { grid } = this.view.land;
-    return this.fresh && this.drawing !== null && ['width', 'height', 'cell_m'].every((key) => grid[key] === this.drawing.grid[key]);
+    return this.drawing !== null && ['width', 'height', 'cell_m'].every((key) => grid[key] === this.drawing.grid[key]);
+  }
+
+  /** It is the document's too. */
+  get fits() {
+    return this.fresh && this.lies;
   }
 
   take(message) {

@@ -40,6 +40,19 @@ function trace(pieces, closed, path = new Path2D()) {
   return path;
 }
 
+const far = 10000; // pixels, beyond every screen
+
+/** The part of x + t dx, y + t dy that lies within `far` of the view: [from, to] in t, from > to where none does. */
+function within(x, y, dx, dy) {
+  let [from, to] = [0, 1];
+  for (const [v, d] of [[x, dx], [y, dy]]) {
+    if (d === 0 && Math.abs(v) <= far) continue;
+    const [a, b] = [(-far - v) / d, (far - v) / d];
+    [from, to] = [Math.max(from, Math.min(a, b)), Math.min(to, Math.max(a, b))];
+  }
+  return from <= to ? [from, to] : [1, 0];
+}
+
 /** Places along a line, so many pixels apart: at(x, y, ux, uy: the way it runs there). */
 function along(pieces, every, at) {
   for (const p of pieces) {
@@ -47,12 +60,13 @@ function along(pieces, every, at) {
     for (let i = 2; i < p.length; i += 2) {
       const [dx, dy] = [p[i] - p[i - 2], p[i + 1] - p[i - 1]];
       const length = Math.hypot(dx, dy);
-      if (!(length < 1e4)) { // beside the eye a line is as long as one likes
-        ahead = every / 2;
-        continue;
-      }
-      for (; ahead <= length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
-      ahead -= length;
+      // A line that comes near the eye is as long as one likes: only what may be seen of it has places.
+      const [from, to] = length > far ? within(p[i - 2], p[i - 1], dx, dy) : [0, 1];
+      const skip = (until) => (ahead += Math.max(0, Math.ceil((until - ahead) / every)) * every);
+      skip(from * length);
+      for (; ahead <= to * length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
+      skip(length);
+      ahead = Number.isFinite(length) ? ahead - length : every / 2;
     }
   }
 }
@@ -138,7 +152,7 @@ export class Overlay {
     const { drawing } = desk;
     if (document.documentElement.dataset.before === 'on') return;
     if (desk.fits) this.#drawn(pen, place, held);
-    if (desk.fits || !desk.fresh) for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+    if (desk.lies) for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
   }
 
   #drawn(pen, place, held) {

@@ -129,7 +129,7 @@ export class Tools {
     const mine = event.pointerId === this.#gesture;
     if (event.type === 'pointerdown') {
       // A hand that rests beside a pen or a mouse changes nothing.
-      const other = this.#gesture !== null && (this.#begun.pointerType !== 'touch' || event.pointerType !== 'touch');
+      const other = this.#gesture !== null && event.pointerId !== this.#gesture && (this.#begun.pointerType !== 'touch' || event.pointerType !== 'touch');
       if (other) {
         event.stopPropagation();
         return;
