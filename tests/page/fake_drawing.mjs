@@ -120,7 +120,7 @@ const verbs = {
   branching: (now, { on }) => (now.branching = on),
   coast(now, { points }) {
     const closed = off(points[0], points[1], ...points.slice(-2)) < 4;
-    now.coasts.push(closed ? [...points, points[0], points[1]] : points);
+    now.coasts.push(closed && off(points[0], points[1], ...points.slice(-2)) > 0 ? [...points, points[0], points[1]] : points);
   },
   swap: (now, { coast }) => (now.coasts[coast] = reversed(now.coasts[coast])),
   lake: (now, { points, level }) => now.lakes.push({ ring: points, level }),

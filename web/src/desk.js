@@ -42,10 +42,15 @@ export class Desk {
     return this.#runs;
   }
 
-  /** The drawing is the document's, and lies on the land that is shown. */
-  get fits() {
+  /** The drawing lies on the land that is shown. */
+  get lies() {
     const { grid } = this.view.land;
-    return this.fresh && this.drawing !== null && ['width', 'height', 'cell_m'].every((key) => grid[key] === this.drawing.grid[key]);
+    return this.drawing !== null && ['width', 'height', 'cell_m'].every((key) => grid[key] === this.drawing.grid[key]);
+  }
+
+  /** It is the document's too. */
+  get fits() {
+    return this.fresh && this.lies;
   }
 
   take(message) {
@@ -79,15 +84,35 @@ export class Desk {
 
   async #work() {
     this.#runs = true;
-    for (let next = this.#queue.shift(); next; next = this.#queue.shift()) next.resolve(await this.#one(next));
+    while (this.#queue.length) {
+      await this.#freshness();
+      const next = this.#queue.shift(); // unless it was taken back meanwhile
+      if (next) next.resolve(await this.#one(next));
+    }
     this.#runs = false;
     this.onchange();
+  }
+
+  /** Takes back what was drawn last if the program has not got it yet; false: there is none. */
+  recall() {
+    const last = this.#queue.pop();
+    if (!last) return false;
+    this.#restore(last.ghost);
+    this.#forget(last.ghost);
+    last.resolve(null);
+    return true;
+  }
+
+  /** What was to be changed is chosen again as it is. */
+  #restore(ghost) {
+    if (ghost?.hides?.length !== 1 || this.tool?.id !== 'select') return;
+    const was = this.drawing.same(ghost.hides[0]);
+    if (was) this.choose(was);
   }
 
   /** Gives the reply, or null where it was refused. */
   async #one({ what, ghost }) {
     try {
-      await this.#freshness();
       const { drawing } = this;
       const same = (object) => {
         const now = drawing.same(object);
@@ -101,7 +126,7 @@ export class Desk {
       return reply;
     } catch (error) {
       if (ghost) ghost.state = 'refused';
-      if (ghost?.hides?.length === 1) this.choose(ghost.hides[0]);
+      this.#restore(ghost);
       setTimeout(() => this.#forget(ghost), 900);
       this.ontell(error.message.replace(/^studio\.\w+: /, ''), { at: error.at, bad: true });
       this.onrefused?.(ghost);

@@ -65,16 +65,15 @@ export const upTo = (line, i, { x, y }) => [...line.slice(0, 2 * i), x, y];
 class Tiles {
   #tiles = new Map();
 
-  constructor(side, columns) {
-    this.side = side;
-    this.columns = columns;
+  constructor(side, columns, rows) {
+    Object.assign(this, { side, columns, rows });
   }
 
+  /** What lies beside the grid, as masks and lakes of files may far, counts to the tiles at its edge. */
   *#over(x0, y0, x1, y1) {
-    const { side } = this;
-    for (let r = Math.floor(Math.min(y0, y1) / side); r <= Math.floor(Math.max(y0, y1) / side); ++r) {
-      for (let c = Math.floor(Math.min(x0, x1) / side); c <= Math.floor(Math.max(x0, x1) / side); ++c) yield r * this.columns + c;
-    }
+    const within = (v, most) => Math.min(Math.max(Math.floor(v / this.side), 0), most - 1);
+    const [r1, c0, c1] = [within(Math.max(y0, y1), this.rows), within(Math.min(x0, x1), this.columns), within(Math.max(x0, x1), this.columns)];
+    for (let r = within(Math.min(y0, y1), this.rows); r <= r1; ++r) for (let c = c0; c <= c1; ++c) yield r * this.columns + c;
   }
 
   add(object, i, line) {
@@ -123,7 +122,7 @@ export class Drawing {
   get tiles() {
     if (this.#tiles) return this.#tiles;
     const side = Math.max(8, Math.max(this.grid.width, this.grid.height) / 128);
-    this.#tiles = new Tiles(side, Math.ceil(this.grid.width / side) + 2);
+    this.#tiles = new Tiles(side, Math.ceil(this.grid.width / side) + 2, Math.ceil(this.grid.height / side) + 2);
     for (const object of this.objects) for (let i = 2; i < object.outline.length; i += 2) this.#tiles.add(object, i, object.outline);
     return this.#tiles;
   }
@@ -191,8 +190,9 @@ export class Drawing {
   /** What an object of an older drawing is in this one: the same line, or where asked for the one most like it; null: it is gone. */
   same(object, alike = false) {
     const all = this[{ river: 'rivers', coast: 'coasts', lake: 'lakes', mask: 'masks' }[object.kind]];
-    const text = object.line.join();
-    const exact = [all[object.n], ...all].find((one) => one && one.line.length === object.line.length && one.line.join() === text);
+    // What the page made of a step differs from what the program made by less than it rounds.
+    const { line } = object;
+    const exact = [all[object.n], ...all].find((one) => one && one.line.length === line.length && one.line.every((v, i) => Math.abs(v - line[i]) < 2e-3));
     if (exact || !alike) return exact ?? null;
     const spots = (line) => [line.slice(0, 2), line.slice(2 * Math.floor(line.length / 4)), line.slice(-2)];
     const off = (all, others) => all.reduce((sum, [x, y], i) => sum + Math.hypot(x - others[i][0], y - others[i][1]), 0);

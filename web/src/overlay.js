@@ -40,6 +40,19 @@ function trace(pieces, closed, path = new Path2D()) {
   return path;
 }
 
+const far = 10000; // pixels, beyond every screen
+
+/** The part of x + t dx, y + t dy that lies within `far` of the view: [from, to] in t, from > to where none does. */
+function within(x, y, dx, dy) {
+  let [from, to] = [0, 1];
+  for (const [v, d] of [[x, dx], [y, dy]]) {
+    if (d === 0 && Math.abs(v) <= far) continue;
+    const [a, b] = [(-far - v) / d, (far - v) / d];
+    [from, to] = [Math.max(from, Math.min(a, b)), Math.min(to, Math.max(a, b))];
+  }
+  return from <= to ? [from, to] : [1, 0];
+}
+
 /** Places along a line, so many pixels apart: at(x, y, ux, uy: the way it runs there). */
 function along(pieces, every, at) {
   for (const p of pieces) {
@@ -47,8 +60,13 @@ function along(pieces, every, at) {
     for (let i = 2; i < p.length; i += 2) {
       const [dx, dy] = [p[i] - p[i - 2], p[i + 1] - p[i - 1]];
       const length = Math.hypot(dx, dy);
-      for (; ahead <= length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
-      ahead -= length;
+      // A line that comes near the eye is as long as one likes: only what may be seen of it has places.
+      const [from, to] = length > far ? within(p[i - 2], p[i - 1], dx, dy) : [0, 1];
+      const skip = (until) => (ahead += Math.max(0, Math.ceil((until - ahead) / every)) * every);
+      skip(from * length);
+      for (; ahead <= to * length; ahead += every) at(p[i - 2] + (ahead / length) * dx, p[i - 1] + (ahead / length) * dy, dx / length, dy / length);
+      skip(length);
+      ahead = Number.isFinite(length) ? ahead - length : every / 2;
     }
   }
 }
@@ -115,7 +133,7 @@ export class Overlay {
   pieces(line, place) {
     const { view } = this.desk;
     const by = view.cellsPerPixel;
-    return project(line, place, { thin: 0.8 * by, piece: view.onmap || view.land.level ? Infinity : Math.max(8 * by, 0.5 * view.land.cells) });
+    return project(line, place, { thin: 0.8 * by, piece: view.onmap ? Infinity : Math.max(8 * by, 0.5 * view.land.cells) });
   }
 
   #of(object, place) {
@@ -132,14 +150,20 @@ export class Overlay {
   paint(pen, place, held) {
     const { desk } = this;
     const { drawing } = desk;
-    if (!desk.fits || document.documentElement.dataset.before === 'on') return;
+    if (document.documentElement.dataset.before === 'on') return;
+    if (desk.fits) this.#drawn(pen, place, held);
+    if (desk.lies) for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+  }
+
+  #drawn(pen, place, held) {
+    const { desk } = this;
+    const { drawing } = desk;
     if (drawing !== this.#drawing) this.stale();
     this.#drawing = drawing;
     const hidden = new Set(desk.ghosts.filter((one) => one.state === 'sent').flatMap((one) => one.hides ?? []));
     const { clientWidth, clientHeight } = desk.view.parent;
     if (held || drawing.objects.length > drawing.rivers.length) pen.drawImage(this.#still(place, held, hidden), 0, 0, clientWidth, clientHeight);
     if (held) this.#choice(pen, place, hidden);
-    for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
   }
 
   /** What stays as it is while only the pointer moves, as a picture. */
@@ -170,16 +194,16 @@ export class Overlay {
 
   #masks(pen, place, masks, held) {
     if (masks.length === 0) return;
-    const all = new Path2D();
     const { clientWidth, clientHeight } = this.desk.view.parent;
-    all.rect(0, 0, clientWidth, clientHeight);
     const land = this.desk.drawing.grid;
     const within = trace(this.pieces([0, 0, land.width, 0, land.width, land.height, 0, land.height, 0, 0], place), true);
-    for (const mask of masks) trace(this.pieces(mask.outline, place), true, all);
     pen.save();
     pen.clip(within);
     pen.fillStyle = held ? shade.held : shade.faint;
-    pen.fill(all, 'evenodd');
+    pen.fillRect(0, 0, clientWidth, clientHeight);
+    pen.globalAlpha = 1;
+    pen.globalCompositeOperation = 'destination-out'; // masks may lie over one another
+    for (const mask of masks) pen.fill(trace(this.pieces(mask.outline, place), true), 'evenodd');
     pen.restore();
     this.#lines(pen, place, masks, 1.6);
   }

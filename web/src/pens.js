@@ -36,6 +36,7 @@ export class Pen extends Tool {
   get #rounds() {
     const { line } = this;
     if (!this.closes || line.length < 6) return false;
+    if (this.#begin?.kind === 'border' && this.#target?.kind === 'border') return false;
     const at = this.#tip ?? { x: line.at(-2), y: line.at(-1) };
     const reach = near * this.desk.scale(at);
     return Math.hypot(at.x - line[0], at.y - line[1]) < (this.closes === 'maybe' ? Math.max(reach, 6, 0.15 * this.#along) : reach);
@@ -130,7 +131,7 @@ export class Pen extends Tool {
   }
 
   #cutTo(length) {
-    this.line.length = length;
+    this.line.length = Math.min(length, this.line.length); // of a hand that trembled less may be left
     this.#along = lengthOf(this.line);
     this.#crossings = this.#crossings.filter(({ i }) => i < length / 2);
   }
@@ -272,16 +273,19 @@ export class Pen extends Tool {
     let { line } = this;
     const slack = 1.5 * near * this.desk.scale({ x: line[0], y: line[1] });
     const last = this.#crossings.at(-1);
-    if (last?.object && this.#along - last.along <= slack && last.along > slack) line = upTo(line, last.i, last);
+    const cut = last?.object && this.#along - last.along <= slack && last.along > slack;
+    if (cut) line = upTo(line, last.i, last);
     else if (this.#target) line = [...line, this.#target.x, this.#target.y];
     const first = this.#crossings[0];
-    if (first?.object && first !== last && !this.#begin && first.along <= slack) line = [first.x, first.y, ...line.slice(2 * first.i)];
+    if (first?.object && !(cut && first === last) && !this.#begin && first.along <= slack) line = [first.x, first.y, ...line.slice(2 * first.i)];
     return line;
   }
 
   finish() {
     const { desk } = this;
-    const line = this.#trimmed();
+    // What is shown closed is sent closed.
+    const rounds = this.closes === 'maybe' && !this.#begin && this.#rounds;
+    const line = rounds ? [...this.line, this.line[0], this.line[1]] : this.#trimmed();
     if (line.length < (this.closes === true ? 6 : 4) || lengthOf(line) < 4 * desk.scale({ x: line[0], y: line[1] })) {
       desk.speak(this.closes === true ? 'an area needs three points' : 'a line needs two points');
       return;

@@ -73,7 +73,7 @@ export function openSheet({ view, tools }, { ask, revision, types }) {
     take: (message) => desk.take(message),
     /** The document or the land has changed. */
     follow: () => desk.onchange(),
-    /** Of a line that is drawn point by point the last step is taken back; false: there is none. */
-    back: () => desk.tool?.back?.() ?? false,
+    /** Takes back the last step of a line that is drawn point by point, or what the program has not got yet; false: there is none. */
+    back: () => (desk.tool?.back?.() ?? false) || desk.recall(),
   };
 }

@@ -151,7 +151,7 @@ export function openStudio(about, state) {
   });
 
   // ── The panel.
-  const undo = button('Undo', 'Undo (Ctrl+Z)', () => quietly(ask({ do: 'undo' })));
+  const undo = button('Undo', 'Undo (Ctrl+Z)', () => sheet?.desk.recall() || quietly(ask({ do: 'undo' })));
   const redo = button('Redo', 'Redo (Ctrl+Shift+Z, Ctrl+Y)', () => quietly(ask({ do: 'redo' })));
   const compare = make('button', { type: 'button', textContent: 'Before', title: 'Hold to see the terrain before the last edit (B)', disabled: true });
   compare.setAttribute('aria-pressed', 'false');
@@ -283,7 +283,8 @@ export function openStudio(about, state) {
   }
 
   function drawing(message) {
-    const emptied = page && !now?.land.level;
+    // Rivers that were shown on level ground, or were about to be, go too; another grid is another sheet.
+    const emptied = page && !(now?.land.level && now.rivers.count === 0 && !pending && sameGrid(now.data.grid, message.grid));
     drawn = message;
     // Where rivers are shown and none is there, a given land comes.
     if (message.kind === 'drawn' && message.rivers.length === 0) {
@@ -292,6 +293,9 @@ export function openStudio(about, state) {
     }
     draw();
   }
+
+  /** Whether no land is to come: what comes all the same was under way before. */
+  const isEmpty = () => drawn?.kind === 'drawn' && drawn.rivers.length === 0 && drawn.revision >= state.revision;
 
   /** An empty sheet: level ground. */
   function flat(grid) {
@@ -324,6 +328,7 @@ export function openStudio(about, state) {
   }
 
   function heights(header, values) {
+    if (isEmpty()) return;
     const { grid, width, height, cells, min, max, nodata, sea, level } = header;
     const about_ = { width, height, cells, min, max, nodata };
     const land = new Land(grid, about_, values, sea);
@@ -348,6 +353,7 @@ export function openStudio(about, state) {
 
   let made = null; // of the last scene: {job, lines, rivers, water, text}
   function scene(message) {
+    if (isEmpty()) return;
     const { data, lines, water: text, level, job } = message;
     if (level === 'rivers') {
       rivers(message);

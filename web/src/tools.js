@@ -57,6 +57,7 @@ export class Tools {
       } else if (tool && !event.shiftKey) this.hold(tool === this.held ? null : tool.id);
     }, { capture: true });
     window.addEventListener('keyup', (event) => event.code === 'Space' && (this.#space = false));
+    window.addEventListener('blur', () => (this.#space = false));
   }
 
   /** Puts a tool into the bar. Gives its button, as tool.button has it. */
@@ -127,14 +128,20 @@ export class Tools {
     if (!tool || event.target !== this.view.canvas) return;
     const mine = event.pointerId === this.#gesture;
     if (event.type === 'pointerdown') {
+      // A hand that rests beside a pen or a mouse changes nothing.
+      const other = this.#gesture !== null && event.pointerId !== this.#gesture && (this.#begun.pointerType !== 'touch' || event.pointerType !== 'touch');
+      if (other) {
+        event.stopPropagation();
+        return;
+      }
       if (this.#fingers.size > 1) this.#handOver();
       if (this.#fingers.size > 1 || event.button !== 0 || this.#space) return;
       const at = this.#at(event);
+      this.view.canvas.focus({ preventScroll: true }); // first: what is typed beside the view belongs to what is chosen now
       if (tool.down?.(at, event) === false) return; // it leaves the gesture to the view
       this.#gesture = event.pointerId;
       this.#begun = event;
       this.view.canvas.setPointerCapture(event.pointerId);
-      this.view.canvas.focus({ preventScroll: true });
     } else if (event.type === 'pointermove') {
       if (mine) for (const one of event.getCoalescedEvents?.().length ? event.getCoalescedEvents() : [event]) tool.move?.(this.#at(one), one);
       else if (event.buttons === 0) tool.hover?.(this.#at(event), event);
