@@ -7,6 +7,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <numeric>
 #include <set>
 #include <utility>
 
@@ -151,19 +152,35 @@ bool cross_over(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
 /// \param near_m [m] a line that comes nearer to itself touches itself
 void require_no_loop(DrawnLine const& line, bool is_closed, double near_m) {
     std::size_t const segments = line.size() - 1;
-    for (std::size_t i = 0; i < segments; ++i) {
-        for (std::size_t k = i + 1; k < segments; ++k) {
-            bool const ends_where_it_begins = is_closed && i == 0 && k + 1 == segments;
-            bool const crosses =
-                k > i + 1 && !ends_where_it_begins && cross_over(line[i], line[i + 1], line[k], line[k + 1]);
-            bool const touches =
-                !ends_where_it_begins &&
-                (distance(geometry::foot_on(line[i], line[i + 1], line[k + 1]).at, line[k + 1]) < near_m ||
-                 distance(geometry::foot_on(line[k], line[k + 1], line[i]).at, line[i]) < near_m);
-            if (crosses || touches) {
-                throw NotDrawn("studio.drawing: the line crosses itself here", line[k]);
+    auto const meet = [&](std::size_t i, std::size_t k) {
+        if (is_closed && i == 0 && k + 1 == segments) {
+            return false; // it ends where it begins
+        }
+        return (k > i + 1 && cross_over(line[i], line[i + 1], line[k], line[k + 1])) ||
+               distance(geometry::foot_on(line[i], line[i + 1], line[k + 1]).at, line[k + 1]) < near_m ||
+               distance(geometry::foot_on(line[k], line[k + 1], line[i]).at, line[i]) < near_m;
+    };
+    auto const west = [&](std::size_t i) { return std::min(line[i].x, line[i + 1].x); };
+    std::vector<std::size_t> from_west(segments);
+    std::iota(from_west.begin(), from_west.end(), 0);
+    std::ranges::sort(from_west, {}, west);
+    std::pair<std::size_t, std::size_t> first{none, none};
+    for (std::size_t a = 0; a < segments; ++a) {
+        std::size_t const one = from_west[a];
+        double const east = std::max(line[one].x, line[one + 1].x) + near_m;
+        auto const [low, high] = std::minmax(line[one].y, line[one + 1].y);
+        for (std::size_t b = a + 1; b < segments && west(from_west[b]) <= east; ++b) {
+            std::size_t const other = from_west[b];
+            bool const is_apart = std::max(line[other].y, line[other + 1].y) < low - near_m ||
+                                  std::min(line[other].y, line[other + 1].y) > high + near_m;
+            std::pair<std::size_t, std::size_t> const pair = std::minmax(one, other);
+            if (!is_apart && pair < first && meet(pair.first, pair.second)) {
+                first = pair;
             }
         }
+    }
+    if (first.first != none) {
+        throw NotDrawn("studio.drawing: the line crosses itself here", line[first.second]);
     }
 }
 
@@ -314,26 +331,72 @@ struct Beside {
     bool is_left = true;
 };
 
-Beside nearest_coast(std::vector<DrawnLine> const& coasts, Vec2 p) {
-    Beside nearest;
-    double aside =
-        0.0; // of two that meet at the nearest place the one with the greater distance from its straight line
-    for (std::size_t c = 0; c < coasts.size(); ++c) {
-        for (std::size_t i = 0; i + 1 < coasts[c].size(); ++i) {
-            Vec2 const a = coasts[c][i];
-            Vec2 const b = coasts[c][i + 1];
-            Vec2 const foot = geometry::foot_on(a, b, p).at;
-            double const away_m = distance(foot, p);
-            double const turn = cross(a, b, p) / distance(a, b);
-            constexpr double tie = 1e-9;
-            bool const is_nearer = away_m < nearest.away_m * (1.0 - tie);
-            if (is_nearer || (away_m <= nearest.away_m * (1.0 + tie) && std::fabs(turn) > aside)) {
-                nearest = {c, foot, away_m, turn >= 0.0};
-                aside = std::fabs(turn);
+/// Coasts, for many places.
+class Coasts {
+public:
+    explicit Coasts(std::vector<DrawnLine> const& lines) : lines_(lines) {
+        constexpr std::size_t together = 16;
+        for (std::size_t c = 0; c < lines.size(); ++c) {
+            for (std::size_t i = 0; i + 1 < lines[c].size(); i += together) {
+                Stretch one{c, i, std::min(i + together, lines[c].size() - 1), lines[c][i], lines[c][i]};
+                for (std::size_t k = i; k <= one.end; ++k) {
+                    Vec2 const p = lines[c][k];
+                    one.low = {std::min(one.low.x, p.x), std::min(one.low.y, p.y)};
+                    one.high = {std::max(one.high.x, p.x), std::max(one.high.y, p.y)};
+                }
+                stretches_.push_back(one);
             }
         }
     }
-    return nearest;
+
+    bool empty() const { return lines_.empty(); }
+
+    Beside nearest(Vec2 p) {
+        constexpr double tie = 1e-9;
+        // The nearest place is no farther than from where was asked last.
+        double const most_m = (last_m_ + distance(last_, p)) * (1.0 + 4.0 * tie) + tie;
+        Beside nearest;
+        double aside =
+            0.0; // of two that meet at the nearest place the one with the greater distance from its straight line
+        for (Stretch const& one : stretches_) {
+            Vec2 const gap{std::max({one.low.x - p.x, p.x - one.high.x, 0.0}),
+                           std::max({one.low.y - p.y, p.y - one.high.y, 0.0})};
+            for (std::size_t i = one.begin; dot(gap, gap) <= most_m * most_m && i < one.end; ++i) {
+                Vec2 const a = lines_[one.line][i];
+                Vec2 const b = lines_[one.line][i + 1];
+                Vec2 const foot = geometry::foot_on(a, b, p).at;
+                double const away_m = distance(foot, p);
+                double const turn = cross(a, b, p) / distance(a, b);
+                bool const is_nearer = away_m < nearest.away_m * (1.0 - tie);
+                if (is_nearer || (away_m <= nearest.away_m * (1.0 + tie) && std::fabs(turn) > aside)) {
+                    nearest = {one.line, foot, away_m, turn >= 0.0};
+                    aside = std::fabs(turn);
+                }
+            }
+        }
+        last_ = p;
+        last_m_ = nearest.away_m;
+        return nearest;
+    }
+
+private:
+    /// Segments that follow one another, and the box around them.
+    struct Stretch {
+        std::size_t line;
+        std::size_t begin;
+        std::size_t end;
+        Vec2 low;
+        Vec2 high;
+    };
+
+    std::vector<DrawnLine> const& lines_;
+    std::vector<Stretch> stretches_;
+    Vec2 last_;
+    double last_m_ = infinite;
+};
+
+Beside nearest_coast(std::vector<DrawnLine> const& coasts, Vec2 p) {
+    return Coasts(coasts).nearest(p);
 }
 
 /// Where two lines cross; nothing: nowhere.
@@ -350,6 +413,11 @@ std::optional<Vec2> crossing_of(DrawnLine const& one, DrawnLine const& other) {
     return std::nullopt;
 }
 
+/// Whether a place lies in the sea, and not on the coast itself.
+bool lies_in_sea(Drawing const& drawing, Beside const& coast) {
+    return !coast.is_left && coast.away_m > touching * drawing.grid.cell_m;
+}
+
 /// Throws where a stretch of a river lies in the sea, crosses another or comes too near, but for where they meet.
 void require_clear(Drawing const& drawing, std::size_t river, std::size_t first, std::size_t last, double clear_m) {
     constexpr double widening = 0.2; // rivers part by more than this share of the way from where they meet
@@ -357,10 +425,9 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
     DrawnLine const changed(line.begin() + static_cast<std::ptrdiff_t>(first),
                             line.begin() + static_cast<std::ptrdiff_t>(last) + 1);
     DrawnLine const stretch = resampled(changed, pace * drawing.grid.cell_m);
-    constexpr double at_coast = 0.01; // [cells]
+    Coasts coasts(drawing.coasts);
     for (Vec2 const p : stretch) {
-        Beside const coast = nearest_coast(drawing.coasts, p);
-        if (!coast.is_left && coast.away_m > at_coast * drawing.grid.cell_m) {
+        if (lies_in_sea(drawing, coasts.nearest(p))) {
             throw NotDrawn("studio.drawing: the river would run through the sea here", p);
         }
     }
@@ -422,17 +489,18 @@ Vec2 on_border(Grid const& grid, Vec2 p) {
 }
 
 /// The share of the way from land to sea at which a straight line leaves the land.
-Vec2 shore_between(std::vector<DrawnLine> const& coasts, Vec2 land, Vec2 sea) {
+Vec2 shore_between(Coasts& coasts, Vec2 land, Vec2 sea) {
     constexpr int halvings = 30;
     for (int i = 0; i < halvings; ++i) {
         Vec2 const middle = 0.5 * (land + sea);
-        (nearest_coast(coasts, middle).is_left ? land : sea) = middle;
+        (coasts.nearest(middle).is_left ? land : sea) = middle;
     }
     return rounded(land);
 }
 
-/// The parts of a line that lie on land, in its order.
-std::vector<DrawnLine> parts_on_land(std::vector<DrawnLine> const& coasts, DrawnLine const& line, double cell_m) {
+/// The parts of a line that lie on land, in its order, without short ones.
+/// \param keeps_head its first part may be short: others end where it begins
+std::vector<DrawnLine> parts_on_land(Coasts& coasts, DrawnLine const& line, double cell_m, bool keeps_head) {
     if (coasts.empty()) {
         return {line};
     }
@@ -440,7 +508,7 @@ std::vector<DrawnLine> parts_on_land(std::vector<DrawnLine> const& coasts, Drawn
     bool was_land = false;
     Vec2 before = line.front();
     auto const step = [&](Vec2 p, bool is_vertex) {
-        bool const is_on_land = nearest_coast(coasts, p).is_left;
+        bool const is_on_land = coasts.nearest(p).is_left;
         if (is_on_land && !was_land) {
             parts.emplace_back();
             if (p != line.front()) {
@@ -465,8 +533,12 @@ std::vector<DrawnLine> parts_on_land(std::vector<DrawnLine> const& coasts, Drawn
     for (DrawnLine& part : parts) {
         part = without_repeats(std::move(part));
     }
-    std::erase_if(parts,
-                  [&](DrawnLine const& part) { return part.size() < 2 || length_along(part) < least_length * cell_m; });
+    // A line that is short itself stays where it lies on land.
+    double const least_m = std::min(least_length * cell_m, length_along(line) - touching * cell_m);
+    std::erase_if(parts, [&](DrawnLine const& part) {
+        bool const is_head = keeps_head && !part.empty() && part.front() == line.front();
+        return part.size() < 2 || (length_along(part) < least_m && !is_head);
+    });
     return parts;
 }
 
@@ -588,7 +660,7 @@ public:
             }
             to = rounded(end.at);
         }
-        if (!is_land(is_, to) && !(is_end && end_of(is_, to, river).meets == End::Meets::coast)) {
+        if (lies_in_sea(is_, nearest_coast(is_.coasts, to))) { // an end that snapped lies on the coast
             throw NotDrawn("studio.drawing: this place lies in the sea", to);
         }
         move(river, step.vertex, to, step.reach_m);
@@ -631,10 +703,11 @@ public:
         std::size_t const river = require_river(is_, step.river);
         DrawnLine const& line = is_.rivers[river].line;
         Spot spot;
+        Vec2 const place = in_grid(is_.grid, step.at);
         for (std::size_t i = 0; i + 1 < line.size(); ++i) {
-            Vec2 const foot = geometry::foot_on(line[i], line[i + 1], step.at).at;
-            if (distance(foot, step.at) < spot.away_m) {
-                spot = {river, i, foot, distance(foot, step.at)};
+            Vec2 const foot = geometry::foot_on(line[i], line[i + 1], place).at;
+            if (distance(foot, place) < spot.away_m) {
+                spot = {river, i, foot, distance(foot, place)};
             }
         }
         Vec2 const at = vertex_at(is_, spot);
@@ -700,7 +773,12 @@ public:
         case Part::Kind::river: erase_river(number, step.alone); break;
         case Part::Kind::coast: remove(is_.coasts, number); break;
         case Part::Kind::lake: remove(is_.lakes, number); break;
-        case Part::Kind::mask: remove(is_.masks, number); break;
+        case Part::Kind::mask:
+            remove(is_.masks, number);
+            if (number < is_.mask_islands.size()) {
+                remove(is_.mask_islands, number);
+            }
+            break;
         }
     }
 
@@ -743,6 +821,7 @@ public:
         if (is_closed) {
             line.back() = line.front();
             line = without_repeats(std::move(line));
+            require_area(line);
         } else {
             carry_to_border(line);
             std::ranges::reverse(line);
@@ -832,7 +911,8 @@ private:
 
     /// The longest part of a line on land.
     DrawnLine on_land(DrawnLine line) {
-        std::vector<DrawnLine> parts = parts_on_land(is_.coasts, line, is_.grid.cell_m);
+        Coasts coasts(is_.coasts);
+        std::vector<DrawnLine> parts = parts_on_land(coasts, line, is_.grid.cell_m, false);
         if (parts.empty()) {
             throw NotDrawn("studio.drawing: this lies in the sea: rivers run on land", line.front());
         }
@@ -1014,13 +1094,18 @@ private:
         line = geometry::simplify(smoothed_ring(line), coarseness * is_.grid.cell_m);
         std::ranges::transform(line, line.begin(), [](Vec2 p) { return rounded(p); });
         line = without_repeats(std::move(line));
+        require_area(line);
+        require_no_loop(line, true, touching * is_.grid.cell_m);
+        line.pop_back();
+        return line;
+    }
+
+    /// \param line ends where it begins
+    void require_area(DrawnLine const& line) const {
         constexpr double least_cells = 9.0;
         if (line.size() < 4 || std::fabs(area_of(line)) < least_cells * is_.grid.cell_m * is_.grid.cell_m) {
             throw NotDrawn(fmt::format("studio.drawing: this area has fewer than {} cells", least_cells), line.front());
         }
-        require_no_loop(line, true, touching * is_.grid.cell_m);
-        line.pop_back();
-        return line;
     }
 
     DrawnLine smoothed_ring(DrawnLine const& line) const { return smoothed(line, is_.grid.cell_m); }
@@ -1077,9 +1162,11 @@ private:
     bool prefers_other_side(DrawnLine const& coast) const {
         std::size_t left = 0;
         std::size_t right = 0;
+        std::vector<DrawnLine> const one{coast};
+        Coasts coasts(one);
         for (DrawnRiver const& river : is_.rivers) {
             for (Vec2 const p : resampled(river.line, is_.grid.cell_m)) {
-                ++(nearest_coast({coast}, p).is_left ? left : right);
+                ++(coasts.nearest(p).is_left ? left : right);
             }
         }
         return right > left;
@@ -1090,8 +1177,14 @@ private:
         std::vector<DrawnRiver> on_land;
         double lost_m = 0.0;
         std::size_t cut = 0;
+        Coasts coasts(is_.coasts);
+        std::set<std::pair<double, double>> ends;
         for (DrawnRiver const& river : is_.rivers) {
-            std::vector<DrawnLine> parts = parts_on_land(is_.coasts, river.line, is_.grid.cell_m);
+            ends.insert({river.line.back().x, river.line.back().y});
+        }
+        for (DrawnRiver const& river : is_.rivers) {
+            bool const is_joined = ends.contains({river.line.front().x, river.line.front().y});
+            std::vector<DrawnLine> parts = parts_on_land(coasts, river.line, is_.grid.cell_m, is_joined);
             double rest_m = length_along(river.line);
             for (DrawnLine& part : parts) {
                 rest_m -= length_along(part);
@@ -1117,10 +1210,12 @@ private:
         std::size_t const count = is_coast && is_closed ? line.size() - 1 : line.size();
         bool const is_end = is_coast && !is_closed && (step.vertex == 0 || step.vertex + 1 == count);
         Vec2 const by = (is_end ? on_border(is_.grid, to) : to) - before[step.vertex % count];
+        std::vector<double> const along = ways_along(before, count, is_closed);
         for (std::size_t i = 0; i < count; ++i) {
             bool const is_other_end = is_coast && !is_closed && (i == 0 || i + 1 == count);
+            double const between = std::fabs(along[i] - along[step.vertex % count]);
             double const share =
-                way_between(before, count, is_closed, step.vertex % count, i) / std::max(step.reach_m, 1e-9);
+                (is_closed ? std::min(between, along[count] - between) : between) / std::max(step.reach_m, 1e-9);
             bool const is_moved = i == step.vertex % count;
             if (is_moved || (share < 1.0 && !is_other_end)) {
                 double const weight = is_moved ? 1.0 : (1.0 - share * share) * (1.0 - share * share);
@@ -1133,22 +1228,25 @@ private:
         settle(step.of, 0, line.size() - 1);
     }
 
-    /// Along a line, or around a ring, the shorter way. [m]
-    static double way_between(DrawnLine const& line, std::size_t count, bool is_closed, std::size_t a, std::size_t b) {
-        double whole = 0.0;
-        double between = 0.0;
+    /// [m] To each vertex along a line, or around a ring, and to its end.
+    static std::vector<double> ways_along(DrawnLine const& line, std::size_t count, bool is_closed) {
+        std::vector<double> along{0.0};
         for (std::size_t i = 0; i < count; ++i) {
             double const step = i + 1 < count || is_closed ? distance(line[i], line[(i + 1) % count]) : 0.0;
-            whole += step;
-            between += i >= std::min(a, b) && i < std::max(a, b) ? step : 0.0;
+            along.push_back(along.back() + step);
         }
-        return is_closed ? std::min(between, whole - between) : between;
+        return along;
     }
 
     /// Checks what was changed between two vertices.
     void settle(Part const& part, std::size_t first, std::size_t last) {
         DrawnLine& line = line_of(part, 0);
         line = without_repeats(std::move(line));
+        bool const is_coast = part.kind == Part::Kind::coast;
+        bool const is_ring = is_coast ? line.front() == line.back() : part.kind != Part::Kind::river;
+        if (line.size() < (!is_ring ? 2U : is_coast ? 4U : 3U)) {
+            throw NotDrawn(fmt::format("studio.drawing: nothing would be left of {} here", called(part)), line.front());
+        }
         switch (part.kind) {
         case Part::Kind::river: {
             require_no_loop(line, false, touching * is_.grid.cell_m);
@@ -1205,6 +1303,9 @@ Drawn drawn(Drawing drawing, DrawStep const& step) {
     std::visit(hand, step);
     Drawn result = hand.result();
     require_no_circle(result.drawing);
+    if (result.drawing.has_side_streams) { // a river that goes on where another ends is one with it
+        result.drawing.rivers = as_streams(result.drawing);
+    }
     return result;
 }
 

@@ -42,8 +42,9 @@ struct Drawing {
     AttributeTable attributes;     ///< of rivers that come from a user's file
     std::vector<DrawnLine> coasts; ///< land at their left; closed ones end where they begin
     std::vector<DrawnLake> lakes;
-    std::vector<DrawnLine> masks;  ///< implicitly closed; only what lies in one gets heights; none: all
-    bool has_side_streams = false; ///< each river grows a network of its own
+    std::vector<DrawnLine> masks; ///< implicitly closed; only what lies in one gets heights; none: all
+    std::vector<std::vector<DrawnLine>> mask_islands; ///< of the first masks, by mask: holes in it, implicitly closed
+    bool has_side_streams = false;                    ///< each river grows a network of its own
 };
 
 /// A part of a drawing.

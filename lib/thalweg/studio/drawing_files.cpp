@@ -26,6 +26,9 @@ using pipeline::Recipe;
 
 constexpr std::array own_columns{"rosgen", "lambda", "natural", "fid"};
 constexpr char const* coastline = "coastline";
+/// By which network.lines.filter leaves lines out.
+constexpr std::array judged_columns{"waterway", "tunnel",    "man_made", "ftype", "fcode", "highway",
+                                    "railway",  "aerialway", "barrier",  "power", "route"};
 
 /// In any case of letters.
 bool is_same_name(std::string_view a, std::string_view b) {
@@ -33,11 +36,20 @@ bool is_same_name(std::string_view a, std::string_view b) {
                               [](unsigned char x, unsigned char y) { return std::tolower(x) == std::tolower(y); });
 }
 
+bool is_judged(AttributeTable::Column const& column) {
+    return std::ranges::any_of(judged_columns, [&](char const* name) { return is_same_name(name, column.name); });
+}
+
 DrawnLine open_ring(DrawnLine ring) {
     if (ring.size() > 1 && ring.front() == ring.back()) {
         ring.pop_back();
     }
     return ring;
+}
+
+/// Parts of a file's polygons may be empty.
+bool has_shore(Polygon const& polygon) {
+    return !polygon.rings.empty() && !polygon.rings.front().empty();
 }
 
 io::Source file_of(Recipe const& recipe, std::string const& name) {
@@ -66,9 +78,16 @@ bool is_coast(AttributeTable const& attributes, std::int64_t record) {
 void join_outlets(std::vector<DrawnRiver>& rivers, double near_m) {
     for (std::size_t r = 0; r < rivers.size(); ++r) {
         Vec2& end = rivers[r].line.back();
+        auto const lies_apart = [&](Vec2 a, Vec2 b) {
+            return std::max(a.x, b.x) < end.x - near_m || std::min(a.x, b.x) > end.x + near_m ||
+                   std::max(a.y, b.y) < end.y - near_m || std::min(a.y, b.y) > end.y + near_m;
+        };
         for (std::size_t other = 0; other < rivers.size(); ++other) {
             DrawnLine& line = rivers[other].line;
             for (std::size_t i = 0; other != r && i + 1 < line.size(); ++i) {
+                if (lies_apart(line[i], line[i + 1])) {
+                    continue;
+                }
                 geometry::Foot const foot = geometry::foot_on(line[i], line[i + 1], end);
                 if (distance(foot.at, end) > near_m) {
                     continue;
@@ -94,8 +113,9 @@ void read_rivers_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
     RiverLines lines;
     try {
         lines = io::read_rivers(params, run);
-    } catch (BadInput const&) {
-        if (std::filesystem::path(name).filename() != drawing_name) {
+    } catch (BadInput const& fault) {
+        bool const is_empty = std::string_view(fault.what()).ends_with(" is empty");
+        if (!is_empty || std::filesystem::path(name).filename() != drawing_name) {
             throw;
         }
         return; // an empty sheet
@@ -154,12 +174,19 @@ Drawing read_drawing(Recipe const& recipe, Grid const& grid, Run const& run) {
             std::optional<double> const level_m =
                 std::isnan(polygon.value) ? std::nullopt : std::optional(polygon.value);
             std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
-            drawing.lakes.push_back({std::move(polygon.rings), level_m});
+            if (has_shore(polygon)) {
+                drawing.lakes.push_back({std::move(polygon.rings), level_m});
+            }
         }
     }
     if (recipe.surface && !recipe.surface->mask.empty() && io::holds_polygons(file_of(recipe, recipe.surface->mask))) {
         for (Polygon& polygon : io::read_polygons(file_of(recipe, recipe.surface->mask), grid.crs, run).polygons) {
-            drawing.masks.push_back(open_ring(std::move(polygon.rings.front())));
+            std::ranges::transform(polygon.rings, polygon.rings.begin(), open_ring);
+            if (has_shore(polygon)) {
+                drawing.masks.push_back(std::move(polygon.rings.front()));
+                polygon.rings.erase(polygon.rings.begin());
+                drawing.mask_islands.push_back(std::move(polygon.rings));
+            }
         }
     }
     return drawing;
@@ -222,7 +249,9 @@ io::Table table_of_rivers(Drawing const& drawing) {
     }));
     for (std::size_t c = 0; c < drawing.attributes.columns.size(); ++c) {
         AttributeTable::Column const& column = drawing.attributes.columns[c];
-        if (std::ranges::any_of(own_columns, [&](char const* own) { return is_same_name(own, column.name); })) {
+        bool const is_own =
+            std::ranges::any_of(own_columns, [&](char const* own) { return is_same_name(own, column.name); });
+        if (is_own || (!drawing.coasts.empty() && is_judged(column))) { // coasts are told by the filter
             continue;
         }
         // Both enumerations have one order.
@@ -253,6 +282,9 @@ io::Table table_of_areas(std::string name, std::size_t rows,
     table.parts_at = [rings_at](std::size_t row) {
         std::vector<Polygon> parts(1);
         for (DrawnLine ring : rings_at(row)) {
+            if (ring.empty()) {
+                continue;
+            }
             ring.push_back(ring.front());
             parts.front().rings.push_back(std::move(ring));
         }
@@ -272,36 +304,59 @@ void write_lakes(Drawing const& drawing, std::string const& path) {
 }
 
 void write_masks(Drawing const& drawing, std::string const& path) {
-    io::Table const table = table_of_areas("masks", drawing.masks.size(),
-                                           [&](std::size_t row) { return std::vector<DrawnLine>{drawing.masks[row]}; });
+    io::Table const table = table_of_areas("masks", drawing.masks.size(), [&](std::size_t row) {
+        std::vector<DrawnLine> rings{drawing.masks[row]};
+        if (row < drawing.mask_islands.size()) {
+            rings.insert(rings.end(), drawing.mask_islands[row].begin(), drawing.mask_islands[row].end());
+        }
+        return rings;
+    });
     io::write_tables({table}, drawing.grid.crs, path);
+}
+
+/// Unsets those of some keys that a recipe has.
+template <std::size_t Count>
+void unset(std::vector<Step>& steps, Recipe const& recipe, std::array<char const*, Count> const& paths) {
+    for (pipeline::KeyValue const& key : pipeline::key_values(recipe)) {
+        if (key.text && std::ranges::find(paths, key.path) != paths.end()) {
+            steps.emplace_back(UnsetKey{key.path});
+        }
+    }
 }
 
 /// Steps that let drawn lines be all that decides where rivers run.
 void turn_into_lines(std::vector<Step>& steps, Recipe const& recipe) {
-    static constexpr std::array passing{"network.prune",
-                                        "network.meander",
-                                        "network.lines.layer",
-                                        "network.lines.source_crs",
-                                        "network.lines.type_field",
-                                        "network.lines.rank_field",
-                                        "network.lines.id_field",
-                                        "network.lines.down_field",
-                                        "network.lines.snap",
-                                        "network.lines.dem",
-                                        "network.lines.divergences",
-                                        "network.lines.filter",
-                                        "network.lines.coastlines",
-                                        "network.tokunaga.strokes",
-                                        "network.tokunaga.layer"};
+    static constexpr std::array<char const*, 8> passing{"network.prune",
+                                                        "network.meander",
+                                                        "network.lines.snap",
+                                                        "network.lines.dem",
+                                                        "network.lines.divergences",
+                                                        "network.lines.filter",
+                                                        "network.lines.coastlines",
+                                                        "network.tokunaga.strokes"};
     static constexpr std::array of_files{"file", "soft", "fixed", "ends"};
+    unset(steps, recipe, passing);
     for (pipeline::KeyValue const& key : pipeline::key_values(recipe)) {
-        bool const passes = std::ranges::find(passing, key.path) != passing.end();
-        bool const is_of_file =
-            key.path == "network.heights" && key.text && std::ranges::find(of_files, *key.text) != of_files.end();
-        if (key.text && (passes || is_of_file)) {
+        if (key.path == "network.heights" && key.text && std::ranges::find(of_files, *key.text) != of_files.end()) {
             steps.emplace_back(UnsetKey{key.path});
         }
+    }
+}
+
+/// Steps without what is said of the layer and the fields of another file.
+void forget_layer(std::vector<Step>& steps, Recipe const& recipe) {
+    static constexpr std::array<char const*, 7> passing{
+        "network.lines.layer",    "network.lines.source_crs", "network.lines.type_field", "network.lines.rank_field",
+        "network.lines.id_field", "network.lines.down_field", "network.tokunaga.layer"};
+    unset(steps, recipe, passing);
+}
+
+/// All that is drawn is in the network, also a canal of a user's file.
+void set_filter(std::vector<Step>& steps, Document const& document, Drawing const& drawing) {
+    if (drawing.coasts.empty() && std::ranges::any_of(drawing.attributes.columns, is_judged)) {
+        steps.emplace_back(SetKey{"network.lines.filter", "none"});
+    } else if (is_drawn(document.recipe) && !drawing.coasts.empty()) { // the filter tells them
+        unset(steps, document.recipe, std::array<char const*, 1>{"network.lines.filter"});
     }
 }
 
@@ -317,6 +372,7 @@ void set_rivers(std::vector<Step>& steps, Document const& document, Drawing cons
     if (!is_drawn(document.recipe)) {
         turn_into_lines(steps, document.recipe);
     }
+    forget_layer(steps, document.recipe);
     if (!grid_of(document.recipe)) {
         set_grid(steps, drawing.grid);
     }
@@ -326,6 +382,7 @@ void set_rivers(std::vector<Step>& steps, Document const& document, Drawing cons
         put(drawing.has_side_streams ? "network.tokunaga.strokes" : "network.lines.path", drawing_name, write));
     if (!drawing.has_side_streams) {
         steps.emplace_back(SetKey{"network.lines.orientation", "as_drawn"});
+        set_filter(steps, document, drawing);
         if (document.recipe.surface && !document.recipe.surface->source.empty()) { // a DEM may have holes
             steps.emplace_back(SetKey{"grid.clip", "true"});
         }

@@ -292,12 +292,13 @@ private:
             return;
         }
         engine_.stop();
+        left_ = engine_.last(); // what is on its way of them is not shown any more
         cluster_.clear();
         scene_.clear();
         coarse_.reset();
         full_.reset();
         Job nothing = job_of(folder_.document());
-        nothing.number = engine_.last();
+        nothing.number = left_;
         state_ = idle_message(nothing, 0.0);
         server_.send_text(serve::everyone, state_);
     }
@@ -369,13 +370,13 @@ private:
                 .measured =
                     [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
                         show_scene(job, "measured", *made);
-                        end(idle_message(job, seconds_since(job.asked)));
+                        end(job, idle_message(job, seconds_since(job.asked)));
                     },
-                .failed = [this](Job const& job, std::string_view error) { end(failed_message(job, error)); },
+                .failed = [this](Job const& job, std::string_view error) { end(job, failed_message(job, error)); },
                 .stopped =
                     [this](Job const& job) {
                         if (job.number == engine_.last()) { // else the later one tells
-                            end(idle_message(job, seconds_since(job.asked), JobEnd::stopped));
+                            end(job, idle_message(job, seconds_since(job.asked), JobEnd::stopped));
                         }
                     }};
     }
@@ -387,7 +388,7 @@ private:
             told_job_ = job.number;
             told_stage_ = stage;
             told_at_ = Clock::now();
-            end(busy_message(job, stage, share));
+            end(job, busy_message(job, stage, share));
         }
     }
 
@@ -409,6 +410,9 @@ private:
                           planform.file.attributes,
                           planform.file_heights.has_value()};
         std::scoped_lock const lock(guard_);
+        if (job.number <= left_) {
+            return;
+        }
         shown_rivers_ = std::move(shown);
         server_.send_text(serve::everyone, std::move(scene));
         cluster_ = cluster;
@@ -423,6 +427,9 @@ private:
         Shown shown{given.grid, given.is_finished, std::move(*heights), given.sea};
         std::optional<Shown>& before = given.is_finished ? full_ : coarse_;
         std::scoped_lock const lock(guard_);
+        if (job.number <= left_) {
+            return;
+        }
         if (!job.recipe.network) {
             shown_rivers_ = ShownRivers{job.toml, given.grid};
         }
@@ -434,6 +441,9 @@ private:
     void show_scene(Job const& job, char const* level, pipeline::Made const& made) {
         std::string scene = scene_message(job, level, pipeline::live_scene(made, job.toml, command()));
         std::scoped_lock const lock(guard_);
+        if (job.number <= left_) {
+            return;
+        }
         scene_ = scene;
         server_.send_text(serve::everyone, std::move(scene));
         if (!made.recipe.network) { // else it came with the rivers
@@ -449,8 +459,11 @@ private:
         }
     }
 
-    void end(std::string state) {
+    void end(Job const& job, std::string state) {
         std::scoped_lock const lock(guard_);
+        if (job.number <= left_) {
+            return;
+        }
         state_ = state;
         server_.send_text(serve::everyone, std::move(state));
     }
@@ -475,6 +488,7 @@ private:
     std::string drawing_words_; ///< "": not known yet
     std::string document_toml_;
     std::int64_t revision_ = 0;
+    std::int64_t left_ = 0; ///< jobs up to this one are of what was drawn before the sheet was empty
 
     Clock::time_point told_at_{}; ///< of the engine's thread, like what follows
     std::int64_t told_job_ = 0;
