@@ -4,6 +4,8 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
+#include <optional>
 #include <random>
 #include <string>
 #include <utility>
@@ -304,6 +306,31 @@ TEST(Drawing, CoastsAreClosedOrReachTheBorderAndCutRivers) {
     EXPECT_TRUE(has(refusal(open, DrawCoast{line_of({{40, 2}, {40, 58}})}), "cross"));
 }
 
+TEST(Drawing, ACoastTakesNothingFromRiversOnLand) {
+    Drawing arcs = sheet();
+    arcs.rivers = {{line_of({{40, 25}, {40, 28}})}, // shorter than what can be drawn
+                   {line_of({{30, 20}, {40, 28}})},
+                   {line_of({{40, 28}, {41, 30}})},
+                   {line_of({{41, 30}, {40, 45}})}};
+    std::vector<Vec2> ring;
+    for (double turn = 0.0; turn < 6.2; turn += 0.2) {
+        ring.push_back({40 + 25 * std::cos(turn), 30 + 25 * std::sin(turn)});
+    }
+    Drawn const island = after(arcs, DrawCoast{line_of(ring)});
+    EXPECT_EQ(island.drawing.rivers, arcs.rivers);
+    EXPECT_TRUE(island.said.empty());
+    // A source may be dragged to the coast, wherever rounding puts it.
+    for (Vec2 const p : island.drawing.coasts.front()) {
+        EXPECT_FALSE(has(refusal(island.drawing, MoveVertex{{Part::Kind::river, 1}, 0, p}), "sea"));
+    }
+}
+
+TEST(Drawing, SmallOrFarStrokesAreRefused) {
+    EXPECT_THROW(drawn(sheet(), DrawCoast{line_of({{10, 10}, {12, 10}, {12, 12}, {10.5, 12}})}), NotDrawn);
+    EXPECT_NO_THROW(drawn(two_rivers(), CutRiver{0, at(40, 20)}));
+    EXPECT_THROW(drawn(two_rivers(), CutRiver{0, {1e308, 0.0}}), NotDrawn);
+}
+
 TEST(Drawing, LakesHaveLevels) {
     Drawn const lake = after(two_rivers(), DrawLake{line_of({{35, 40}, {45, 40}, {45, 50}, {35, 50}}), 120.0});
     EXPECT_TRUE(lake.said.empty()) << "a river runs through it";
@@ -395,6 +422,33 @@ TEST(Drawing, FilesHoldItBitForBit) {
         EXPECT_EQ(read.rivers[r].lambda, drawing.rivers[r].lambda);
     }
     EXPECT_EQ(read.coasts, drawing.coasts);
+}
+
+TEST(Drawing, FilesHoldLevelsAndHolesOfMasks) {
+    io::TemporaryFolder const folder("drawing");
+    Document document = document_of(pipeline::write_recipe(pipeline::default_recipe_on(80, 60)));
+    Drawing const before = two_rivers();
+    Drawing now = before;
+    now.lakes = {{{line_of({{35, 40}, {45, 40}, {45, 50}}), line_of({{41, 42}, {44, 42}, {44, 45}})}, 120.5},
+                 {{line_of({{5, 40}, {15, 40}, {15, 50}})}, std::nullopt}};
+    now.masks = {line_of({{1, 1}, {79, 1}, {79, 59}, {1, 59}})};
+    now.mask_islands = {{line_of({{5, 5}, {9, 5}, {9, 9}})}};
+    Edit const edit =
+        edit_between(document, before, {now, "", {}}, [&](auto const& key, auto const& name, auto const& write) {
+            std::filesystem::create_directories(folder.path() / "inputs/1");
+            write((folder.path() / "inputs/1" / name).string());
+            return TakeInput{key, "inputs/1/" + name};
+        });
+    EXPECT_EQ(edit.steps.size(), 2U) << "rivers are as they were";
+    document = apply(document, edit).document;
+    document.recipe.folder = folder.path().string();
+    Drawing const read = read_drawing(document.recipe, grid);
+    ASSERT_EQ(read.lakes.size(), 2U);
+    EXPECT_EQ(read.lakes[0].level_m, 120.5);
+    EXPECT_EQ(read.lakes[0].rings.size(), 2U);
+    EXPECT_EQ(read.lakes[1].level_m, std::nullopt);
+    ASSERT_EQ(read.mask_islands.size(), 1U);
+    EXPECT_EQ(read.mask_islands[0].size(), 1U);
 }
 
 TEST(Drawing, StepsAreReadFromWordsOfThePage) {
