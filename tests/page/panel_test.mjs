@@ -106,7 +106,7 @@ describe('verdict', () => {
 });
 
 describe('ledger', () => {
-  const given = [['read', 100, 'km'], ['left out: duplicates', 1, 'km'], ['left out: coastlines', 9.5, 'km'], ['in the network', 90, 'km'],
+  const given = [['read', 100, 'km'], ['left out: duplicates', 1, 'km'], ['left out: canals and others', 9.5, 'km'], ['in the network', 90, 'km'],
     ['added where ends were joined', 0.5, 'km'], ['reversed', 8, 'km'], ['ends moved by up to', 12, 'm'], ['within a factor of 2', 94, '% of arcs']];
 
   test('its bar holds the whole length, the network first and what was left out by its length', async () => {
@@ -117,9 +117,16 @@ describe('ledger', () => {
     assert.ok(Math.abs(bars.at(-1)[0] + bars.at(-1)[1] - 100) < 0.01);
     const text = (await page.innerText('#ledger')).replace(/\s/g, ' ');
     assert.match(text, /100 km of rivers given: 89.6 % in the network, reversed 8 km, ends moved by up to 12 m/);
-    assert.match(text, /left out: coastlines 9.5 km.*duplicates 1 km/s);
+    assert.match(text, /left out: canals and others 9.5 km.*duplicates 1 km/s);
     await page.click('#ledger summary');
     assert.match(await page.innerText('#ledger table'), /within a factor of 2\s+94\s+% of arcs/);
+    await close();
+  });
+
+  test('coastlines are no rivers', async () => {
+    const { page, close } = await shown((d) => (d.given = [['read', 100, 'km'], ['left out: coastlines', 40, 'km'], ['in the network', 60, 'km']]));
+    assert.equal(await page.locator('.ledger-bar').count(), 0);
+    assert.match((await page.innerText('#ledger')).replace(/\s/g, ' '), /60 km of rivers given beside 40 km of coastlines: 100 % in the network/);
     await close();
   });
 

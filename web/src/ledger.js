@@ -22,7 +22,7 @@ export function ledger(parent, { given }) {
   const words = ([name, amount, unit]) => `${name} ${number(amount, 3)}\u00a0${unit}`;
   const further = ['in artificial channels', 'reversed', 'outlets extended by', 'ends moved by up to'].map(value)
     .filter((row) => row?.[1] > 0).map(words);
-  parent.append(make('p', { className: 'line' }, make('b', { textContent: `${number(value('read')[1] - coast, 4)}\u00a0km of rivers given` }),
+  parent.append(make('p', { className: 'line' }, make('b', { textContent: `${number(value('read')[1] - coast, 4)}\u00a0km of rivers given${coast > 0 ? ` beside ${number(coast, 3)}\u00a0km of coastlines` : ''}` }),
     `: ${percent(all[0].length / whole)} in the network${further.map((text) => `, ${text}`).join('')}`));
   if (all.length > 1) {
     let from = 0;
