@@ -17,7 +17,7 @@ while IFS= read -r line; do
     line=${line#build/release/bin/}
     folder=$place home=${HOME-}
     case $line in
-    thalweg\ studio*) line="timeout --preserve-status -s INT 5 $line --no-browser" ;; # it serves until it is interrupted
+    thalweg\ studio*) line="timeout --foreground --preserve-status -s INT 5 $line --no-browser" ;; # it serves until it is interrupted
     scripts/packages\ * | cmake\ --preset\ * | cmake\ --build\ *) folder=$source ;;
     cmake\ --install\ *) folder=$source home=$place ;;
     scripts/* | ./* | cmake\ * | git\ * | cd\ * | ctest\ * | build/*) continue ;;
