@@ -179,6 +179,13 @@ TEST(Drawing, TheBorderIsNeverCrossedByRounding) {
     }
 }
 
+TEST(Drawing, WhatLiesBeyondTheGridIsLeftOutAndTold) {
+    Drawn const river = after(sheet(), DrawRiver{line_of({{40, 30}, {70, 30}, {110, 30}})});
+    EXPECT_EQ(river.drawing.rivers.front().line.back().x, grid.east());
+    ASSERT_EQ(river.said.size(), 1U);
+    EXPECT_EQ(river.said.front(), "0.3 km beyond the grid were left out");
+}
+
 TEST(Drawing, ARiverRunsToWhereItMeetsOtherWater) {
     Drawing const trunk = with_river(sheet(), {{40, 5}, {40, 59.5}});
     Drawn const against = after(trunk, DrawRiver{line_of({{41, 30}, {70, 10}})});

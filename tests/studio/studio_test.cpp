@@ -19,8 +19,10 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/studio/document_folder.hpp>
+#include <thalweg/studio/drawing_files.hpp>
 
 #include "random_draw.hpp"
 #include "random_edits.hpp"
@@ -390,6 +392,55 @@ TEST_F(Studios, DrawnRiversBecomeTheTerrain) {
                   test::bytes_of(at("made/" + std::string(name))))
             << name;
     }
+}
+
+TEST_F(Studios, HolesOfMasksStay) {
+    Grid const grid{72, 64, 30.0, 500000.0, 5000000.0, "EPSG:32631"};
+    auto const ring = [&](double low, double high) {
+        double const west = grid.west + low * grid.cell_m;
+        double const north = grid.north - low * grid.cell_m;
+        double const side = (high - low) * grid.cell_m;
+        return DrawnLine{{west, north}, {west + side, north}, {west + side, north - side}, {west, north - side}};
+    };
+    {
+        DocumentFolder document(at("doc"));
+        Drawing before;
+        before.grid = grid;
+        Drawing masked = before;
+        masked.masks = {ring(1, 60)};
+        masked.mask_islands = {{ring(20, 24)}};
+        document.edit(edit_between(
+            document.document(), before, {masked, "", {}},
+            [&](auto const& key, auto const& name, auto const& write) { return document.put(key, name, write); }));
+    }
+    {
+        Running const studio(params());
+        Window window(studio);
+        window.next("drawing");
+        json const second = window.draw({{"verb", "mask"}, {"points", {62, 2, 70, 2, 70, 10, 62, 10}}});
+        ASSERT_EQ(second["ok"], true) << second;
+        EXPECT_FALSE(second.contains("said"));
+    }
+    DocumentFolder document(at("doc"));
+    Drawing const read = read_drawing(document.document().recipe, grid);
+    ASSERT_EQ(read.mask_islands.size(), 2U);
+    EXPECT_EQ(read.mask_islands[0].size(), 1U);
+}
+
+TEST_F(Studios, ARasterMaskThatGoesIsTold) {
+    {
+        DocumentFolder document(at("doc"));
+        Mask const mask({72, 64, 30.0, 500000.0, 5000000.0, "EPSG:32631"}, 1);
+        document.edit({"", {document.put("surface.mask", "mask.tif", [&](std::string const& path) {
+                           io::write_mask(mask, path);
+                       })}});
+    }
+    Running const studio(params());
+    Window window(studio);
+    window.next("drawing");
+    json const drawn = window.draw({{"verb", "mask"}, {"points", {2, 2, 60, 2, 60, 60, 2, 60}}});
+    ASSERT_EQ(drawn["ok"], true) << drawn;
+    EXPECT_TRUE(test::has(drawn["said"].dump(), "raster", "undo brings it back"));
 }
 
 TEST_F(Studios, AnEmptySheetIsDrawnOn) {

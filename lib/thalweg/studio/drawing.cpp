@@ -9,13 +9,15 @@
 #include <map>
 #include <numeric>
 #include <set>
+#include <span>
 #include <utility>
 
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/stream_network.hpp>
 #include <thalweg/geometry/nearby.hpp>
-#include <thalweg/geometry/simplify.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 
 namespace thalweg::studio {
@@ -34,14 +36,6 @@ constexpr double touching = 0.01;
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
-double length_along(DrawnLine const& line) {
-    double sum = 0.0;
-    for (std::size_t i = 1; i < line.size(); ++i) {
-        sum += distance(line[i - 1], line[i]);
-    }
-    return sum;
-}
-
 /// A place in the grid as files hold it: rounding must not carry it over the border.
 Vec2 in_grid(Grid const& grid, Vec2 p) {
     constexpr double step_m = 1e-6;
@@ -54,6 +48,18 @@ Vec2 in_grid(Grid const& grid, Vec2 p) {
 DrawnLine without_repeats(DrawnLine line) {
     line.erase(std::ranges::unique(line).begin(), line.end());
     return line;
+}
+
+/// A line as files hold it.
+DrawnLine in_file(DrawnLine line) {
+    std::ranges::transform(line, line.begin(), [](Vec2 p) { return rounded(p); });
+    return without_repeats(std::move(line));
+}
+
+/// How far a vertex follows another that is moved. along_m: from that one along the line
+double following(double along_m, double reach_m) {
+    double const share = std::min(along_m / std::max(reach_m, 1e-9), 1.0);
+    return (1.0 - share * share) * (1.0 - share * share);
 }
 
 /// Places along a line, evenly spaced, both ends among them.
@@ -102,7 +108,7 @@ DrawnLine inside_grid(Grid const& grid, DrawnLine const& points) {
             if (i < points.size()) {
                 part.push_back(in_grid(grid, points[i]));
             }
-            longest = length_along(part) > length_along(longest) ? part : longest;
+            longest = length_of(part) > length_of(longest) ? part : longest;
             part.clear();
         }
     }
@@ -130,10 +136,8 @@ DrawnLine taken(Grid const& grid, DrawnLine points) {
 }
 
 DrawnLine stroke_of(Grid const& grid, DrawnLine points) {
-    DrawnLine line = smoothed(taken(grid, std::move(points)), grid.cell_m);
-    std::ranges::transform(line, line.begin(), [](Vec2 p) { return rounded(p); });
-    line = without_repeats(std::move(line));
-    if (line.size() < 2 || length_along(line) < least_length * grid.cell_m) {
+    DrawnLine line = in_file(smoothed(taken(grid, std::move(points)), grid.cell_m));
+    if (line.size() < 2 || length_of(line) < least_length * grid.cell_m) {
         throw NotDrawn(fmt::format("studio.drawing: this line is shorter than {} cells", least_length), line.front());
     }
     return line;
@@ -295,7 +299,7 @@ std::vector<DrawnRiver> as_streams(Drawing const& drawing) {
             continue;
         }
         std::size_t const longest =
-            *std::ranges::max_element(from, {}, [&](std::size_t r) { return length_along(streams[r].line); });
+            *std::ranges::max_element(from, {}, [&](std::size_t r) { return length_of(streams[r].line); });
         DrawnLine line = std::move(streams[longest].line);
         line.insert(line.end(), streams[*river].line.begin() + 1, streams[*river].line.end());
         streams[*river].line = std::move(line);
@@ -323,6 +327,25 @@ double from_joint(DrawnLine const& one, DrawnLine const& other, Vec2 p) {
     return least;
 }
 
+/// The box around places.
+struct Box {
+    Vec2 low;
+    Vec2 high;
+
+    explicit Box(std::span<Vec2 const> places) : low(places.front()), high(low) {
+        for (Vec2 const p : places) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
+    }
+
+    /// Whether a segment lies beside it, by a distance at least.
+    bool is_apart(Vec2 a, Vec2 b, double by_m) const {
+        return std::max(a.x, b.x) < low.x - by_m || std::min(a.x, b.x) > high.x + by_m ||
+               std::max(a.y, b.y) < low.y - by_m || std::min(a.y, b.y) > high.y + by_m;
+    }
+};
+
 /// The nearest place on a line of several, and whether it lies at the line's left.
 struct Beside {
     std::size_t line = none;
@@ -338,13 +361,8 @@ public:
         constexpr std::size_t together = 16;
         for (std::size_t c = 0; c < lines.size(); ++c) {
             for (std::size_t i = 0; i + 1 < lines[c].size(); i += together) {
-                Stretch one{c, i, std::min(i + together, lines[c].size() - 1), lines[c][i], lines[c][i]};
-                for (std::size_t k = i; k <= one.end; ++k) {
-                    Vec2 const p = lines[c][k];
-                    one.low = {std::min(one.low.x, p.x), std::min(one.low.y, p.y)};
-                    one.high = {std::max(one.high.x, p.x), std::max(one.high.y, p.y)};
-                }
-                stretches_.push_back(one);
+                std::size_t const end = std::min(i + together, lines[c].size() - 1);
+                stretches_.push_back({c, i, end, Box(std::span(lines[c]).subspan(i, end + 1 - i))});
             }
         }
     }
@@ -356,11 +374,11 @@ public:
         // The nearest place is no farther than from where was asked last.
         double const most_m = (last_m_ + distance(last_, p)) * (1.0 + 4.0 * tie) + tie;
         Beside nearest;
-        double aside =
-            0.0; // of two that meet at the nearest place the one with the greater distance from its straight line
+        // Of two that meet at the nearest place the one with the greater distance from its straight line.
+        double aside = 0.0;
         for (Stretch const& one : stretches_) {
-            Vec2 const gap{std::max({one.low.x - p.x, p.x - one.high.x, 0.0}),
-                           std::max({one.low.y - p.y, p.y - one.high.y, 0.0})};
+            Vec2 const gap{std::max({one.box.low.x - p.x, p.x - one.box.high.x, 0.0}),
+                           std::max({one.box.low.y - p.y, p.y - one.box.high.y, 0.0})};
             for (std::size_t i = one.begin; dot(gap, gap) <= most_m * most_m && i < one.end; ++i) {
                 Vec2 const a = lines_[one.line][i];
                 Vec2 const b = lines_[one.line][i + 1];
@@ -385,8 +403,7 @@ private:
         std::size_t line;
         std::size_t begin;
         std::size_t end;
-        Vec2 low;
-        Vec2 high;
+        Box box;
     };
 
     std::vector<DrawnLine> const& lines_;
@@ -399,10 +416,16 @@ Beside nearest_coast(std::vector<DrawnLine> const& coasts, Vec2 p) {
     return Coasts(coasts).nearest(p);
 }
 
-/// Where two lines cross; nothing: nowhere.
-std::optional<Vec2> crossing_of(DrawnLine const& one, DrawnLine const& other) {
+/// Where two lines cross, the first place along one; nothing: nowhere. around: one
+std::optional<Vec2> crossing_of(DrawnLine const& one, Box const& around, DrawnLine const& other) {
+    std::vector<std::size_t> near;
+    for (std::size_t k = 0; k + 1 < other.size(); ++k) {
+        if (!around.is_apart(other[k], other[k + 1], 0.0)) {
+            near.push_back(k);
+        }
+    }
     for (std::size_t i = 0; i + 1 < one.size(); ++i) {
-        for (std::size_t k = 0; k + 1 < other.size(); ++k) {
+        for (std::size_t const k : near) {
             if (cross_over(one[i], one[i + 1], other[k], other[k + 1])) {
                 double const from = cross(other[k], other[k + 1], one[i]);
                 double const to = cross(other[k], other[k + 1], one[i + 1]);
@@ -431,11 +454,10 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
             throw NotDrawn("studio.drawing: the river would run through the sea here", p);
         }
     }
-    auto const [left, right] = std::ranges::minmax(stretch, {}, &Vec2::x);
-    auto const [low, high] = std::ranges::minmax(stretch, {}, &Vec2::y);
+    Box const around(stretch);
     for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
         std::optional<Vec2> const at =
-            r != river ? crossing_of(changed, drawing.rivers[r].line) : std::optional<Vec2>();
+            r != river ? crossing_of(changed, around, drawing.rivers[r].line) : std::optional<Vec2>();
         if (at) {
             throw NotDrawn("studio.drawing: the river would cross another one here; let it end there instead", at);
         }
@@ -445,8 +467,7 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
         for (std::size_t i = 0; r != river && i + 1 < other.size(); ++i) {
             Vec2 const a = other[i];
             Vec2 const b = other[i + 1];
-            if (std::max(a.x, b.x) < left.x - clear_m || std::min(a.x, b.x) > right.x + clear_m ||
-                std::max(a.y, b.y) < low.y - clear_m || std::min(a.y, b.y) > high.y + clear_m) {
+            if (around.is_apart(a, b, clear_m)) {
                 continue;
             }
             for (Vec2 const p : stretch) {
@@ -488,7 +509,7 @@ Vec2 on_border(Grid const& grid, Vec2 p) {
     return in_grid(grid, std::ranges::min_element(sides, {}, &std::pair<double, Vec2>::first)->second);
 }
 
-/// The share of the way from land to sea at which a straight line leaves the land.
+/// Where a straight line from land to sea leaves the land.
 Vec2 shore_between(Coasts& coasts, Vec2 land, Vec2 sea) {
     constexpr int halvings = 30;
     for (int i = 0; i < halvings; ++i) {
@@ -534,10 +555,10 @@ std::vector<DrawnLine> parts_on_land(Coasts& coasts, DrawnLine const& line, doub
         part = without_repeats(std::move(part));
     }
     // A line that is short itself stays where it lies on land.
-    double const least_m = std::min(least_length * cell_m, length_along(line) - touching * cell_m);
+    double const least_m = std::min(least_length * cell_m, length_of(line) - touching * cell_m);
     std::erase_if(parts, [&](DrawnLine const& part) {
         bool const is_head = keeps_head && !part.empty() && part.front() == line.front();
-        return part.size() < 2 || (length_along(part) < least_m && !is_head);
+        return part.size() < 2 || (length_of(part) < least_m && !is_head);
     });
     return parts;
 }
@@ -608,7 +629,12 @@ public:
     void operator()(DrawRiver const& step) {
         name_ = "a river";
         require_type(step.type, step.lambda);
-        DrawnLine line = stroke_of(is_.grid, inside_grid(is_.grid, step.points));
+        DrawnLine const within = inside_grid(is_.grid, step.points);
+        double const beyond_m = length_of(step.points) - length_of(within);
+        if (beyond_m > is_.grid.cell_m) {
+            said_.push_back(fmt::format("{:.3g} km beyond the grid were left out", beyond_m / 1e3));
+        }
+        DrawnLine line = stroke_of(is_.grid, within);
         require_no_loop(line, false, touching * is_.grid.cell_m);
         line = on_land(std::move(line));
         End begin = end_of(is_, line.front(), none);
@@ -631,7 +657,7 @@ public:
             set_end(line, begin.on.river == none ? begin.at : is_.rivers[begin.on.river].line.back(), is_.grid.cell_m);
             std::ranges::reverse(line);
         }
-        if (length_along(line) < least_length * is_.grid.cell_m) {
+        if (length_of(line) < least_length * is_.grid.cell_m) {
             throw NotDrawn(fmt::format("studio.drawing: the river would be shorter than {} cells", least_length),
                            line.back());
         }
@@ -716,7 +742,7 @@ public:
         DrawnLine upper(whole.begin(), middle + 1);
         DrawnLine lower(middle, whole.end());
         double const least_m = least_length * is_.grid.cell_m;
-        if (length_along(lower) < least_m || length_along(upper) < least_m + gap * is_.grid.cell_m) {
+        if (length_of(lower) < least_m || length_of(upper) < least_m + gap * is_.grid.cell_m) {
             throw NotDrawn("studio.drawing: too near to its end to be cut", at);
         }
         shorten(upper, river);
@@ -802,9 +828,6 @@ public:
             throw NotDrawn("studio.drawing: rivers with side streams know no coast: erase the coasts, or draw the side "
                            "streams yourself");
         }
-        if (step.on) {
-            is_.rivers = as_streams(is_);
-        }
         is_.has_side_streams = step.on;
     }
 
@@ -816,7 +839,7 @@ public:
         DrawnLine line = stroke_of(is_.grid, step.points);
         double const apart_m = distance(line.front(), line.back());
         constexpr double nearly = 0.15; // of the line's length
-        double const near_m = std::max(2.0 * snap * is_.grid.cell_m, nearly * length_along(line));
+        double const near_m = std::max(2.0 * snap * is_.grid.cell_m, nearly * length_of(line));
         bool const is_closed = apart_m < near_m && !(at_border(line.front()) && at_border(line.back()));
         if (is_closed) {
             line.back() = line.front();
@@ -830,7 +853,7 @@ public:
         }
         require_no_loop(line, is_closed, touching * is_.grid.cell_m);
         require_apart(line);
-        if (is_closed && area_of(line) < 0.0) {
+        if (is_closed && geometry::signed_area(line) < 0.0) {
             std::ranges::reverse(line); // counterclockwise: land within
         }
         if (prefers_other_side(line)) {
@@ -851,7 +874,8 @@ public:
         name_ = "a lake";
         DrawnLine ring = ring_of(step.points);
         bool const has_river = std::ranges::any_of(is_.rivers, [&](DrawnRiver const& river) {
-            return std::ranges::any_of(resampled(river.line, is_.grid.cell_m), [&](Vec2 p) { return holds(ring, p); });
+            return std::ranges::any_of(resampled(river.line, is_.grid.cell_m),
+                                       [&](Vec2 p) { return geometry::contains(ring, p); });
         });
         if (!has_river) {
             said_.emplace_back("no river runs through this lake: it holds water only where one does");
@@ -916,8 +940,8 @@ private:
         if (parts.empty()) {
             throw NotDrawn("studio.drawing: this lies in the sea: rivers run on land", line.front());
         }
-        DrawnLine longest = *std::ranges::max_element(parts, {}, length_along);
-        double const cut_m = length_along(line) - length_along(longest);
+        DrawnLine longest = *std::ranges::max_element(parts, {}, length_of);
+        double const cut_m = length_of(line) - length_of(longest);
         if (cut_m > is_.grid.cell_m) {
             said_.push_back(
                 fmt::format("the river ends at the coast: {:.3g} km in the sea were left out", cut_m / 1e3));
@@ -959,9 +983,8 @@ private:
         std::size_t first = vertex;
         std::size_t last = vertex;
         auto const carry = [&](std::size_t i, double along_m) {
-            double const share = along_m / std::max(reach_m, 1e-9);
-            double const weight = i == vertex ? 1.0 : (1.0 - share * share) * (1.0 - share * share);
-            places[{before[i].x, before[i].y}] = i == vertex ? to : in_grid(is_.grid, before[i] + weight * by);
+            places[{before[i].x, before[i].y}] =
+                i == vertex ? to : in_grid(is_.grid, before[i] + following(along_m, reach_m) * by);
             first = std::min(first, i);
             last = std::max(last, i);
         };
@@ -1019,9 +1042,6 @@ private:
             return;
         }
         if (end.meets == End::Meets::river) {
-            if (flows_through(is_, end.on.river, river)) {
-                throw NotDrawn("studio.drawing: the river would flow in a circle", end.at);
-            }
             extend(river, vertex_at(is_, end.on), end.on.river);
             return;
         }
@@ -1091,9 +1111,7 @@ private:
     DrawnLine ring_of(DrawnLine const& points) {
         DrawnLine line = taken(is_.grid, points);
         line.push_back(line.front());
-        line = geometry::simplify(smoothed_ring(line), coarseness * is_.grid.cell_m);
-        std::ranges::transform(line, line.begin(), [](Vec2 p) { return rounded(p); });
-        line = without_repeats(std::move(line));
+        line = in_file(smoothed(line, is_.grid.cell_m));
         require_area(line);
         require_no_loop(line, true, touching * is_.grid.cell_m);
         line.pop_back();
@@ -1103,31 +1121,10 @@ private:
     /// \param line ends where it begins
     void require_area(DrawnLine const& line) const {
         constexpr double least_cells = 9.0;
-        if (line.size() < 4 || std::fabs(area_of(line)) < least_cells * is_.grid.cell_m * is_.grid.cell_m) {
+        if (line.size() < 4 ||
+            std::fabs(geometry::signed_area(line)) < least_cells * is_.grid.cell_m * is_.grid.cell_m) {
             throw NotDrawn(fmt::format("studio.drawing: this area has fewer than {} cells", least_cells), line.front());
         }
-    }
-
-    DrawnLine smoothed_ring(DrawnLine const& line) const { return smoothed(line, is_.grid.cell_m); }
-
-    /// Twice the area is positive where a closed line runs counterclockwise. [m2]
-    static double area_of(DrawnLine const& line) {
-        double twice = 0.0;
-        for (std::size_t i = 1; i + 1 < line.size(); ++i) {
-            twice += cross(line.front(), line[i], line[i + 1]);
-        }
-        return 0.5 * twice;
-    }
-
-    static bool holds(DrawnLine const& ring, Vec2 p) {
-        bool is_inside = false;
-        for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++) {
-            bool const spans = (ring[i].y > p.y) != (ring[k].y > p.y);
-            if (spans && p.x < ring[i].x + (p.y - ring[i].y) / (ring[k].y - ring[i].y) * (ring[k].x - ring[i].x)) {
-                is_inside = !is_inside;
-            }
-        }
-        return is_inside;
     }
 
     bool at_border(Vec2 p) const { return distance(on_border(is_.grid, p), p) < 2.0 * snap * is_.grid.cell_m; }
@@ -1185,9 +1182,9 @@ private:
         for (DrawnRiver const& river : is_.rivers) {
             bool const is_joined = ends.contains({river.line.front().x, river.line.front().y});
             std::vector<DrawnLine> parts = parts_on_land(coasts, river.line, is_.grid.cell_m, is_joined);
-            double rest_m = length_along(river.line);
+            double rest_m = length_of(river.line);
             for (DrawnLine& part : parts) {
-                rest_m -= length_along(part);
+                rest_m -= length_of(part);
                 on_land.push_back(river);
                 on_land.back().line = std::move(part);
             }
@@ -1214,11 +1211,10 @@ private:
         for (std::size_t i = 0; i < count; ++i) {
             bool const is_other_end = is_coast && !is_closed && (i == 0 || i + 1 == count);
             double const between = std::fabs(along[i] - along[step.vertex % count]);
-            double const share =
-                (is_closed ? std::min(between, along[count] - between) : between) / std::max(step.reach_m, 1e-9);
+            double const away_m = is_closed ? std::min(between, along[count] - between) : between;
             bool const is_moved = i == step.vertex % count;
-            if (is_moved || (share < 1.0 && !is_other_end)) {
-                double const weight = is_moved ? 1.0 : (1.0 - share * share) * (1.0 - share * share);
+            if (is_moved || (away_m < step.reach_m && !is_other_end)) {
+                double const weight = is_moved ? 1.0 : following(away_m, step.reach_m);
                 line[i] = in_grid(is_.grid, before[i] + weight * by);
             }
         }
@@ -1278,10 +1274,6 @@ private:
     std::string name_;
     std::vector<std::string> said_;
 };
-
-} // namespace
-
-namespace {
 
 void require_no_circle(Drawing const& drawing) {
     std::vector<VertexOf> const below = ways_down(drawing);
@@ -1423,8 +1415,7 @@ std::vector<DrawnLine> coasts_of(Mask const& land) {
     constexpr double tolerance = 0.75; // [cells]
     std::vector<DrawnLine> coasts;
     for (DrawnLine const& line : land.cells() > 0 ? Outline(land).lines() : std::vector<DrawnLine>()) {
-        DrawnLine coast = geometry::simplify(line, tolerance * land.grid().cell_m);
-        std::ranges::transform(coast, coast.begin(), [](Vec2 p) { return rounded(p); });
+        DrawnLine coast = in_file(geometry::simplify(line, tolerance * land.grid().cell_m));
         bool const is_closed = coast.front() == coast.back();
         if (coast.size() >= (is_closed ? 4U : 2U)) {
             coasts.push_back(std::move(coast));

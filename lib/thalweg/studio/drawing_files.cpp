@@ -110,16 +110,8 @@ void read_rivers_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
     std::string const& name = drawing.has_side_streams ? wanted.tokunaga.strokes : wanted.lines.path;
     io::ReadRiversParams params{.path = file_of(recipe, name), .crs = drawing.grid.crs};
     params.layer = drawing.has_side_streams ? wanted.tokunaga.layer : wanted.lines.layer;
-    RiverLines lines;
-    try {
-        lines = io::read_rivers(params, run);
-    } catch (BadInput const& fault) {
-        bool const is_empty = std::string_view(fault.what()).ends_with(" is empty");
-        if (!is_empty || std::filesystem::path(name).filename() != drawing_name) {
-            throw;
-        }
-        return; // an empty sheet
-    }
+    params.may_be_empty = std::filesystem::path(name).filename() == drawing_name; // a sheet
+    RiverLines lines = io::read_rivers(params, run);
     for (RiverLine& read : lines.lines) {
         DrawnLine line = line_in(read.vertices);
         if (line.size() < 2) {
@@ -249,13 +241,14 @@ io::Table table_of_rivers(Drawing const& drawing) {
     }));
     for (std::size_t c = 0; c < drawing.attributes.columns.size(); ++c) {
         AttributeTable::Column const& column = drawing.attributes.columns[c];
-        bool const is_own =
-            std::ranges::any_of(own_columns, [&](char const* own) { return is_same_name(own, column.name); });
-        if (is_own || (!drawing.coasts.empty() && is_judged(column))) { // coasts are told by the filter
+        if (std::ranges::any_of(own_columns, [&](char const* own) { return is_same_name(own, column.name); })) {
             continue;
         }
+        // Coasts are told by the filter, which must not judge rivers then.
+        bool const is_renamed = !drawing.coasts.empty() && is_judged(column);
         // Both enumerations have one order.
-        table.columns.push_back(user_column(column.name, static_cast<Kind>(column.type), [&, c](std::size_t row) {
+        std::string const name = (is_renamed ? "u_" : "") + column.name;
+        table.columns.push_back(user_column(name, static_cast<Kind>(column.type), [&, c](std::size_t row) {
             std::int64_t const record = row < rivers ? drawing.rivers[row].record : 0;
             return record > 0 ? drawing.attributes.rows[static_cast<std::size_t>(record - 1)][c] : Value();
         }));

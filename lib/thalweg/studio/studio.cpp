@@ -60,6 +60,10 @@ struct ShownRivers {
     std::int64_t told = 0;    ///< number of the job whose rivers the pages have
 };
 
+std::string mask_of(pipeline::Recipe const& recipe) {
+    return recipe.surface ? recipe.surface->mask : "";
+}
+
 double seconds_since(Clock::time_point begin) {
     return std::chrono::duration<double>(Clock::now() - begin).count();
 }
@@ -195,12 +199,17 @@ private:
         };
         Drawn after = drawn(before, step);
         bool const was_drawn = is_drawn(document.recipe);
+        std::string const mask_before = mask_of(document.recipe);
         Edit const edit = std::holds_alternative<Clear>(step) ? empty_sheet(document, before.grid, put)
                                                               : edit_between(document, before, after, put);
         if (edit.steps.empty()) {
             return after.said;
         }
+        bool const had_raster = !mask_before.empty() && before.masks.empty();
         folder_.edit(edit);
+        if (had_raster && mask_of(document.recipe) != mask_before) {
+            after.said.emplace_back("the raster that was the mask went; undo brings it back");
+        }
         if (!was_drawn && is_drawn(folder_.document().recipe) && !before.rivers.empty()) {
             after.said.push_back(fmt::format("the network is drawn lines now, {}; undo brings it back as it was{}",
                                              after.drawing.rivers.size(),
@@ -221,9 +230,8 @@ private:
         Grid const grid = *grid_of(recipe);
         return fmt::format("{}\n{}\n{}\n{}\n{} {} {} {} {} {}", recipe.network->lines.path,
                            recipe.network->tokunaga.strokes,
-                           recipe.surface ? recipe.surface->equilibrium.lakes : std::string(),
-                           recipe.surface ? recipe.surface->mask : std::string(), grid.width, grid.height, grid.cell_m,
-                           grid.west, grid.north, grid.crs);
+                           recipe.surface ? recipe.surface->equilibrium.lakes : std::string(), mask_of(recipe),
+                           grid.width, grid.height, grid.cell_m, grid.west, grid.north, grid.crs);
     }
 
     /// The drawing of the document. Throws BadInput while its rivers are made.
@@ -245,13 +253,13 @@ private:
     }
 
     static Drawing drawing_shown(pipeline::Recipe const& recipe, ShownRivers const& rivers) {
-        Drawing of_files = read_drawing(recipe, rivers.grid);
-        if (is_drawn(recipe)) {
-            return of_files;
+        Drawing drawing = read_drawing(recipe, rivers.grid);
+        if (!is_drawn(recipe)) {
+            Drawing shown = drawing_of(rivers.grid, rivers.network, rivers.land, rivers.attributes);
+            drawing.rivers = std::move(shown.rivers);
+            drawing.coasts = std::move(shown.coasts);
+            drawing.attributes = std::move(shown.attributes);
         }
-        Drawing drawing = drawing_of(rivers.grid, rivers.network, rivers.land, rivers.attributes);
-        drawing.lakes = std::move(of_files.lakes);
-        drawing.masks = std::move(of_files.masks);
         return drawing;
     }
 

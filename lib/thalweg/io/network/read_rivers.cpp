@@ -242,6 +242,10 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     LineReader read(layer, params, rivers.name);
     read.read(run);
     driver.check("io.read_rivers: " + path);
+    if (params.may_be_empty && read.lines.empty() && read.others.empty() && read.findings.empty()) {
+        rivers.crs = params.crs;
+        return rivers;
+    }
     require_any(read, what);
     std::string const source_crs = params.source_crs.value_or("");
     OGRSpatialReference const own = crs_of_layer(layer.GetSpatialRef(), source_crs);

@@ -47,6 +47,7 @@ struct ReadRiversParams {
     std::string down_field = {};          ///< that of the line downstream; "" takes the known ones. Both or none
     /// CRS of a file that has none ("": such a file is refused); nothing where the user has no option to name it
     std::optional<std::string> source_crs = {};
+    bool may_be_empty = false; ///< a layer without features gives no lines, instead of being refused
 };
 
 /// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and

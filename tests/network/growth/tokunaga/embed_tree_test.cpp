@@ -15,6 +15,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 #include <thalweg/network/order/order.hpp>
 
@@ -141,7 +142,7 @@ std::string broken_plane(EmbedParams const& params, EmbeddedTree const& out) {
     }
     for (ArcId arc = 0; arc < out.network.arc_count(); ++arc) {
         for (Vec2 const p : out.network.arc(arc).line) {
-            if (distance(p, params.mouth) > 2e-6 && !network::contains(params.region, p)) {
+            if (distance(p, params.mouth) > 2e-6 && !geometry::contains(params.region, p)) {
                 return "a vertex lies outside";
             }
             if (std::fabs(p.x * 1e6 - std::round(p.x * 1e6)) > 1e-3) {
@@ -259,7 +260,7 @@ TEST(EmbedTree, StopsWhenAsked) {
 
 TEST(Polygon, OfATriangle) {
     std::vector<Vec2> const ring{{1, 0}, {5, 0}, {1, 2}};
-    EXPECT_EQ(network::area_of(ring), 4.0);
+    EXPECT_EQ(geometry::signed_area(ring), 4.0);
     EXPECT_LT(distance(network::centroid_of(ring), {7.0 / 3.0, 2.0 / 3.0}), 1e-12);
     EXPECT_EQ(network::lattice_in(ring, 1.0), (std::vector<Vec2>{{1.5, 0.5}, {2.5, 0.5}, {3.5, 0.5}, {1.5, 1.5}}));
 }

@@ -14,48 +14,22 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/crossings.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
 
 namespace thalweg::network {
-namespace {
-
-/// Twice the signed area, relative to the first vertex, so that large coordinates lose no digits.
-double doubled_area(Vec2 o, Vec2 a, Vec2 b) {
-    return (a.x - o.x) * (b.y - o.y) - (b.x - o.x) * (a.y - o.y);
-}
-
-} // namespace
-
-double area_of(std::vector<Vec2> const& ring) {
-    double sum = 0.0;
-    for (std::size_t i = 2; i < ring.size(); ++i) {
-        sum += doubled_area(ring[0], ring[i - 1], ring[i]);
-    }
-    return std::fabs(0.5 * sum);
-}
 
 Vec2 centroid_of(std::vector<Vec2> const& ring) {
     double sum = 0.0;
     double x = 0.0;
     double y = 0.0;
     for (std::size_t i = 2; i < ring.size(); ++i) {
-        double const area = doubled_area(ring[0], ring[i - 1], ring[i]);
+        double const area = cross(ring[0], ring[i - 1], ring[i]);
         sum += area;
         x += area * (ring[i - 1].x + ring[i].x - 2.0 * ring[0].x);
         y += area * (ring[i - 1].y + ring[i].y - 2.0 * ring[0].y);
     }
     return {ring[0].x + x / (3.0 * sum), ring[0].y + y / (3.0 * sum)};
-}
-
-bool contains(std::vector<Vec2> const& ring, Vec2 p) {
-    bool inside = false;
-    for (std::size_t i = 0, k = ring.size() - 1; i < ring.size(); k = i++) {
-        if ((ring[i].y > p.y) != (ring[k].y > p.y) &&
-            p.x < ring[i].x + (p.y - ring[i].y) / (ring[k].y - ring[i].y) * (ring[k].x - ring[i].x)) {
-            inside = !inside;
-        }
-    }
-    return inside;
 }
 
 std::vector<Segment> sides_of(std::vector<Vec2> const& ring) {
@@ -332,7 +306,7 @@ void check_ring(std::vector<Vec2> const& ring) {
                                 "network.embed_tree: the region's ring meets itself at ({}, {}); draw it without loops",
                                 c.at.x, c.at.y);
     }
-    refuse_if<BadParameter>(!(area_of(ring) > 0.0),
+    refuse_if<BadParameter>(!(std::fabs(geometry::signed_area(ring)) > 0.0),
                             "network.embed_tree: the region has no area; give three places that are not in line");
 }
 
@@ -342,17 +316,17 @@ void check(EmbedParams const& params, std::size_t links) {
     refuse_if<BadParameter>(!is_finite(params.direction) || !is_finite(params.mouth),
                             "network.embed_tree: mouth and direction must be finite numbers");
     check_ring(params.region);
-    double const spacing = std::sqrt(area_of(params.region) / static_cast<double>(links));
+    double const spacing = std::sqrt(std::fabs(geometry::signed_area(params.region)) / static_cast<double>(links));
     if (spacing < 1e-3) {
         throw BadParameter(fmt::format("network.embed_tree: {} links in {} m2 lie {} m apart; take a larger region or "
                                        "fewer links",
-                                       links, area_of(params.region), spacing));
+                                       links, std::fabs(geometry::signed_area(params.region)), spacing));
     }
     double nearest = std::numeric_limits<double>::infinity();
     for (Segment const& side : sides_of(params.region)) {
         nearest = std::min(nearest, std::sqrt(squared_distance(params.mouth, side)));
     }
-    refuse_if<BadParameter>(!contains(params.region, params.mouth) && nearest > 1e-6 * spacing,
+    refuse_if<BadParameter>(!geometry::contains(params.region, params.mouth) && nearest > 1e-6 * spacing,
                             "network.embed_tree: the outlet ({}, {}) lies {} m outside the region; move it to its edge",
                             params.mouth.x, params.mouth.y, nearest);
 }
@@ -370,7 +344,7 @@ Vec2 far_end(EmbedParams const& params, double spacing) {
     double const step = 0.25 * spacing;
     double reach = step;
     auto const there = [&](double way) { return Vec2{params.mouth.x + way * ahead.x, params.mouth.y + way * ahead.y}; };
-    while (contains(params.region, there(reach + step))) {
+    while (geometry::contains(params.region, there(reach + step))) {
         reach += step;
     }
     return there(0.66 * reach);
@@ -426,7 +400,7 @@ Thinned thinned_to_fit(TokunagaTree const& tree, double area_m2, double min_spac
 EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run const& run) {
     check(params, tree.links.size());
     EmbeddedTree out;
-    double const area = area_of(params.region);
+    double const area = std::fabs(geometry::signed_area(params.region));
     out.spacing_m = std::sqrt(area / static_cast<double>(tree.links.size()));
     Thinned const fits = thinned_to_fit(tree, area, params.min_spacing_m);
     Forest forest;
@@ -436,7 +410,7 @@ EmbeddedTree embed_tree(TokunagaTree const& tree, EmbedParams const& params, Run
                              .area_m2 = area,
                              .sample = [&](double width) { return lattice_in(params.region, width); }});
     forest.walls = sides_of(params.region);
-    forest.inside = [&](Vec2 p) { return contains(params.region, p); };
+    forest.inside = [&](Vec2 p) { return geometry::contains(params.region, p); };
     forest.clearance = params.clearance;
     forest.min_spacing_m = params.min_spacing_m;
 

@@ -17,6 +17,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/growth/tokunaga/embed_tree.hpp>
 #include <thalweg/network/growth/tokunaga/internal/embed_tree.hpp>
@@ -578,7 +579,7 @@ GrownStrokes grow_strokes(RiverLines const& drawn, Grid const& grid, StrokesPara
     }
     std::vector<Vec2> const edge = outline(grid);
     forest.walls = sides_of(edge);
-    forest.inside = [&edge](Vec2 p) { return contains(edge, p); };
+    forest.inside = [&edge](Vec2 p) { return geometry::contains(edge, p); };
     forest.seed = params.tree.seed;
     forest.clearance = params.clearance;
     forest.min_spacing_m = params.min_spacing_m;

@@ -15,14 +15,8 @@
 
 namespace thalweg::network {
 
-/// Area of a ring [m2] of either orientation.
-double area_of(std::vector<Vec2> const& ring);
-
 /// Area-weighted centroid of a ring [m].
 Vec2 centroid_of(std::vector<Vec2> const& ring);
-
-/// Whether a position lies inside a ring (even-odd rule; on the ring itself either answer is possible).
-bool contains(std::vector<Vec2> const& ring, Vec2 p);
 
 /// The sides of a ring.
 std::vector<Segment> sides_of(std::vector<Vec2> const& ring);
