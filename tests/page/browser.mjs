@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Debian's Chromium without a screen, and what the tests ask of a page in it.
+import assert from 'node:assert/strict';
 import { createRequire } from 'node:module';
 import path from 'node:path';
 import { pathToFileURL } from 'node:url';
@@ -66,6 +67,28 @@ export function pickCentre(page) {
     const { clientWidth, clientHeight } = document.querySelector('#view canvas');
     return window.__thalweg.pick(clientWidth / 2, clientHeight / 2);
   });
+}
+
+/** Where a place of the grid is on the screen; null: out of sight. */
+export const placeOn = (page, x, y) => page.evaluate(([px, py]) => {
+  const frame = document.querySelector('#view canvas').getBoundingClientRect();
+  const p = window.__thalweg.project(px, py);
+  return p && { x: p.x + frame.left, y: p.y + frame.top };
+}, [x, y]);
+
+/** Moves the mouse to a place of the grid. */
+export async function moveTo(page, x, y, steps = 4) {
+  const p = await placeOn(page, x, y);
+  assert.ok(p, `(${x}, ${y}) is in sight`);
+  await page.mouse.move(p.x, p.y, { steps });
+}
+
+/** Draws with the mouse from place to place. */
+export async function strokeOn(page, places, steps) {
+  await moveTo(page, ...places[0], steps);
+  await page.mouse.down();
+  for (const p of places.slice(1)) await moveTo(page, ...p, steps);
+  await page.mouse.up();
 }
 
 /** Faults that axe calls serious or critical. */

@@ -8,7 +8,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, afterEach, before, describe, test } from 'node:test';
-import { barriers, launch, pickCentre } from './browser.mjs';
+import { barriers, launch, moveTo, pickCentre, placeOn, strokeOn } from './browser.mjs';
 import { fakeStudio, keysOf, landOf, valuesOf } from './fake_studio.mjs';
 import { river, sheet } from './fake_drawing.mjs';
 
@@ -63,22 +63,10 @@ const settled = (who = page) => who.waitForFunction(() => {
 const drawn = () => page.evaluate(() => window.__thalweg.drawing());
 const sent = () => server.asked.filter((m) => m.do === 'draw').map((m) => m.what);
 const said = () => page.textContent('#drawing-said');
-/** Where a place of the grid is on the screen. */
-const at = async (x, y, who = page) => who.evaluate(([px, py]) => {
-  const frame = document.querySelector('#view canvas').getBoundingClientRect();
-  const p = window.__thalweg.project(px, py);
-  return p && { x: p.x + frame.left, y: p.y + frame.top };
-}, [x, y]);
-async function to(x, y, steps = 4) {
-  const p = await at(x, y);
-  assert.ok(p, `(${x}, ${y}) is in sight`);
-  await page.mouse.move(p.x, p.y, { steps });
-}
+const at = (x, y, who = page) => placeOn(who, x, y);
+const to = (x, y, steps) => moveTo(page, x, y, steps);
 async function stroke(places) {
-  await to(...places[0]);
-  await page.mouse.down();
-  for (const p of places.slice(1)) await to(...p);
-  await page.mouse.up();
+  await strokeOn(page, places);
   await settled();
 }
 async function click(x, y, options) {

@@ -5,7 +5,8 @@ import path from 'node:path';
 import { pathToFileURL } from 'node:url';
 import { web } from './browser.mjs';
 
-const { bent, foot, meeting } = await import(pathToFileURL(path.join(web, 'src/drawing.js')));
+const { bent, meeting } = await import(pathToFileURL(path.join(web, 'src/drawing.js')));
+const { foot } = await import(pathToFileURL(path.join(web, 'src/rivers.js')));
 
 export const sheet = (more) => ({ kind: 'drawn', branching: false, rivers: [], coasts: [], lakes: [], masks: [], ...more });
 export const river = (...line) => ({ line, type: '', lambda: 0 });

@@ -13,7 +13,7 @@ import { slopes } from '../../web/src/light.js';
 import { ArcFinder, Rivers } from '../../web/src/rivers.js';
 import { along, catchment, courseAt, crossings, fallAt, networkOf, outline, riverOf, riverProfile, sectionAcross, sectionPoints, sums, traverse, valley, valueOfRiver, wkt } from '../../web/src/survey.js';
 import { Water } from '../../web/src/water.js';
-import { barriers, launch, look, open, set } from './browser.mjs';
+import { barriers, launch, look, open, placeOn, set } from './browser.mjs';
 import { fakeStudio, keysOf } from './fake_studio.mjs';
 import { landOfFormula, valleyLand, writePage } from './made_land.mjs';
 
@@ -252,10 +252,9 @@ describe('in the browser', () => {
   const spoken = (page, wanted) => page.waitForFunction((text) => new RegExp(text).test(Array.from(document.querySelectorAll('[role=status]'), (e) => e.textContent).join(' ')), wanted);
   /** Where a place of the land is on the page. */
   const spot = async (page, x, y) => {
-    const at = await page.evaluate(([u, v]) => window.__thalweg.project(u, v), [x, y]);
-    const box = await page.locator('#view canvas').first().boundingBox();
+    const at = await placeOn(page, x, y);
     assert.ok(at, `${x}, ${y} is not in sight`);
-    return [box.x + at.x, box.y + at.y];
+    return [at.x, at.y];
   };
   const click = async (page, x, y) => page.mouse.click(...await spot(page, x, y));
   const overlay = (page) => page.evaluate(() => document.querySelector('#view canvas.overlay').toDataURL());

@@ -8,7 +8,7 @@ import fs from 'node:fs';
 import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
-import { barriers, launch } from './browser.mjs';
+import { barriers, launch, moveTo, strokeOn } from './browser.mjs';
 
 const exe = process.env.THALWEG_EXE;
 const pictures = process.env.THALWEG_PICTURES;
@@ -46,23 +46,8 @@ async function settled() {
 }
 const drawn = () => page.evaluate(() => window.__thalweg.drawing());
 const times = () => page.evaluate(() => window.__thalweg.times);
-/** Where a place of the grid is on the screen. */
-const at = (x, y) => page.evaluate(([px, py]) => {
-  const frame = document.querySelector('#view canvas').getBoundingClientRect();
-  const p = window.__thalweg.project(px, py);
-  return p && { x: p.x + frame.left, y: p.y + frame.top };
-}, [x, y]);
-async function to(x, y, steps = 6) {
-  const p = await at(x, y);
-  assert.ok(p, `(${x}, ${y}) is in sight`);
-  await page.mouse.move(p.x, p.y, { steps });
-}
-async function stroke(places) {
-  await to(...places[0]);
-  await page.mouse.down();
-  for (const p of places.slice(1)) await to(...p);
-  await page.mouse.up();
-}
+const to = (x, y) => moveTo(page, x, y, 6);
+const stroke = (places) => strokeOn(page, places, 6);
 /** A line through places as a hand draws it. */
 function curve(places, closed = false) {
   const out = [];

@@ -3,7 +3,8 @@
 // What the drawing tools share: the drawing, what of it is chosen, what was sent and not answered yet, and how far things
 // lie from the pointer on the screen.
 import { number } from './chart.js';
-import { Drawing, foot, lengthOf } from './drawing.js';
+import { Drawing, lengthOf } from './drawing.js';
+import { foot } from './rivers.js';
 
 export const nameOf = ({ kind, n }) => `${kind === 'river' ? 'River' : { coast: 'Coast', lake: 'Lake', mask: 'Mask' }[kind]} ${n + 1}`;
 const patience = 20000; // [ms] for rivers that are being made

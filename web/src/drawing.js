@@ -2,14 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is drawn, as the program tells it, and the geometry of what the page shows while one draws. Places are cells of
 // the grid. Nothing here decides: what the page calls a crossing the program judges again.
-
-/** The place of a segment that is nearest to another place: {x, y, d: distance}. */
-export function foot(x, y, ax, ay, bx, by) {
-  const [dx, dy] = [bx - ax, by - ay];
-  const along = dx || dy ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy))) : 0;
-  const [fx, fy] = [ax + along * dx, ay + along * dy];
-  return { x: fx, y: fy, d: Math.hypot(x - fx, y - fy) };
-}
+import { foot } from './rivers.js';
 
 /** Where a–b meets c–d, as a share of a–b; -1: nowhere. */
 export function meeting(ax, ay, bx, by, cx, cy, dx, dy) {

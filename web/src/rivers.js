@@ -110,7 +110,7 @@ export class ArcFinder {
   /** Arc number within reach [cells], or -1. orders: as kept() gives them. */
   nearest(x, y, reach, orders) {
     let found = -1;
-    let least = reach * reach;
+    let least = reach;
     const span = Math.ceil(reach / this.tile);
     const column = Math.floor(x / this.tile);
     const row = Math.floor(y / this.tile);
@@ -121,7 +121,7 @@ export class ArcFinder {
           if (orders[list[j]] === 0) continue;
           const line = this.rivers.lines[list[j]];
           const i = list[j + 1];
-          const d = squareToSegment(x, y, line[i - 2], line[i - 1], line[i], line[i + 1]);
+          const { d } = foot(x, y, line[i - 2], line[i - 1], line[i], line[i + 1]);
           if (d < least) {
             least = d;
             found = list[j];
@@ -133,9 +133,10 @@ export class ArcFinder {
   }
 }
 
-function squareToSegment(x, y, ax, ay, bx, by) {
-  const dx = bx - ax;
-  const dy = by - ay;
+/** The place of a segment that is nearest to another place: {x, y, d: distance}. */
+export function foot(x, y, ax, ay, bx, by) {
+  const [dx, dy] = [bx - ax, by - ay];
   const along = dx || dy ? Math.min(1, Math.max(0, ((x - ax) * dx + (y - ay) * dy) / (dx * dx + dy * dy))) : 0;
-  return (x - ax - along * dx) ** 2 + (y - ay - along * dy) ** 2;
+  const [fx, fy] = [ax + along * dx, ay + along * dy];
+  return { x: fx, y: fy, d: Math.hypot(x - fx, y - fy) };
 }

@@ -2,6 +2,8 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // What is measured on the land: along lines, across valleys, upstream of a place. Places are [x, y] in cells from the
 // north-west, lengths and heights in metres.
+import { foot } from './rivers.js';
+
 const degrees = (slope) => (Math.atan(slope) * 180) / Math.PI;
 const most = 4000; // samples along a line
 const side = (land) => land.grid.cell_m;
@@ -149,16 +151,12 @@ export function riverOf({ rivers, orders }, arc) {
   return { line, arcs, joins };
 }
 
-/** The place of a line that is nearest to another: {x, y, part: number of the segment, off: square of the distance}. */
+/** The place of a line that is nearest to another: {x, y, part: number of the segment, d: distance}. */
 export function nearestOn(line, x, y) {
-  let best = { x: line[0][0], y: line[0][1], part: 0, off: Infinity };
+  let best = { x: line[0][0], y: line[0][1], part: 0, d: Infinity };
   for (let i = 1; i < line.length; ++i) {
-    const [[ax, ay], [bx, by]] = [line[i - 1], line[i]];
-    const square = (bx - ax) ** 2 + (by - ay) ** 2;
-    const share = square > 0 ? Math.min(1, Math.max(0, ((x - ax) * (bx - ax) + (y - ay) * (by - ay)) / square)) : 0;
-    const [u, v] = [ax + share * (bx - ax), ay + share * (by - ay)];
-    const off = (x - u) ** 2 + (y - v) ** 2;
-    if (off < best.off) best = { x: u, y: v, part: i, off };
+    const near = foot(x, y, ...line[i - 1], ...line[i]);
+    if (near.d < best.d) best = { part: i, ...near };
   }
   return best;
 }
