@@ -5,6 +5,7 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
+#include <memory>
 #include <span>
 #include <string>
 #include <utility>
@@ -61,7 +62,34 @@ template <class T> class Raster {
 public:
     Raster() = default;
     explicit Raster(Grid frame, T fill = T{})
-        : grid_(std::move(frame)), values_(static_cast<std::size_t>(grid_.cells()), fill) {}
+        : grid_(std::move(frame)), own_(static_cast<std::size_t>(grid_.cells()), fill), values_(own_) {}
+
+    /// Shows memory of others as a raster. Nothing may be written through it: a stage takes it by const&; what is moved
+    /// from it still shows that memory, and a copy has its own.
+    /// \param frame its grid
+    /// \param values one per cell
+    /// \param owner keeps the memory alive
+    /// \return the raster, not copied
+    static Raster view_of(Grid frame, std::span<T const> values, std::shared_ptr<void const> owner) {
+        Raster shown;
+        shown.grid_ = std::move(frame);
+        shown.values_ = {const_cast<T*>(values.data()), values.size()};
+        shown.owner_ = std::move(owner);
+        return shown;
+    }
+
+    Raster(Raster const& other) : grid_(other.grid_), own_(other.values_.begin(), other.values_.end()), values_(own_) {}
+    Raster(Raster&& other) noexcept
+        : grid_(std::exchange(other.grid_, {})), own_(std::exchange(other.own_, {})),
+          values_(std::exchange(other.values_, {})), owner_(std::exchange(other.owner_, {})) {}
+    Raster& operator=(Raster other) noexcept {
+        grid_ = std::move(other.grid_);
+        own_ = std::move(other.own_);
+        values_ = other.values_;
+        owner_ = std::move(other.owner_);
+        return *this;
+    }
+    ~Raster() = default;
 
     Grid const& grid() const { return grid_; }
     std::int64_t width() const { return grid_.width; }
@@ -74,18 +102,19 @@ public:
     T const& operator[](Cell c) const { return (*this)[grid_.index(c)]; }
 
     std::span<T> row(std::int64_t r) {
-        return std::span<T>(values_).subspan(static_cast<std::size_t>(r * width()), static_cast<std::size_t>(width()));
+        return values_.subspan(static_cast<std::size_t>(r * width()), static_cast<std::size_t>(width()));
     }
     std::span<T const> row(std::int64_t r) const {
-        return std::span<T const>(values_).subspan(static_cast<std::size_t>(r * width()),
-                                                   static_cast<std::size_t>(width()));
+        return values_.subspan(static_cast<std::size_t>(r * width()), static_cast<std::size_t>(width()));
     }
     std::span<T> values() { return values_; }
     std::span<T const> values() const { return values_; }
 
 private:
     Grid grid_;
-    std::vector<T, LargePages<T>> values_;
+    std::vector<T, LargePages<T>> own_;
+    std::span<T> values_;               ///< own_, or memory of others
+    std::shared_ptr<void const> owner_; ///< of that memory
 };
 
 /// 1: marked, 0: not.
