@@ -13,9 +13,9 @@ namespace {
 constexpr std::string_view separator = ": ";
 
 bool is_module(std::string_view word) {
-    constexpr std::array<std::string_view, 14> modules{"core",    "geometry", "solver",   "network", "skeleton",
-                                                       "surface", "fractal",  "blend",    "measure", "draw",
-                                                       "io",      "serve",    "pipeline", "studio"};
+    constexpr std::array<std::string_view, 15> modules{"core",     "geometry", "solver",  "flow",     "network",
+                                                       "skeleton", "surface",  "fractal", "blend",    "measure",
+                                                       "draw",     "io",       "serve",   "pipeline", "studio"};
     return std::find(modules.begin(), modules.end(), word) != modules.end();
 }
 

@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <optional>
 #include <string>
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/draw/map.hpp>
+#include <thalweg/draw/picture.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/make.hpp>
@@ -37,6 +40,18 @@ std::string checks_json(std::vector<Check> const& checks);
 
 /// \return the version of thalweg, e.g. "0.2.0"
 std::string version();
+
+/// Options of draw_map().
+struct DrawMapParams {
+    std::optional<std::string> title = {};     ///< that of the recipe if not set
+    int width_px = draw::MapParams{}.width_px; ///< [200, 8000] of the whole sheet; its height follows
+};
+
+/// Draws the map of a terrain, as map.png has it.
+/// \param made a terrain with a surface
+/// \return the picture
+/// \throws BadInput when the recipe asks for rivers alone; as draw::map
+draw::Picture draw_map(Made const& made, DrawMapParams const& params = {}, Run const& run = {});
 
 /// Checks an output folder before the work starts.
 /// \param folder of the output

@@ -9,6 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/sections.hpp>
@@ -139,6 +140,27 @@ void write_water(Made const& t, io::OutputFolder const& out, Run const& run) {
     }
 }
 
+ElevatedNetwork const* network_of(Made const& t) {
+    return t.recipe.network ? &t.terrain.rivers.network : nullptr;
+}
+
+NetworkOrders const* orders_of(Made const& t) {
+    return t.recipe.network ? &t.terrain.rivers.orders : nullptr;
+}
+
+draw::Picture map_with(Made const& t, std::vector<io::ContourLine> const& contours, draw::MapParams const& map,
+                       Run const& run) {
+    Raster<float> const& dem = t.terrain.surface->dem;
+    Raster<std::uint8_t> const shade = io::hillshade(dem);
+    draw::MapSheet sheet{dem, shade, network_of(t), orders_of(t), {}, &t.terrain.ridges, t.terrain.areas.ds_area_m2};
+    for (auto const& [z, line] : contours) {
+        sheet.contours.emplace_back(z, line);
+    }
+    Mask const lakes = t.terrain.lakes > 0 ? lake_cells(t.terrain.channels) : Mask{};
+    sheet.lakes = &lakes;
+    return draw_land(std::move(sheet), sea_of(t.terrain), map, run);
+}
+
 void write_surface(Made const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
     Raster<float> const& dem = t.terrain.surface->dem;
     HeightUnit const unit = t.recipe.output.units;
@@ -155,19 +177,12 @@ void write_surface(Made const& t, std::string const& title, io::OutputFolder con
                            unit, run);
     }
 
-    bool const rivers = t.recipe.network.has_value();
-    ElevatedNetwork const* const network = rivers ? &t.terrain.rivers.network : nullptr;
-    NetworkOrders const* const orders = rivers ? &t.terrain.rivers.orders : nullptr;
-    draw::MapSheet sheet{dem, io::hillshade(dem), network, orders, {}, &t.terrain.ridges, t.terrain.areas.ds_area_m2};
-    for (auto const& [z, line] : contours) {
-        sheet.contours.emplace_back(z, line);
-    }
     draw::MapParams map;
     map.title = title;
     map.contour_interval_m = interval;
-    Mask const lakes = t.terrain.lakes > 0 ? lake_cells(t.terrain.channels) : Mask{};
-    sheet.lakes = &lakes;
-    io::write_text(out.path("map.png"), draw_land(std::move(sheet), sea_of(t.terrain), map, run).bytes);
+    io::write_text(out.path("map.png"), map_with(t, contours, map, run).bytes);
+    ElevatedNetwork const* const network = network_of(t);
+    NetworkOrders const* const orders = orders_of(t);
     if (!t.terrain.surface->increments.empty()) {
         io::write_text(
             out.path("curve.svg"),
@@ -184,6 +199,17 @@ void write_surface(Made const& t, std::string const& title, io::OutputFolder con
 }
 
 } // namespace
+
+draw::Picture draw_map(Made const& made, DrawMapParams const& params, Run const& run) {
+    refuse_if<BadInput>(!made.terrain.surface,
+                        "pipeline.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
+    double const interval = contour_interval_m(made);
+    draw::MapParams map;
+    map.title = params.title.value_or(title_of(made.recipe));
+    map.contour_interval_m = interval;
+    map.width_px = params.width_px;
+    return map_with(made, io::contours(made.terrain.surface->dem, interval, run), map, run);
+}
 
 void check_folder(std::string const& folder, io::Existing existing) {
     io::OutputFolder const probe(folder, existing, files_left_in(folder));
