@@ -1,0 +1,549 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include "glue.hpp"
+
+#include <algorithm>
+#include <chrono>
+#include <condition_variable>
+#include <exception>
+#include <mutex>
+#include <stop_token>
+#include <thread>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/messages.hpp>
+
+namespace thalweg::python {
+
+namespace {
+
+constexpr std::array<char const*, 4> run_names = {"threads", "progress", "log", "device"};
+
+/// A value as a message shows it.
+std::string shown(py::handle value) {
+    std::string text;
+    try {
+        text = py::isinstance<py::array>(value)
+                   ? fmt::format("an array of {} with shape {}", std::string(py::str(value.attr("dtype"))),
+                                 std::string(py::str(value.attr("shape"))))
+                   : std::string(py::repr(value));
+    } catch (py::error_already_set const&) {
+        text = "something that cannot be shown";
+    }
+    return text.size() > 80 ? fmt::format("{}... ({})", text.substr(0, 60), std::string(py::str(py::type::of(value).attr("__name__"))))
+                            : text;
+}
+
+[[noreturn]] void raise(PyObject* type, std::string const& words) {
+    PyErr_SetString(type, words.c_str());
+    throw py::error_already_set();
+}
+
+py::object from_package(char const* module, char const* name) {
+    return py::module_::import(module).attr(name);
+}
+
+} // namespace
+
+Place Place::of(std::size_t element) const {
+    return {function, fmt::format("{}[{}]", name, element)};
+}
+
+Place Place::of(char const* field) const {
+    return {function, fmt::format("{}.{}", name, field)};
+}
+
+void refuse_type(Place const& place, py::handle value, std::string const& wanted) {
+    raise(PyExc_TypeError, fmt::format("{}: {} is {}; it must be {}", place.function, place.name, shown(value), wanted));
+}
+
+py::array array_of(py::dtype const& type, std::vector<py::ssize_t> shape, void const* memory, py::handle owner) {
+    bool const is_empty = std::find(shape.begin(), shape.end(), 0) != shape.end();
+    // pybind11 copies where there is no owner, and memory of nothing has none.
+    py::array array = is_empty || !owner ? py::array(type, std::move(shape), is_empty ? nullptr : memory)
+                                         : py::array(type, std::move(shape), memory, owner);
+    py::detail::array_proxy(array.ptr())->flags &= ~py::detail::npy_api::NPY_ARRAY_WRITEABLE_;
+    return array;
+}
+
+py::object raster_of(py::array const& values, Grid const& grid) {
+    return from_package("thalweg._raster", "from_core")(values, py::cast(grid, py::return_value_policy::copy));
+}
+
+py::object text_of(std::string_view bytes) {
+    std::string const text = as_utf8(bytes);
+    return py::str(text);
+}
+
+py::object dict_of(Finding const& finding) {
+    py::dict dict;
+    dict["kind"] = text_of(finding.kind);
+    dict["feature"] = finding.feature;
+    dict["where"] = py::make_tuple(finding.where.x, finding.where.y);
+    dict["amount"] = finding.amount;
+    dict["text"] = text_of(finding.text);
+    return dict;
+}
+
+py::object dict_of(Check const& check) {
+    py::dict dict;
+    dict["name"] = text_of(check.name);
+    dict["value"] = check.value;
+    dict["limit"] = check.limit;
+    dict["ok"] = check.ok;
+    dict["bound"] = word_of(check.bound);
+    return dict;
+}
+
+Finding take_finding(py::handle value, Place const& place) {
+    py::dict const dict = take_dict(value, place);
+    Args in(place.function + ": " + place.name, py::args(), py::kwargs(py::reinterpret_borrow<py::kwargs>(dict)));
+    Finding finding;
+    in.option("kind", finding.kind);
+    in.option("feature", finding.feature);
+    in.option("where", finding.where);
+    in.option("amount", finding.amount);
+    in.option("text", finding.text);
+    in.done();
+    return finding;
+}
+
+bool take_bool(py::handle value, Place const& place) {
+    py::object const bool_of_numpy = py::module_::import("numpy").attr("bool_");
+    if (!py::isinstance<py::bool_>(value) && !py::isinstance(value, bool_of_numpy)) {
+        refuse_type(place, value, "True or False");
+    }
+    return PyObject_IsTrue(value.ptr()) == 1;
+}
+
+double take_number(py::handle value, Place const& place) {
+    if (py::isinstance<py::str>(value) || py::isinstance<py::bool_>(value) || PyNumber_Check(value.ptr()) == 0) {
+        refuse_type(place, value, "a number");
+    }
+    double const number = PyFloat_AsDouble(value.ptr());
+    if (PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        refuse_type(place, value, "a number");
+    }
+    return number;
+}
+
+std::int64_t take_whole(py::handle value, Place const& place, std::int64_t low, std::int64_t high) {
+    auto const wanted = [&] {
+        return high == std::numeric_limits<std::int64_t>::max() ? std::string("a whole number")
+                                                               : fmt::format("a whole number from {} to {}", low, high);
+    };
+    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
+        refuse_type(place, value, wanted());
+    }
+    auto const index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!index) {
+        PyErr_Clear();
+        refuse_type(place, value, wanted());
+    }
+    int overflow = 0;
+    long long const number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
+    if (overflow != 0 || number < low || number > high) {
+        refuse_type(place, value, wanted());
+    }
+    return number;
+}
+
+std::uint64_t take_seed(py::handle value, Place const& place) {
+    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
+        refuse_type(place, value, "a whole number");
+    }
+    auto const index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    int overflow = 0;
+    long long const number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
+    if (overflow == 0 && number >= -1) {
+        return static_cast<std::uint64_t>(number);
+    }
+    std::uint64_t const large = PyLong_AsUnsignedLongLong(index.ptr());
+    if (PyErr_Occurred() != nullptr) {
+        PyErr_Clear();
+        refuse_type(place, value, "a whole number from 0 to 2^64 - 1");
+    }
+    return large;
+}
+
+std::string take_text(py::handle value, Place const& place) {
+    py::object text = py::reinterpret_borrow<py::object>(value);
+    if (!py::isinstance<py::str>(text)) {
+        if (!py::hasattr(text, "__fspath__")) {
+            refuse_type(place, value, "a text");
+        }
+        text = py::module_::import("os").attr("fsdecode")(text);
+    }
+    return py::module_::import("os").attr("fsencode")(text).cast<std::string>(); // bytes that are not UTF-8 stay
+}
+
+std::size_t take_word(py::handle value, Place const& place, std::span<char const* const> words) {
+    std::vector<std::string> const known(words.begin(), words.end());
+    if (!py::isinstance<py::str>(value)) {
+        refuse_type(place, value, fmt::format("one of '{}'", fmt::join(known, "', '")));
+    }
+    std::string const word = value.cast<std::string>();
+    auto const found = std::find(known.begin(), known.end(), word);
+    if (found == known.end()) {
+        throw BadParameter(fmt::format("{}: {} is '{}'; it must be one of {}.{}", place.function, place.name, word,
+                                       fmt::join(known, ", "), did_you_mean(word, known)));
+    }
+    return static_cast<std::size_t>(found - known.begin());
+}
+
+py::array take_array(py::handle value, Place const& place, py::dtype const& type, std::size_t count) {
+    std::string const wanted = count > 1 ? fmt::format("an array of numbers with shape (n, {})", count) : "an array of numbers";
+    py::array numbers;
+    try {
+        if (py::isinstance<py::str>(value) || py::isinstance<py::dict>(value)) {
+            refuse_type(place, value, wanted);
+        }
+        numbers = py::module_::import("numpy").attr("asarray")(value);
+    } catch (py::error_already_set& fault) {
+        if (!fault.matches(PyExc_ValueError)) {
+            throw;
+        }
+        refuse_type(place, value, wanted); // rows of unequal lengths
+    }
+    if (numbers.size() == 0) {
+        return py::array(type, count > 1 ? std::vector<py::ssize_t>{0, static_cast<py::ssize_t>(count)} : std::vector<py::ssize_t>{0});
+    }
+    bool const has_shape = count > 1 ? numbers.ndim() == 2 && numbers.shape(1) == static_cast<py::ssize_t>(count)
+                                     : numbers.ndim() == 1;
+    char const kind = numbers.dtype().kind();
+    bool const is_real = type.kind() == 'f';
+    if (!has_shape || !(kind == 'i' || kind == 'u' || kind == 'b' || (is_real && kind == 'f'))) {
+        refuse_type(place, value, wanted + (is_real ? "" : " that are whole"));
+    }
+    py::object const numpy = py::module_::import("numpy");
+    if (!is_real && kind != 'b') {
+        py::object const range = numpy.attr("iinfo")(type);
+        if (numbers.attr("min")() < range.attr("min") || numbers.attr("max")() > range.attr("max")) {
+            refuse_type(place, value, fmt::format("numbers from {} to {}", std::string(py::str(range.attr("min"))),
+                                                  std::string(py::str(range.attr("max")))));
+        }
+    }
+    return numpy.attr("ascontiguousarray")(numbers, py::arg("dtype") = type);
+}
+
+std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py::dtype const& type) {
+    py::object const raster = from_package("thalweg._raster", "to_core")(value, type, place.name);
+    auto values = py::cast<py::array>(raster.attr("values"));
+    Grid grid = raster.attr("grid").cast<Grid>();
+    bool const fits = values.ndim() == 2 && values.dtype().is(type) && (values.flags() & py::array::c_style) != 0;
+    if (!fits && !(values.ndim() == 2 && values.dtype().equal(type) && (values.flags() & py::array::c_style) != 0)) {
+        refuse_type(place, value, "a raster");
+    }
+    if (values.shape(0) != grid.height || values.shape(1) != grid.width) {
+        throw BadInput(fmt::format("{}: {} has {} x {} values, and its grid {} x {} cells", place.function, place.name,
+                                   values.shape(1), values.shape(0), grid.width, grid.height));
+    }
+    return {std::move(values), std::move(grid)};
+}
+
+std::shared_ptr<void const> kept_alive(py::object object) {
+    PyObject* const pointer = object.release().ptr();
+    return {pointer, [](void const* kept) {
+                if (Py_IsInitialized() != 0) {
+                    py::gil_scoped_acquire const held;
+                    Py_DECREF(static_cast<PyObject*>(const_cast<void*>(kept)));
+                }
+            }};
+}
+
+std::vector<py::object> take_list(py::handle value, Place const& place) {
+    if (py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value) || py::isinstance<py::dict>(value) ||
+        !py::isinstance<py::iterable>(value)) {
+        refuse_type(place, value, "a list");
+    }
+    std::vector<py::object> list;
+    for (py::handle const one : value) {
+        list.push_back(py::reinterpret_borrow<py::object>(one));
+    }
+    return list;
+}
+
+py::dict take_dict(py::handle value, Place const& place) {
+    if (!py::isinstance<py::dict>(value)) {
+        refuse_type(place, value, "a dictionary");
+    }
+    return py::reinterpret_borrow<py::dict>(value);
+}
+
+Args::Args(std::string function, py::args positional, py::kwargs named)
+    : function_(std::move(function)), positional_(std::move(positional)), named_(std::move(named)) {}
+
+py::handle Args::peek(std::size_t position, char const* name) const {
+    if (position < positional_.size()) {
+        return py::handle(PyTuple_GetItem(positional_.ptr(), static_cast<py::ssize_t>(position)));
+    }
+    return py::handle(PyDict_GetItemString(named_.ptr(), name));
+}
+
+std::size_t Args::choose(std::vector<Form> const& forms) {
+    auto const binds = [&](Form const& form) {
+        if (positional_.size() > form.parameters.size()) {
+            return false;
+        }
+        for (std::size_t i = 0; i < form.required; ++i) {
+            if (!peek(i, form.parameters[i])) {
+                return false;
+            }
+        }
+        return !form.types || form.types(*this);
+    };
+    auto const knows_all = [&](Form const& form) {
+        return std::all_of(named_.begin(), named_.end(), [&](auto const& given) {
+            std::string const name = given.first.template cast<std::string>();
+            auto const is_in = [&](auto const& names) {
+                return std::any_of(names.begin(), names.end(), [&](char const* one) { return name == one; });
+            };
+            return is_in(form.parameters) || is_in(form.keywords) || (form.runs && is_in(run_names));
+        });
+    };
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+        if (binds(forms[i]) && knows_all(forms[i])) {
+            return i;
+        }
+    }
+    for (std::size_t i = 0; i < forms.size(); ++i) {
+        if (binds(forms[i])) {
+            return i;
+        }
+    }
+    return 0;
+}
+
+py::handle Args::next(char const* name) {
+    asked_.emplace_back(name);
+    py::handle const by_name(PyDict_GetItemString(named_.ptr(), name));
+    if (next_ < positional_.size()) {
+        py::handle const value(PyTuple_GetItem(positional_.ptr(), static_cast<py::ssize_t>(next_++)));
+        if (by_name) {
+            raise(PyExc_TypeError, fmt::format("{}: {} is given twice", function_, name));
+        }
+        return value;
+    }
+    return by_name;
+}
+
+py::handle Args::required(char const* name) {
+    py::handle const value = next(name);
+    if (!value) {
+        raise(PyExc_TypeError, fmt::format("{}: {} is missing", function_, name));
+    }
+    return value;
+}
+
+py::handle Args::named(char const* name) {
+    asked_.emplace_back(name);
+    return py::handle(PyDict_GetItemString(named_.ptr(), name));
+}
+
+py::handle Args::required_by_name(char const* name) {
+    py::handle const value = named(name);
+    if (!value) {
+        raise(PyExc_TypeError, fmt::format("{}: {} is missing; it has no default: give {}=...", function_, name, name));
+    }
+    return value;
+}
+
+void Args::done() const {
+    if (next_ < positional_.size()) {
+        raise(PyExc_TypeError, fmt::format("{}: {} arguments are given without their names, and it takes {}; name the others",
+                                           function_, positional_.size(), next_));
+    }
+    for (auto const& [key, value] : named_) {
+        auto const name = key.cast<std::string>();
+        if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
+            raise(PyExc_TypeError, fmt::format("{}: there is no argument '{}'.{}", function_, name, did_you_mean(name, asked_)));
+        }
+    }
+}
+
+namespace {
+
+/// What a stage calls back, in its own threads.
+struct Callbacks {
+    py::object progress;
+    py::object log;
+    std::stop_source stop;
+    std::mutex guard;
+    std::exception_ptr fault; ///< the first that a function of Python raised
+
+    /// \return false: it raised
+    bool calls(std::function<void()> const& call) {
+        py::gil_scoped_acquire const held;
+        try {
+            call();
+            return true;
+        } catch (...) {
+            std::lock_guard const lock(guard);
+            if (!fault) {
+                fault = std::current_exception();
+            }
+            stop.request_stop();
+            return false;
+        }
+    }
+};
+
+int tell_progress(double share, char const* what, void* callbacks) {
+    auto& all = *static_cast<Callbacks*>(callbacks);
+    return all.calls([&] { all.progress(share, what); }) ? 1 : 0;
+}
+
+} // namespace
+
+void Args::work(std::function<void(Run const&)> const& stage) {
+    Callbacks callbacks;
+    Run run;
+    option("threads", run.threads);
+    if (run.threads < 0 || run.threads > 1024) {
+        throw BadParameter(fmt::format("{}: threads is {}; it must be from 0 to 1024, 0 for every core", function_, run.threads));
+    }
+    if (py::handle const device = named("device")) {
+        static constexpr std::array<char const*, 2> devices = {"cpu", "opencl"};
+        run.device = static_cast<Device>(take_word(device, place("device"), devices));
+    }
+    if (py::handle const progress = named("progress"); progress && !progress.is_none()) {
+        callbacks.progress = from_package("thalweg._show", "progress_of")(progress);
+        if (!callbacks.progress.is_none()) {
+            run.progress = tell_progress;
+            run.progress_arg = &callbacks;
+        }
+    }
+    if (py::handle const log = named("log"); log && !log.is_none()) {
+        if (PyCallable_Check(log.ptr()) == 0) {
+            refuse_type(place("log"), log, "a function that takes a line of text, or None");
+        }
+        callbacks.log = py::reinterpret_borrow<py::object>(log);
+        run.log = [&callbacks](std::string_view line) { callbacks.calls([&] { callbacks.log(text_of(line)); }); };
+    }
+    done();
+    run.stop = callbacks.stop.get_token();
+
+    std::exception_ptr fault;
+    std::exception_ptr interrupted;
+    {
+        py::gil_scoped_release const others;
+        std::mutex guard;
+        std::condition_variable ended;
+        bool has_ended = false;
+        std::thread worker([&] {
+            try {
+                stage(run);
+            } catch (...) {
+                fault = std::current_exception();
+            }
+            std::lock_guard const lock(guard);
+            has_ended = true;
+            ended.notify_one();
+        });
+        std::unique_lock lock(guard);
+        while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return has_ended; })) {
+            lock.unlock();
+            {
+                py::gil_scoped_acquire const held;
+                if (PyErr_CheckSignals() != 0 && !interrupted) {
+                    interrupted = std::make_exception_ptr(py::error_already_set());
+                    callbacks.stop.request_stop();
+                }
+            }
+            lock.lock();
+        }
+        lock.unlock();
+        worker.join();
+    }
+    for (std::exception_ptr const& one : {interrupted, callbacks.fault, fault}) {
+        if (one) {
+            std::rethrow_exception(one);
+        }
+    }
+}
+
+void add_function(py::handle module, char const* name, char const* words, Call call) {
+    std::string const function = module.attr("__name__").cast<std::string>();
+    std::string const space = function.substr(function.rfind('.') + 1);
+    std::string const where = space == "_core" ? name : space + "." + name;
+    module.attr(name) = py::cpp_function(
+        [call, where](py::args positional, py::kwargs named) {
+            Args in(where, std::move(positional), std::move(named));
+            return call(in);
+        },
+        py::name(name), py::scope(module), py::doc(words));
+}
+
+void add_method(py::handle type, char const* name, char const* words, py::object (*call)(py::object const&, py::args, py::kwargs)) {
+    type.attr(name) = py::cpp_function(call, py::name(name), py::is_method(type), py::scope(type), py::doc(words));
+}
+
+void add_getter(py::handle type, char const* name, char const* words, Getter getter) {
+    static py::handle const property = reinterpret_cast<PyObject*>(&PyProperty_Type);
+    type.attr(name) = property(py::cpp_function(getter, py::is_method(type)), py::none(), py::none(), py::str(words));
+}
+
+void add_init(py::handle type, char const* words, void* (*make)(Args&)) {
+    auto const name = type.attr("__name__").cast<std::string>();
+    type.attr("__init__") = py::cpp_function(
+        [make, name](py::detail::value_and_holder& place, py::args positional, py::kwargs named) {
+            Args in(name, std::move(positional), std::move(named));
+            place.value_ptr() = make(in);
+        },
+        py::name("__init__"), py::is_method(type), py::scope(type), py::detail::is_new_style_constructor(), py::doc(words));
+}
+
+namespace {
+
+py::object repr_of(py::object const& self) {
+    std::string text = py::type::of(self).attr("__qualname__").cast<std::string>() + "(";
+    bool is_first = true;
+    for (py::handle const field : py::type::of(self).attr("_fields")) {
+        text += (is_first ? "" : ", ") + field.cast<std::string>() + "=" + shown(self.attr(field));
+        is_first = false;
+    }
+    return py::str(text + ")");
+}
+
+/// Records, also in lists, as dictionaries.
+py::object plain(py::handle value) {
+    if (py::hasattr(py::type::of(value), "_fields")) {
+        return value.attr("as_dict")();
+    }
+    if (py::isinstance<py::list>(value) || py::isinstance<py::tuple>(value)) {
+        py::list list;
+        for (py::handle const one : value) {
+            list.append(plain(one));
+        }
+        return list;
+    }
+    return py::reinterpret_borrow<py::object>(value);
+}
+
+py::object dict_of_fields(py::object const& self) {
+    py::dict dict;
+    for (py::handle const field : py::type::of(self).attr("_fields")) {
+        dict[field] = plain(self.attr(field));
+    }
+    return dict;
+}
+
+} // namespace
+
+void finish_record(py::handle type, std::initializer_list<char const*> fields) {
+    py::tuple names(fields.size());
+    std::size_t number = 0;
+    for (char const* const field : fields) {
+        names[number++] = py::str(field);
+    }
+    type.attr("_fields") = names;
+    type.attr("__repr__") = py::cpp_function(repr_of, py::name("__repr__"), py::is_method(type), py::scope(type));
+    type.attr("as_dict") =
+        py::cpp_function(dict_of_fields, py::name("as_dict"), py::is_method(type), py::scope(type),
+                         py::doc("as_dict($self)\n--\n\nGives the fields as a dictionary, records in them too.\n\nReturns\n-------\ndict[str, Any]\n"));
+}
+
+} // namespace thalweg::python

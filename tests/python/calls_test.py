@@ -1,0 +1,253 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Calls of the library: what they take, what they say of nonsense, how they stop, what they leave in memory."""
+import gc
+import os
+import pathlib
+import resource
+import signal
+import subprocess
+import sys
+import textwrap
+import threading
+import time
+import unittest
+import warnings
+
+import numpy as np
+
+import thalweg
+
+
+def valley(side=64):
+    """A river along the middle row."""
+    z = np.full((side, side), np.nan, np.float32)
+    z[side // 2] = np.linspace(100, 50, side, dtype=np.float32)
+    return z
+
+
+def resident_bytes():
+    pages = int(pathlib.Path("/proc/self/statm").read_text(encoding="ascii").split()[1])
+    return pages * resource.getpagesize()
+
+
+def in_a_process(program, *, signal_after=None, environment=None):
+    """Runs a program of Python in a process of its own: exit code, what it said, seconds since the signal."""
+    process = subprocess.Popen([sys.executable, "-c", textwrap.dedent(program)], stdout=subprocess.PIPE, stderr=subprocess.STDOUT,
+                               text=True, env={**os.environ, **(environment or {})})
+    sent = None
+    if signal_after is not None:
+        assert process.stdout.readline() == "begins\n"
+        time.sleep(signal_after)
+        sent = time.monotonic()
+        process.send_signal(signal.SIGINT)
+    said, _ = process.communicate(timeout=300)
+    return process.returncode, said, None if sent is None else time.monotonic() - sent
+
+
+class Arguments(unittest.TestCase):
+    def test_results_are_arrays_that_keep_their_owner(self):
+        cells = thalweg.network.grow_dla(particles=500).cells
+        gc.collect()
+        self.assertEqual(cells.shape, (500, 2))
+        self.assertFalse(cells.flags.writeable)
+        self.assertEqual(len(np.unique(cells, axis=0)), 500)
+        dem = thalweg.surface.dilate(valley()).dem.values
+        gc.collect()
+        self.assertFalse(dem.flags.writeable)
+        self.assertTrue(np.isfinite(dem).all())
+        with self.assertRaises(ValueError):
+            dem[0, 0] = 1
+
+    def test_a_raster_given_is_read_where_it_lies(self):
+        big = np.zeros((4096, 4096), np.float32)
+        big[2048] = 1.0
+        raster = thalweg.Raster(big)
+        thalweg.measure.local_extremes(raster)
+        before = resident_bytes()
+        for _ in range(3):
+            held = thalweg.Valley(raster)
+            self.assertTrue(np.shares_memory(held.z.values, big))
+            thalweg.measure.local_extremes(raster)
+        self.assertLess(resident_bytes() - before, big.nbytes / 8)
+
+    def test_what_a_stage_changes_is_its_own(self):
+        z = valley()
+        before = z.copy()
+        shifted = thalweg.skeleton.shift_mean(np.nan_to_num(z, nan=10.0).astype(np.float32), mean=7.0)
+        conditioned = thalweg.flow.condition(thalweg.surface.dilate(z).dem, z)
+        self.assertAlmostEqual(float(shifted.values.mean(dtype=float)), 7.0, places=4)
+        self.assertEqual(conditioned.dem.shape, z.shape)
+        np.testing.assert_array_equal(z, before)
+
+    def test_every_way_to_give_a_record(self):
+        grid = thalweg.Grid(30, 20, 10.0)
+        self.assertEqual(thalweg.Grid(width=30, height=20, cell_m=10.0).as_dict(), grid.as_dict())
+        by_dict = thalweg.network.outline({"width": 30, "height": 20, "cell_m": 10.0})
+        np.testing.assert_array_equal(by_dict, thalweg.network.outline(grid))
+        nested = thalweg.surface.dilate(valley(), increment={"increment": "uniform"}, metric="euclid")
+        self.assertGreater(nested.rise_m, 0)
+
+    def test_overloads_by_position_and_by_name(self):
+        inside = np.ones((64, 64), bool)
+        inside[:8] = False
+        for dem in (thalweg.surface.diffuse(valley(), inside).dem, thalweg.surface.diffuse(valley(), inside=inside).dem):
+            self.assertTrue(np.isnan(dem.values[:8]).all() and np.isfinite(dem.values[8:]).all())
+        lines = thalweg.RiverLines(lines=[{"feature": 1, "vertices": [[-5.0, 5.0, 0.0], [5.0, 5.0, 0.0]]}], name="one")
+        self.assertEqual(len(thalweg.network.clip_lines(lines, thalweg.Grid(10, 10, 1.0, 0.0, 10.0)).lines), 1)
+        self.assertEqual(len(thalweg.network.clip_lines(lines, land=np.ones((10, 10), np.uint8)).lines), 1)
+
+    def test_a_function_of_python_as_increment(self):
+        given = thalweg.surface.increments(5, function=lambda x: 2.0 * x)
+        np.testing.assert_allclose(given, [2, 4, 6, 8, 10])
+
+        def fails(_):
+            raise RuntimeError("from within")
+        with self.assertRaisesRegex(RuntimeError, "from within"):
+            thalweg.surface.dilate(valley(), increment={"function": fails})
+
+    def test_nonsense_is_refused_in_words(self):
+        net = thalweg.StreamNetwork([[0.0, 0.0], [100.0, 0.0]], [0], [1])
+        cases = [
+            (lambda: thalweg.surface.diffuse(), TypeError, "surface.diffuse: skeleton is missing"),
+            (lambda: thalweg.surface.diffuse(valley(), tolerence=1e-3), TypeError,
+             "there is no argument 'tolerence'. Did you mean 'tolerance'?"),
+            (lambda: thalweg.surface.diffuse(valley(), mode="stedy"), thalweg.BadParameter, "Did you mean 'steady'?"),
+            (lambda: thalweg.surface.diffuse(valley(), mode=3), TypeError, "mode is 3; it must be one of 'steady'"),
+            (lambda: thalweg.surface.diffuse(valley(), sigma_cells="x"), TypeError, "sigma_cells is 'x'; it must be a number"),
+            (lambda: thalweg.surface.diffuse(valley(), passes=1.5), TypeError, "passes is 1.5; it must be a whole number"),
+            (lambda: thalweg.surface.diffuse(valley(), passes=2**40), TypeError, "from -2147483648 to 2147483647"),
+            (lambda: thalweg.surface.diffuse(valley(), sigma_cells=-1), thalweg.BadParameter, "it must be between 0 and 100"),
+            (lambda: thalweg.surface.diffuse(valley(), valley(), 3, 4), TypeError, "arguments are given without their names"),
+            (lambda: thalweg.surface.diffuse(valley(), threads=-1), thalweg.BadParameter, "threads is -1"),
+            (lambda: thalweg.surface.diffuse(valley(), log=3), TypeError, "log is 3; it must be a function"),
+            (lambda: thalweg.surface.diffuse(valley(), device="gpu"), thalweg.BadParameter, "it must be one of cpu, opencl"),
+            (lambda: thalweg.surface.diffuse(valley()[:, :, None]), thalweg.BadInput, "2"),
+            (lambda: thalweg.surface.diffuse(np.full((4, 4), np.nan, np.float32)), thalweg.BadInput, "river|skeleton|cell"),
+            (lambda: thalweg.surface.diffuse("no such.tif"), thalweg.BadInput, "no such.tif"),
+            (lambda: thalweg.flow.route(np.full((3, 3), np.inf, np.float32)), thalweg.BadInput, "infinite"),
+            (lambda: thalweg.network.prune(net), TypeError, "length_m is missing; it has no default"),
+            (lambda: thalweg.network.prune(3, length_m=1, cell_m=1), TypeError, "network is 3; it must be a StreamNetwork"),
+            (lambda: thalweg.StreamNetwork([[0, 0], [1, 1]], [0], [7]), thalweg.BadInput, "names node 7, and there are 2"),
+            (lambda: thalweg.StreamNetwork([[0, 0, 1]], [], []), TypeError, r"shape \(n, 2\)"),
+            (lambda: thalweg.StreamNetwork([[0, 0], [1, 1]], [0], [1], lines=[]), thalweg.BadInput, "lines has 0 entries"),
+            (lambda: thalweg.Tin([[0, 0, 0]], [[0, 1, -1]]), TypeError, "numbers from 0 to 4294967295"),
+            (lambda: thalweg.Tin([[0, 0, 0]], [[0, 1, 0.5]]), TypeError, "that are whole"),
+            (lambda: thalweg.Tin([[0, 0], [1, 2, 3]], []), TypeError, "an array of numbers"),
+            (lambda: thalweg.surface.rasterise_tin(thalweg.Tin([[0, 0, 0], [1, 0, 0], [0, 1, 0]], [[0, 1, 7]]), thalweg.Grid(2, 2)),
+             thalweg.BadInput, "vertex"),
+            (lambda: thalweg.Grid(1, 2, 3, 4, 5, "", 7), TypeError, "7 arguments are given"),
+            (lambda: thalweg.Grid(width=1, widht=2), TypeError, "Did you mean 'width'?"),
+            (lambda: thalweg.network.grow_dla(seed=2**70), TypeError, "seed"),
+            (lambda: thalweg.measure.perched(valley(), [64 * 64], rise_m=1.0), thalweg.BadInput, "outside"),
+        ]
+        for call, kind, words in cases:
+            with self.subTest(words), self.assertRaisesRegex(kind, words):
+                call()
+
+    def test_errors_name_their_function(self):
+        with self.assertRaises(thalweg.BadParameter) as caught:
+            thalweg.surface.diffuse(valley(), sigma_cells=-1)
+        self.assertEqual(caught.exception.where, "surface.diffuse")
+        self.assertIsInstance(caught.exception, ValueError)
+        self.assertIsInstance(caught.exception, thalweg.Error)
+        with self.assertRaises(OSError):
+            thalweg.io.write_dem(valley(), "/no/such/folder/dem.tif")
+
+    def test_the_grid_must_fit(self):
+        with self.assertRaisesRegex(thalweg.Error, "grid|frame"):
+            thalweg.surface.diffuse(valley(), np.ones((64, 60), np.uint8))
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            with self.assertRaises(thalweg.ConversionWarning):
+                thalweg.flow.route(np.zeros((4, 4)))
+
+
+class Running(unittest.TestCase):
+    def test_progress_and_log_are_called(self):
+        shares, lines = [], []
+        thalweg.make({"grid": {"width": 128, "height": 128}}, progress=lambda share, stage: shares.append((share, stage)), log=lines.append)
+        self.assertTrue(all(0 <= share <= 1 for share, _ in shares))
+        self.assertGreater(len({stage for _, stage in shares}), 2)
+        self.assertTrue(any("network" in line or "rivers" in line or "grid" in line for line in lines), lines)
+
+    def test_what_a_callback_raises_comes_out(self):
+        def stop(_share, _stage):
+            raise LookupError("enough")
+        with self.assertRaisesRegex(LookupError, "enough"):
+            thalweg.make({"grid": {"width": 256, "height": 256}}, progress=stop)
+        with self.assertRaisesRegex(ZeroDivisionError, "division"):
+            thalweg.make({"grid": {"width": 256, "height": 256}}, log=lambda line: 1 / 0)
+
+    def test_ctrl_c_stops_within_a_second(self):
+        for name, work in {
+            "equilibrium": "thalweg.make({'grid': {'width': 4096, 'height': 4096}})",
+            "cluster": "thalweg.network.grow_dla(particles=5000000)",
+            "statistics": "thalweg.make({'grid': {'width': 2048, 'height': 2048}, 'statistics': {'std': 100.0, 'slope': 0.3}})",
+            "diffusion": "thalweg.surface.diffuse(z, mode='explicit_sweeps', iterations=10**9)",
+        }.items():
+            with self.subTest(name):
+                code, said, seconds = in_a_process(f"""
+                    import numpy as np, thalweg
+                    z = np.full((512, 512), np.nan, np.float32)
+                    z[100] = 1
+                    z[300] = 2
+                    print("begins", flush=True)
+                    try:
+                        {work}
+                    except KeyboardInterrupt:
+                        print("stopped")
+                    """, signal_after=1.0)
+                self.assertEqual((code, said), (0, "stopped\n"))
+                self.assertLess(seconds, 1.0 if os.getloadavg()[0] < 2 else 3.0)
+
+    def test_two_threads_make_at_once(self):
+        made = {}
+
+        def make(seed):
+            made[seed] = thalweg.make({"grid": {"width": 192, "height": 192}}, seed=seed, threads=1).dem.values
+
+        threads = [threading.Thread(target=make, args=(seed,)) for seed in (1, 2, 3)]
+        for thread in threads:
+            thread.start()
+        for thread in threads:
+            thread.join()
+        for seed, dem in made.items():
+            alone = thalweg.make({"grid": {"width": 192, "height": 192}}, seed=seed).dem.values
+            np.testing.assert_array_equal(dem, alone)
+
+    def test_other_threads_go_on_meanwhile(self):
+        counted = [0]
+        ended = threading.Event()
+
+        def count():
+            while not ended.is_set():
+                counted[0] += 1
+                time.sleep(0.001)
+
+        thread = threading.Thread(target=count)
+        thread.start()
+        begin = time.monotonic()
+        thalweg.network.grow_dla(particles=60000)
+        seconds = time.monotonic() - begin
+        ended.set()
+        thread.join()
+        self.assertGreater(counted[0], 50 * seconds)
+
+    def test_makes_leave_nothing(self):
+        def make(seed):
+            thalweg.make({"grid": {"width": 64, "height": 64}}, seed=seed, threads=1)
+
+        for seed in range(20):
+            make(seed)
+        gc.collect()
+        before, open_before = resident_bytes(), len(os.listdir("/proc/self/fd"))
+        for seed in range(100):
+            make(seed)
+        gc.collect()
+        self.assertLess(resident_bytes() - before, 8 << 20)
+        self.assertEqual(len(os.listdir("/proc/self/fd")), open_before)
+
+
+if __name__ == "__main__":
+    unittest.main()
