@@ -1,0 +1,196 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks for GeoPandas and NetworkX, and river files from GeoPandas."""
+from __future__ import annotations
+
+import os
+import tempfile
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from thalweg import _core
+from thalweg._show import bad_input, need
+
+if TYPE_CHECKING:
+    import geopandas
+    import networkx
+
+    from thalweg._terrain import Terrain
+
+LINES = {"LineString", "MultiLineString"}
+# Columns of write_geopackage that a network without heights does not have.
+OF_HEIGHTS = ["length_3d", "z_up", "z_down", "slope", "z"]
+
+
+class Parts(NamedTuple):
+    """A network and what is known beside it."""
+
+    planform: _core.StreamNetwork
+    elevated: _core.ElevatedNetwork | None
+    orders: _core.NetworkOrders | None
+    areas: _core.flow.ContributingAreas | None
+    crs: str
+
+
+def parts_of(network: object) -> Parts:
+    """Return the parts of a StreamNetwork, an ElevatedNetwork or a Terrain.
+
+    Raises
+    ------
+    BadInput
+        When a terrain has no rivers.
+    TypeError
+        For anything else.
+    """
+    if isinstance(network, _core.StreamNetwork):
+        return Parts(network, None, None, None, "")
+    if isinstance(network, _core.ElevatedNetwork):
+        return Parts(network.planform, network, None, None, "")
+    made = getattr(network, "made", None)
+    if made is None:
+        raise TypeError(f"takes a StreamNetwork, an ElevatedNetwork or a Terrain, not {type(network).__name__}")
+    rivers = made.terrain.rivers
+    if not rivers.network.planform.arc_count:
+        raise bad_input("Terrain", "the terrain has no rivers: its recipe has no [network]")
+    return Parts(rivers.network.planform, rivers.network, rivers.orders, made.terrain.areas, made.terrain.grid.crs)
+
+
+def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain, layer: str = "arcs", *,
+                    crs: str | None = None) -> geopandas.GeoDataFrame:
+    """Return the arcs or nodes of a network as a table.
+
+    Parameters
+    ----------
+    network : StreamNetwork, ElevatedNetwork or Terrain
+        A forest, as all stages return.
+    layer : {"arcs", "nodes"}, default "arcs"
+        Which of both.
+    crs : str, optional
+        "EPSG:n" or WKT. Left out: that of a terrain, else none.
+
+    Returns
+    -------
+    geopandas.GeoDataFrame
+        The columns of this layer of network.gpkg, which `thalweg make` writes (docs/interchange.md). Contributing areas are
+        known of a terrain, and else -1. A StreamNetwork has no heights: geometries are in plan, columns of heights missing.
+
+    Raises
+    ------
+    BadParameter
+        For another layer.
+    BadInput
+        When two arcs leave a node or arcs form a cycle, or a terrain has no rivers.
+    ImportError
+        Without geopandas.
+    """
+    read_file = need("geopandas", "python3-geopandas").read_file
+    if layer not in ("arcs", "nodes"):
+        raise _core.BadParameter(f"layer = {layer!r}: write arcs or nodes")
+    parts = parts_of(network)
+    net = parts.planform
+    flat_z = [np.zeros(len(line)) for line in net.lines]
+    elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "network.gpkg")
+        _core.io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=parts.crs if crs is None else crs)
+        frame = read_file(path, layer=layer)
+    if parts.elevated is None:
+        geometry = need("shapely.geometry", "python3-shapely")
+        flat = map(geometry.LineString, net.lines) if layer == "arcs" else map(geometry.Point, net.nodes)
+        frame = frame.drop(columns=OF_HEIGHTS, errors="ignore").set_geometry(list(flat), crs=frame.crs)
+    table: geopandas.GeoDataFrame = frame
+    return table
+
+
+def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain) -> networkx.DiGraph:
+    """Return a network as a graph, directed downstream.
+
+    Parameters
+    ----------
+    network : StreamNetwork, ElevatedNetwork or Terrain
+        A forest, as all stages return.
+
+    Returns
+    -------
+    networkx.DiGraph
+        Nodes 0, 1, ... in the network's order, with x, y and, where the network has heights, z [m]. Edges with arc (the
+        number of the arc), length_m [m], strahler, and line [m]: its vertices downstream, ndarray, shape (k, 2) or (k, 3).
+
+    Raises
+    ------
+    BadInput
+        When two arcs leave a node or arcs form a cycle, or a terrain has no rivers.
+    ImportError
+        Without networkx.
+    """
+    nx = need("networkx", "python3-networkx")
+    parts = parts_of(network)
+    net = parts.planform
+    orders = parts.orders or _core.network.order(net)
+    graph: networkx.DiGraph = nx.DiGraph()
+    for node, (x, y) in enumerate(net.nodes.tolist()):
+        graph.add_node(node, x=x, y=y)
+    lines = list(net.lines)
+    if parts.elevated is not None:
+        nx.set_node_attributes(graph, dict(enumerate(parts.elevated.node_z.tolist())), "z")
+        lines = [np.column_stack([line, z]) for line, z in zip(lines, parts.elevated.arc_z)]
+    ends = zip(net.from_nodes.tolist(), net.to_nodes.tolist())
+    for arc, ((up, down), length, order) in enumerate(zip(ends, net.length_m.tolist(), np.asarray(orders.strahler).tolist())):
+        graph.add_edge(up, down, arc=arc, length_m=length, strahler=order, line=lines[arc])
+    return graph
+
+
+class TemporaryPath(str):
+    """The name of a file that is deleted with it."""
+
+    folder: tempfile.TemporaryDirectory[str]
+
+
+def is_table(thing: object) -> bool:
+    """Return whether a value is a GeoDataFrame or GeoSeries."""
+    return type(thing).__module__.split(".")[0] == "geopandas" and hasattr(thing, "to_file")
+
+
+def lines_from(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> TemporaryPath:
+    """Write lines as a river file.
+
+    Parameters
+    ----------
+    frame : GeoDataFrame or GeoSeries
+        Lines with a CRS; rows of other geometries are the reader's to refuse or leave out.
+
+    Returns
+    -------
+    TemporaryPath
+        A GeoPackage with the columns of the table, which is deleted with its name.
+
+    Raises
+    ------
+    BadInput
+        When there are no rows, no lines, or no CRS.
+    """
+    if len(frame) == 0:
+        raise bad_input("rivers", "rivers: the table is empty")
+    kinds = set(frame.geometry.geom_type.dropna())
+    if not kinds & LINES:
+        raise bad_input("rivers", f"rivers: no lines in the table, but {', '.join(sorted(kinds)) or 'no geometry'}")
+    if frame.crs is None:
+        raise bad_input("rivers", "rivers: the table has no CRS: set it, as .set_crs(\"EPSG:32610\") does")
+    return table_file(frame, "rivers")
+
+
+def table_file(frame: geopandas.GeoDataFrame | geopandas.GeoSeries, name: str) -> TemporaryPath:
+    """Write a table as the GeoPackage NAME.gpkg, which is deleted with its name."""
+    path = temporary_path(f"{name}.gpkg")
+    table: Any = frame.to_frame("geometry") if not hasattr(frame, "columns") else frame
+    table.to_file(path, driver="GPKG", layer=name)
+    return path
+
+
+def temporary_path(name: str) -> TemporaryPath:
+    """Return a file name in a new folder, which is deleted with it."""
+    folder = tempfile.TemporaryDirectory(prefix="thalweg-")
+    path = TemporaryPath(os.path.join(folder.name, name))
+    path.folder = folder
+    return path
