@@ -4,7 +4,9 @@
 from __future__ import annotations
 
 import os
+import shutil
 import tempfile
+import weakref
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
@@ -84,22 +86,26 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terra
     ImportError
         Without geopandas.
     """
-    read_file = need("geopandas", "python3-geopandas").read_file
+    gpd = need("geopandas", "python3-geopandas")
     if layer not in ("arcs", "nodes"):
         raise _core.BadParameter(f"layer = {layer!r}: write arcs or nodes")
     parts = parts_of(network)
     net = parts.planform
+    named = parts.crs if crs is None else crs
     flat_z = [np.zeros(len(line)) for line in net.lines]
     elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "network.gpkg")
-        _core.io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=parts.crs if crs is None else crs)
-        frame = read_file(path, layer=layer)
+        _core.io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
+        frame = gpd.read_file(path, layer=layer)
+    shapes = list(frame.geometry)
+    columns = frame.drop(columns=[frame.geometry.name])
     if parts.elevated is None:
-        geometry = need("shapely.geometry", "python3-shapely")
-        flat = map(geometry.LineString, net.lines) if layer == "arcs" else map(geometry.Point, net.nodes)
-        frame = frame.drop(columns=OF_HEIGHTS, errors="ignore").set_geometry(list(flat), crs=frame.crs)
-    table: geopandas.GeoDataFrame = frame
+        shape = need("shapely.geometry", "python3-shapely")
+        shapes = [shape.LineString(line) for line in net.lines] if layer == "arcs" else [shape.Point(node) for node in net.nodes]
+        columns = columns.drop(columns=OF_HEIGHTS, errors="ignore")
+    # GeoPackages have a CRS that stands for none.
+    table: geopandas.GeoDataFrame = gpd.GeoDataFrame(columns, geometry=shapes, crs=frame.crs if named else None)
     return table
 
 
@@ -142,9 +148,7 @@ def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain) 
 
 
 class TemporaryPath(str):
-    """The name of a file that is deleted with it."""
-
-    folder: tempfile.TemporaryDirectory[str]
+    """The name of a file that is deleted with it; others get str() of it, as some keep what they were given."""
 
 
 def is_table(thing: object) -> bool:
@@ -184,13 +188,13 @@ def table_file(frame: geopandas.GeoDataFrame | geopandas.GeoSeries, name: str) -
     """Write a table as the GeoPackage NAME.gpkg, which is deleted with its name."""
     path = temporary_path(f"{name}.gpkg")
     table: Any = frame.to_frame("geometry") if not hasattr(frame, "columns") else frame
-    table.to_file(path, driver="GPKG", layer=name)
+    table.to_file(str(path), driver="GPKG", layer=name)
     return path
 
 
 def temporary_path(name: str) -> TemporaryPath:
     """Return a file name in a new folder, which is deleted with it."""
-    folder = tempfile.TemporaryDirectory(prefix="thalweg-")
-    path = TemporaryPath(os.path.join(folder.name, name))
-    path.folder = folder
+    folder = tempfile.mkdtemp(prefix="thalweg-")
+    path = TemporaryPath(os.path.join(folder, name))
+    weakref.finalize(path, shutil.rmtree, folder, ignore_errors=True)
     return path

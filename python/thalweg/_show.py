@@ -64,7 +64,7 @@ def progress_of(progress: object) -> Callable[[float, str], None] | None:
     Returns
     -------
     callable or None
-        Takes the share of the work that is done, from 0 to 1, and the name of the stage.
+        Takes the share of a stage that is done, from 0 to 1, and its name.
 
     Raises
     ------
@@ -87,19 +87,27 @@ def _bar() -> Callable[[float, str], None] | None:
             from tqdm.auto import tqdm
     except ImportError:
         return None
-    bar = tqdm(total=100, bar_format="{desc:12} {percentage:3.0f}%|{bar}| {elapsed}")
+    bar = tqdm(total=100, leave=False, bar_format="{desc} {percentage:3.0f}%|{bar}| {elapsed}")
+    current = ""
 
     def show(share: float, stage: str) -> None:
-        bar.set_description_str(stage, refresh=False)
-        bar.update(max(0.0, 100.0 * share - bar.n))
-        if share >= 1.0:
-            bar.close()
+        nonlocal current
+        if _name_of(stage) != current:
+            current = _name_of(stage)
+            bar.reset()
+            bar.set_description_str(f"{current:10}", refresh=False)
+        bar.update(100.0 * share - bar.n)
 
     return show
 
 
 def _line(share: float, stage: str) -> None:
-    print(f"\r{stage:12} {100.0 * share:3.0f}%", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+    print(f"\r{_name_of(stage):10} {100.0 * share:3.0f}%", end="\n" if share >= 1.0 else "", file=sys.stderr, flush=True)
+
+
+def _name_of(stage: str) -> str:
+    """The name alone: once a stage announces its amount with it ("grow 100000 particles")."""
+    return stage.split(" ", 1)[0]
 
 
 def html_of(png: bytes | None, words: str) -> str:

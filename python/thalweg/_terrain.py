@@ -266,7 +266,8 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
     threads : int, default 0
         Number of threads; 0: as many as there are processors. Values do not depend on it.
     progress : callable or bool, optional
-        Called with the share done, from 0 to 1, and the stage; what it raises ends the work. True: a bar.
+        Called with the share of a stage that is done, from 0 to 1, and its name; what it raises ends the work. True: a bar
+        of tqdm, or lines on standard error where tqdm is not installed.
     log : callable, optional
         Called with each line of the log.
     device : {"cpu", "opencl"}, default "cpu"
@@ -385,7 +386,7 @@ def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> _core.pipe
     else:
         raise TypeError("make takes a recipe (dict, TOML or path), rivers (GeoDataFrame or path) or a DEM (Raster, array or "
                         f"path), not {type(recipe).__name__}")
-    return _core.pipeline.recipe_from(files[-1])
+    return _core.pipeline.recipe_from(str(files[-1]))
 
 
 def _is_raster(thing: object) -> bool:
@@ -393,9 +394,9 @@ def _is_raster(thing: object) -> bool:
     return isinstance(thing, (Raster, np.ndarray)) or (xr is not None and isinstance(thing, (xr.DataArray, xr.Dataset)))
 
 
-def _raster_file(thing: object, name: str) -> _networks.TemporaryPath:
-    path = _networks.temporary_path(f"{name}.tif")
-    _core.io.write_dem(to_core(thing, np.float32, name), path)
+def _raster_file(thing: object, what: str) -> _networks.TemporaryPath:
+    path = _networks.temporary_path(f"{what.replace('.', '_')}.tif")
+    _core.io.write_dem(to_core(thing, np.float32, what), str(path))
     return path
 
 
@@ -419,9 +420,11 @@ def _value_of(value: object, path: str, files: list[_networks.TemporaryPath]) ->
     if _networks.is_table(value):
         value = _networks.table_file(value, path.replace(".", "_"))
         files.append(value)
+        value = str(value)
     elif _is_raster(value):
-        value = _raster_file(value, path.replace(".", "_"))
+        value = _raster_file(value, path)
         files.append(value)
+        value = str(value)
     elif isinstance(value, os.PathLike):
         value = os.fspath(value)
     if isinstance(value, (bool, int, float, str)):
@@ -440,8 +443,8 @@ def _value_in_toml(value: Value) -> str:
     if isinstance(value, (int, float)):
         return repr(value)
     if isinstance(value, str):
-        # A basic string of TOML is JSON's but for this character; str() as a TemporaryPath is a str of another class.
-        return json.dumps(str(value), ensure_ascii=False).replace("\x7f", "\\u007f")
+        # A basic string of TOML is JSON's but for this character.
+        return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
     return "{}" if isinstance(value, dict) else f"[{', '.join(map(repr, value))}]"
 
 

@@ -34,7 +34,7 @@ class Confluence(unittest.TestCase):
             graph = network.to_networkx()
             self.assertIsInstance(graph, networkx.DiGraph)
             self.assertEqual(set(graph.edges), {(1, 3), (2, 3), (3, 0)})
-            self.assertEqual({node: (of["x"], of["y"]) for node, of in graph.nodes.items()}, dict(enumerate(map(tuple, NODES.tolist()))))
+            self.assertEqual([[of["x"], of["y"]] for _, of in sorted(graph.nodes.items())], NODES.tolist())
             self.assertEqual([graph.edges[edge]["strahler"] for edge in zip(FROM, TO)], [1, 1, 2])
             self.assertEqual([graph.edges[edge]["arc"] for edge in zip(FROM, TO)], [0, 1, 2])
             self.assertEqual(graph.edges[3, 0]["length_m"], 100.0)
@@ -105,9 +105,9 @@ class Files(unittest.TestCase):
     def test_a_river_file_lives_as_long_as_its_name(self):
         table = geopandas.read_file(pathlib.Path(__file__).parents[2] / "samples/walker_nhdplus.gpkg")
         path = lines_from(table)
-        name = str(path)[:]
-        self.assertEqual(len(geopandas.read_file(path)), len(table))
-        self.assertLessEqual(set(table.columns), set(geopandas.read_file(path).columns))
+        name = str(path)
+        written = geopandas.read_file(name)
+        self.assertEqual((len(written), list(written.columns)), (len(table), list(table.columns)))
         del path
         self.assertFalse(os.path.exists(name))
 
@@ -133,7 +133,7 @@ class WithoutPackages(unittest.TestCase):
         self.assertEqual(said, "[]\n")
 
     def test_modules_are_there_under_their_names(self):
-        code = "import thalweg.flow, thalweg.io as io; from thalweg.network import order; import thalweg; print(io is thalweg.io)"
+        code = "import thalweg.flow, thalweg.io as io; from thalweg.network import order; print(io is thalweg.io)"
         said = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout
         self.assertEqual(said, "True\n")
 
