@@ -23,27 +23,29 @@ import sys as _sys
 from typing import TYPE_CHECKING
 
 from thalweg import _core
-from thalweg._core import (BadInput, BadParameter, Cancelled, Error, IoError, NotConverged, blend, draw, flow, fractal,
-                           geometry, io, measure, network, pipeline, skeleton, surface)
-from thalweg._networks import to_geodataframe, to_networkx
-from thalweg._raster import ConversionWarning, Raster
-from thalweg._terrain import Terrain, forecast, make
 
 if TYPE_CHECKING:
+    from thalweg import (blend, draw, flow, fractal, geometry, io, measure, network, pipeline, skeleton, solver, surface)
     from thalweg._core import *
+    from thalweg._core import BadInput, BadParameter, Cancelled, Error, IoError, NotConverged
 
-__version__ = _core.version()
-__all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "NotConverged", "Raster",
-           "Terrain", "__version__", "blend", "draw", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
-           "network", "pipeline", "skeleton", "surface", "to_geodataframe", "to_networkx"]
-
+# The modules come first: the package itself imports them.
 for _name in _core.MODULES:
-    _sys.modules[f"{__name__}.{_name}"] = getattr(_core, _name)
+    globals()[_name] = _sys.modules[f"{__name__}.{_name}"] = getattr(_core, _name)
 for _name in _core.VALUES:
     globals()[_name] = getattr(_core, _name)
-    if _name not in __all__:
-        __all__.append(_name)
+
+from thalweg._networks import to_geodataframe, to_networkx  # noqa: E402
+from thalweg._raster import ConversionWarning, Raster  # noqa: E402
+from thalweg._terrain import Terrain, forecast, make  # noqa: E402
+
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
     setattr(_kind, "to_geodataframe", to_geodataframe)
     setattr(_kind, "to_networkx", to_networkx)
 del _kind, _name
+
+__version__ = _core.version()
+__all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "NotConverged", "Raster",
+           "Terrain", "__version__", "blend", "draw", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
+           "network", "pipeline", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
+__all__ += [name for name in _core.VALUES if name not in __all__]

@@ -11,7 +11,8 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from thalweg import _core
+from thalweg import _core, flow, io
+from thalweg import network as networks
 from thalweg._show import bad_input, need
 
 if TYPE_CHECKING:
@@ -31,7 +32,7 @@ class Parts(NamedTuple):
     planform: _core.StreamNetwork
     elevated: _core.ElevatedNetwork | None
     orders: _core.NetworkOrders | None
-    areas: _core.flow.ContributingAreas | None
+    areas: flow.ContributingAreas | None
     crs: str
 
 
@@ -96,13 +97,13 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terra
     elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "network.gpkg")
-        _core.io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
+        io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
         frame = gpd.read_file(path, layer=layer)
     shapes = list(frame.geometry)
     columns = frame.drop(columns=[frame.geometry.name])
     if parts.elevated is None:
         shape = need("shapely.geometry", "python3-shapely")
-        shapes = [shape.LineString(line) for line in net.lines] if layer == "arcs" else [shape.Point(node) for node in net.nodes]
+        shapes = list(map(shape.LineString, net.lines) if layer == "arcs" else map(shape.Point, net.nodes))
         columns = columns.drop(columns=OF_HEIGHTS, errors="ignore")
     # GeoPackages have a CRS that stands for none.
     table: geopandas.GeoDataFrame = gpd.GeoDataFrame(columns, geometry=shapes, crs=frame.crs if named else None)
@@ -133,7 +134,7 @@ def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain) 
     nx = need("networkx", "python3-networkx")
     parts = parts_of(network)
     net = parts.planform
-    orders = parts.orders or _core.network.order(net)
+    orders = parts.orders or networks.order(net)
     graph: networkx.DiGraph = nx.DiGraph()
     for node, (x, y) in enumerate(net.nodes.tolist()):
         graph.add_node(node, x=x, y=y)

@@ -7,13 +7,13 @@ import os
 import sys
 import warnings
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
 from numpy.lib.mixins import NDArrayOperatorsMixin
 
-from thalweg import _core, _show
+from thalweg import _core, _show, io
 from thalweg._show import bad_input
 
 if TYPE_CHECKING:
@@ -21,6 +21,7 @@ if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
 Array = npt.NDArray[Any]
+RasterLike: TypeAlias = "Raster | Array | xarray.DataArray | str | os.PathLike[str]"
 
 ROWS = {"y", "lat", "latitude", "northing", "row"}
 COLUMNS = {"x", "lon", "longitude", "easting", "col", "column"}
@@ -164,7 +165,7 @@ class Raster(NDArrayOperatorsMixin):
 
     def _words(self) -> str:
         grid = self.grid
-        crs = "no CRS" if not grid.crs else grid.crs if len(grid.crs) < 20 else _core.io.crs_in_words(grid.crs)
+        crs = "no CRS" if not grid.crs else grid.crs if len(grid.crs) < 20 else io.crs_in_words(grid.crs)
         known = self.values[np.isfinite(self.values)]
         extent = f"from {known.min():g} to {known.max():g}" if known.size else "without data"
         return f"{grid.width} × {grid.height} cells of {grid.cell_m:g}, {self.dtype}, {extent}, {crs}"
@@ -279,7 +280,7 @@ def _raster_of(thing: object, target: np.dtype[Any], what: str) -> Raster:
         return thing
     if isinstance(thing, (str, os.PathLike)):
         # What is not a height may be any number, also one that no terrain has.
-        return _core.io.read_dem(os.fspath(thing), values="heights" if target == np.float32 else "numbers")
+        return io.read_dem(os.fspath(thing), values="heights" if target == np.float32 else "numbers")
     xr = sys.modules.get("xarray")
     if xr is not None and isinstance(thing, xr.Dataset):
         raise bad_input(what, f"{what}: a Dataset holds several arrays ({', '.join(map(str, thing.data_vars))}): choose one")

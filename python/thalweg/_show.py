@@ -6,21 +6,22 @@ from __future__ import annotations
 import base64
 import html
 import importlib
-import io
 import sys
 import warnings
 from collections.abc import Callable, Sequence
+from io import BytesIO
 from typing import TYPE_CHECKING, Any
 
 import numpy as np
 
-from thalweg import _core
+from thalweg import _core, io
 
 if TYPE_CHECKING:
     from matplotlib.axes import Axes
 
     from thalweg._raster import Raster
 
+Progress = Callable[[float, str], object] | bool | None
 LARGEST_PICTURE = 800  # [px] of a raster in a notebook
 
 
@@ -52,7 +53,7 @@ def bad_input(where: str, text: str) -> _core.BadInput:
     return error
 
 
-def progress_of(progress: object) -> Callable[[float, str], None] | None:
+def progress_of(progress: Progress) -> Callable[[float, str], object] | None:
     """Return what shows progress.
 
     Parameters
@@ -138,7 +139,7 @@ def plot_raster(raster: Raster, ax: Axes | None) -> Axes:
     west, south, east, north = raster.bounds
     extent = (west, east, south, north)
     if is_heights(raster):
-        shade = _core.io.hillshade(raster).values
+        shade = io.hillshade(raster).values
         ax.imshow(np.where(shade == 0, np.nan, shade), cmap="gray", vmin=0, vmax=255, extent=extent)
         ax.imshow(raster.values, cmap="gist_earth", alpha=0.4, extent=extent)
     else:
@@ -171,8 +172,8 @@ def png_of(raster: Raster) -> bytes | None:
         image = importlib.import_module("matplotlib.image")
     except ImportError:
         return None
-    values, colours = (_core.io.hillshade(raster).values, "gray") if is_heights(raster) else (raster.values, "viridis")
+    values, colours = (io.hillshade(raster).values, "gray") if is_heights(raster) else (raster.values, "viridis")
     step = -(-max(values.shape) // LARGEST_PICTURE)
-    out = io.BytesIO()
+    out = BytesIO()
     image.imsave(out, np.asarray(values[::step, ::step], dtype=np.float64), cmap=colours, format="png")
     return out.getvalue()

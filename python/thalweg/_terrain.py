@@ -10,11 +10,12 @@ import re
 import sys
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from thalweg import _core, _networks, _show
+from thalweg import _core, _networks, _show, io, pipeline
+from thalweg import flow as flows
 from thalweg._raster import Raster, to_core
 from thalweg._show import bad_input
 
@@ -74,7 +75,7 @@ class Terrain:
         Everything else, as the library has it.
     """
 
-    def __init__(self, made: _core.pipeline.Made, files: list[_networks.TemporaryPath]) -> None:
+    def __init__(self, made: pipeline.Made, files: list[_networks.TemporaryPath]) -> None:
         self.made = made
         self._files = files  # write() copies them
 
@@ -101,15 +102,15 @@ class Terrain:
         return None if self.network is None else self.made.terrain.rivers.orders
 
     @functools.cached_property
-    def areas(self) -> _core.flow.ContributingAreas | None:  # noqa: D102
+    def areas(self) -> flows.ContributingAreas | None:  # noqa: D102
         return None if self.network is None else self.made.terrain.areas
 
     @functools.cached_property
-    def flow(self) -> _core.flow.FlowField | None:  # noqa: D102
+    def flow(self) -> flows.FlowField | None:  # noqa: D102
         return self.made.terrain.drainage
 
     @functools.cached_property
-    def catchments(self) -> _core.flow.Catchments | None:  # noqa: D102
+    def catchments(self) -> flows.Catchments | None:  # noqa: D102
         return self.made.assessment.catchments
 
     @functools.cached_property
@@ -131,11 +132,11 @@ class Terrain:
 
     @property
     def findings(self) -> list[dict[str, Any]]:  # noqa: D102
-        return [*_core.pipeline.repairs_of(self.made), *self.made.assessment.findings]
+        return [*pipeline.repairs_of(self.made), *self.made.assessment.findings]
 
     @functools.cached_property
     def report(self) -> dict[str, Any]:  # noqa: D102
-        report: dict[str, Any] = json.loads(_core.pipeline.report_json(self.made))
+        report: dict[str, Any] = json.loads(pipeline.report_json(self.made))
         return report
 
     @property
@@ -144,11 +145,11 @@ class Terrain:
 
     @property
     def recipe_toml(self) -> str:  # noqa: D102
-        return _core.pipeline.write_recipe(_with_whole_paths(self.made.recipe))
+        return pipeline.write_recipe(_with_whole_paths(self.made.recipe))
 
     @property
     def timings(self) -> dict[str, float]:  # noqa: D102
-        return _core.pipeline.timings_of(self.made)
+        return pipeline.timings_of(self.made)
 
     def write(self, folder: str | os.PathLike[str], overwrite: bool = False) -> list[str]:
         """Write the folder that `thalweg make` writes, completely or not at all.
@@ -172,7 +173,7 @@ class Terrain:
         IoError
             When it cannot be written.
         """
-        return _core.pipeline.write_terrain(self.made, os.fspath(folder), overwrite=overwrite)
+        return pipeline.write_terrain(self.made, os.fspath(folder), existing="replace" if overwrite else "refuse")
 
     def to_xarray(self) -> xarray.DataArray:
         """Return the DEM as xarray has it; see Raster.to_xarray.
@@ -240,15 +241,15 @@ class Terrain:
 
     @functools.cached_property
     def _map(self) -> bytes | None:
-        return None if self.dem is None else _core.pipeline.map_png(self.made, MAP_WIDTH, None)
+        return None if self.dem is None else pipeline.draw_map(self.made, width_px=MAP_WIDTH).bytes
 
     def _repr_html_(self) -> str:
         return _show.html_of(self._map, self._words())
 
 
 def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[str, Any] | None = None,
-         overwrite: bool = False, threads: int = 0, progress: Callable[[float, str], object] | bool | None = None,
-         log: Callable[[str], object] | None = None, device: str = "cpu", **keys: Any) -> Terrain:
+         overwrite: bool = False, threads: int = 0, progress: _show.Progress = None,
+         log: Callable[[str], object] | None = None, device: Literal["cpu", "opencl"] = "cpu", **keys: Any) -> Terrain:
     """Make terrain and rivers, as `thalweg make` does: the same recipe gives the same values.
 
     Parameters
@@ -302,7 +303,7 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
     asked = _recipe_of(recipe, keys, files)
     if output is not None and not overwrite and os.path.isdir(output) and os.listdir(output):
         raise bad_input("make", f"{os.fspath(output)} is not empty: set overwrite=True or name another folder")
-    made = _core.pipeline.make(asked, threads=threads, progress=progress, log=log, device=device)
+    made = pipeline.make(asked, threads=threads, progress=progress, log=log, device=device)
     terrain = Terrain(made, files)
     if output is not None:
         terrain.write(output, overwrite)
@@ -329,56 +330,56 @@ def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
         As make.
     """
     files: list[_networks.TemporaryPath] = []
-    found = _core.pipeline.forecast(_recipe_of(recipe, keys, files))
+    found = pipeline.forecast(_recipe_of(recipe, keys, files))
     return {name: getattr(found, name) for name in ("stages", "grid", "cells", "memory_bytes", "seconds")}
 
 
-def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> _core.pipeline.Recipe:
+def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> pipeline.Recipe:
     over = dict(_values(keys, files))
     if isinstance(recipe, Mapping):
         given = dict(_values(recipe, files)) | over
         if not {str(key).split(".")[0] for key in recipe} <= BESIDE_TERRAIN:
             # One text, so that all faults are reported at once.
-            return _core.pipeline.read_recipe(_toml_of(given), "recipe")
+            return pipeline.read_recipe(_toml_of(given), "recipe")
         recipe, over = None, given
     return _set_all(_without_file(over) if recipe is None else _base_of(recipe, files), over)
 
 
-def _set_all(recipe: _core.pipeline.Recipe, over: Mapping[str, Value]) -> _core.pipeline.Recipe:
+def _set_all(recipe: pipeline.Recipe, over: Mapping[str, Value]) -> pipeline.Recipe:
     for path, value in over.items():
         if value == {}:
             raise _core.BadParameter(f"{path} = {{}}: over another recipe, name a key of the section")
-        recipe = _core.pipeline.set_key(recipe, path, value if isinstance(value, str) else _value_in_toml(value))
+        recipe = pipeline.set_key(recipe, path, value if isinstance(value, str) else _value_in_toml(value))
     return recipe
 
 
-def _with_whole_paths(recipe: _core.pipeline.Recipe) -> _core.pipeline.Recipe:
+def _with_whole_paths(recipe: pipeline.Recipe) -> pipeline.Recipe:
     """The recipe with names of files that hold in any folder."""
-    names_file = {key["path"] for key in _core.pipeline.recipe_keys() if key["is_file"]}
-    for path, value in _values(tomllib.loads(_core.pipeline.write_recipe(recipe)), []):
+    names_file = {key.path for key in pipeline.recipe_keys() if key.is_file}
+    for path, value in _values(tomllib.loads(pipeline.write_recipe(recipe)), []):
         if re.sub(r"^patch\.\d+", "patch", path) in names_file and value:
             whole = os.path.abspath(os.path.join(recipe.folder, str(value)))
             if os.path.exists(whole):  # else the address of a source elsewhere
-                recipe = _core.pipeline.set_key(recipe, path, whole)
+                recipe = pipeline.set_key(recipe, path, whole)
     return recipe
 
 
-def _without_file(over: Mapping[str, Value]) -> _core.pipeline.Recipe:
+def _without_file(over: Mapping[str, Value]) -> pipeline.Recipe:
     """The recipe that `thalweg make` uses without a file: a cluster where its keys are set, else rivers that suit the grid."""
     if over.get("network.source") == "dla" or any(path.startswith("network.dla.") for path in over):
-        return _core.pipeline.cluster_recipe()
+        return pipeline.cluster_recipe()
     sides = {path: value for path, value in over.items() if path in ("grid.width", "grid.height")}
-    grid = tomllib.loads(_core.pipeline.write_recipe(_set_all(_core.pipeline.default_recipe(), sides)))["grid"]
-    return _core.pipeline.default_recipe_on(grid["width"], grid["height"])
+    grid = tomllib.loads(pipeline.write_recipe(_set_all(pipeline.default_recipe(), sides)))["grid"]
+    return pipeline.default_recipe_on(grid["width"], grid["height"])
 
 
-def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> _core.pipeline.Recipe:
-    if isinstance(recipe, _core.pipeline.Recipe):
+def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> pipeline.Recipe:
+    if isinstance(recipe, pipeline.Recipe):
         return recipe
     if isinstance(recipe, str) and ("\n" in recipe or ("=" in recipe and not os.path.exists(recipe))):
-        return _core.pipeline.read_recipe(recipe, "recipe")
+        return pipeline.read_recipe(recipe, "recipe")
     if isinstance(recipe, (str, os.PathLike)):
-        return _core.pipeline.recipe_from(os.fspath(recipe))
+        return pipeline.recipe_from(os.fspath(recipe))
     if _networks.is_table(recipe):
         files.append(_networks.lines_from(recipe))
     elif _is_raster(recipe):
@@ -386,7 +387,7 @@ def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> _core.pipe
     else:
         raise TypeError("make takes a recipe (dict, TOML or path), rivers (GeoDataFrame or path) or a DEM (Raster, array or "
                         f"path), not {type(recipe).__name__}")
-    return _core.pipeline.recipe_from(str(files[-1]))
+    return pipeline.recipe_from(str(files[-1]))
 
 
 def _is_raster(thing: object) -> bool:
@@ -396,7 +397,7 @@ def _is_raster(thing: object) -> bool:
 
 def _raster_file(thing: object, what: str) -> _networks.TemporaryPath:
     path = _networks.temporary_path(f"{what.replace('.', '_')}.tif")
-    _core.io.write_dem(to_core(thing, np.float32, what), str(path))
+    io.write_dem(to_core(thing, np.float32, what), str(path))
     return path
 
 
