@@ -37,42 +37,8 @@ class Terrain:
 
     Attributes
     ----------
-    dem : Raster of float32 or None
-        [m] Heights by cell, NaN: no data. None where the recipe asks for rivers alone.
-    grid : Grid
-        Frame of the cells.
-    crs : str
-        "EPSG:n" or WKT.
-    network : ElevatedNetwork or None
-        Rivers with heights. None where the recipe has no [network].
-    orders : NetworkOrders or None
-        Stream orders and basins of the network.
-    areas : flow.ContributingAreas or None
-        [m²] By arc and node of the network.
-    flow : flow.FlowField or None
-        Flow over the DEM.
-    catchments : flow.Catchments or None
-        Of the arcs, where the recipe asks for them.
-    tin : Tin or None
-        Rivers and points, where the surface is drawn over one.
-    ridges : RidgeLines or None
-        Between streams, where the recipe asks for them.
-    checks : list of dict
-        name, value, limit, ok and bound by check, as in report.json.
-    passed : bool
-        Whether every check is ok.
-    findings : list of dict
-        kind, feature, where, amount and text: changes to the rivers, then what the checks found.
-    report : dict
-        Content of report.json.
-    recipe : dict
-        The recipe with every default that was used; make(recipe) makes the same terrain.
-    recipe_toml : str
-        The same as TOML.
-    timings : dict of str to float
-        [s] By stage.
     made : pipeline.Made
-        Everything else, as the library has it.
+        Everything, as the library has it; what follows are its parts.
     """
 
     def __init__(self, made: pipeline.Made, files: list[_networks.TemporaryPath]) -> None:
@@ -80,75 +46,92 @@ class Terrain:
         self._files = files  # write() copies them
 
     @functools.cached_property
-    def dem(self) -> Raster | None:  # noqa: D102
+    def dem(self) -> Raster | None:
+        """[m] Heights by cell, float32, NaN: no data. None where the recipe asks for rivers alone."""
         surface = self.made.terrain.surface
         return None if surface is None else surface.dem
 
     @property
-    def grid(self) -> _core.Grid:  # noqa: D102
+    def grid(self) -> _core.Grid:
+        """Frame of the cells."""
         return self.made.terrain.grid
 
     @property
-    def crs(self) -> str:  # noqa: D102
+    def crs(self) -> str:
+        """Coordinate system, "EPSG:n" or WKT."""
         return self.grid.crs
 
     @functools.cached_property
-    def network(self) -> _core.ElevatedNetwork | None:  # noqa: D102
+    def network(self) -> _core.ElevatedNetwork | None:
+        """Rivers with heights. None where the recipe has no [network]."""
         network = self.made.terrain.rivers.network
         return network if network.planform.arc_count else None
 
     @functools.cached_property
-    def orders(self) -> _core.NetworkOrders | None:  # noqa: D102
+    def orders(self) -> _core.NetworkOrders | None:
+        """Stream orders and basins of the network."""
         return None if self.network is None else self.made.terrain.rivers.orders
 
     @functools.cached_property
-    def areas(self) -> flows.ContributingAreas | None:  # noqa: D102
+    def areas(self) -> flows.ContributingAreas | None:
+        """[m²] Contributing areas by arc and node of the network."""
         return None if self.network is None else self.made.terrain.areas
 
     @functools.cached_property
-    def flow(self) -> flows.FlowField | None:  # noqa: D102
+    def flow(self) -> flows.FlowField | None:
+        """Flow over the DEM."""
         return self.made.terrain.drainage
 
     @functools.cached_property
-    def catchments(self) -> flows.Catchments | None:  # noqa: D102
+    def catchments(self) -> flows.Catchments | None:
+        """Catchments of the arcs, where the recipe asks for them."""
         return self.made.assessment.catchments
 
     @functools.cached_property
-    def tin(self) -> _core.Tin | None:  # noqa: D102
+    def tin(self) -> _core.Tin | None:
+        """TIN of rivers and points, where the surface is drawn over one."""
         return self.made.terrain.tin
 
     @functools.cached_property
-    def ridges(self) -> _core.RidgeLines | None:  # noqa: D102
+    def ridges(self) -> _core.RidgeLines | None:
+        """Ridges between streams, where the recipe asks for them."""
         ridges = self.made.terrain.ridges
         return ridges if ridges.lines else None
 
     @property
-    def checks(self) -> list[dict[str, Any]]:  # noqa: D102
+    def checks(self) -> list[dict[str, Any]]:
+        """name, value, limit, ok and bound of each check, as in report.json."""
         return self.made.assessment.checks
 
     @property
-    def passed(self) -> bool:  # noqa: D102
+    def passed(self) -> bool:
+        """Whether every check is ok."""
         return all(check["ok"] for check in self.checks)
 
     @property
-    def findings(self) -> list[dict[str, Any]]:  # noqa: D102
+    def findings(self) -> list[dict[str, Any]]:
+        """kind, feature, where [m], amount and text: of changes to the rivers, then of what the checks found."""
         return [*pipeline.repairs_of(self.made), *self.made.assessment.findings]
 
     @functools.cached_property
-    def report(self) -> dict[str, Any]:  # noqa: D102
+    def report(self) -> dict[str, Any]:
+        """Content of report.json."""
         report: dict[str, Any] = json.loads(pipeline.report_json(self.made))
         return report
 
     @property
-    def recipe(self) -> dict[str, Any]:  # noqa: D102
+    def recipe(self) -> dict[str, Any]:
+        """The recipe with every default that was used; make(recipe) makes the same terrain."""
         return tomllib.loads(self.recipe_toml)
 
     @property
-    def recipe_toml(self) -> str:  # noqa: D102
+    def recipe_toml(self) -> str:
+        """The recipe as TOML."""
         return pipeline.write_recipe(_with_whole_paths(self.made.recipe))
 
     @property
-    def timings(self) -> dict[str, float]:  # noqa: D102
+    def timings(self) -> dict[str, float]:
+        """[s] By stage."""
         return pipeline.timings_of(self.made)
 
     def write(self, folder: str | os.PathLike[str], overwrite: bool = False) -> list[str]:
