@@ -70,7 +70,7 @@ class Recipes(unittest.TestCase):
             thalweg.make(**{"grid.widht": 9})
         with self.assertRaisesRegex(BadParameter, "surface.noise"):
             thalweg.make(SMALL, surface={"noise": 3})
-        with self.assertRaisesRegex(BadInput, "no such file"):
+        with self.assertRaisesRegex(BadInput, "no_such_file.toml does not exist"):
             thalweg.make("no_such_file.toml")
 
     def test_what_is_no_recipe_or_value_is_refused_in_words(self):
@@ -274,8 +274,7 @@ class Progress(unittest.TestCase):
         terrain = thalweg.make(DILATED, progress=lambda share, stage: seen.append((share, stage)))
         self.assertTrue(all(0.0 <= share <= 1.0 for share, _ in seen))
         stages = {stage.split()[0] for _, stage in seen}
-        self.assertIn("grow", stages)
-        self.assertLessEqual(stages, set(terrain.timings))
+        self.assertLessEqual({"grow", "fill", "check"}, stages & set(terrain.timings))
 
     def test_what_it_raises_ends_the_work(self):
         def refuse(share, stage):
@@ -287,13 +286,15 @@ class Progress(unittest.TestCase):
             thalweg.make(DILATED, progress=3)
 
     def test_a_bar_or_a_line(self):
-        for show in (thalweg._show.progress_of(True), thalweg._show._line):
+        for show_of in (lambda: thalweg._show.progress_of(True), lambda: thalweg._show._line):
             out = io.StringIO()
             with contextlib.redirect_stderr(out):
+                show = show_of()
                 show(0.0, "grow 100 particles")
                 show(1.0, "grow")
                 show(0.5, "fill")
                 show(1.0, "check")
+            self.assertIn("fill", out.getvalue())
             if show is thalweg._show._line:
                 self.assertEqual(out.getvalue(), "\rgrow         0%\rgrow       100%\n\rfill        50%\rcheck      100%\n")
         self.assertIsNone(thalweg._show.progress_of(None))
