@@ -35,9 +35,9 @@ for _name in _core.MODULES:
 for _name in _core.VALUES:
     globals()[_name] = getattr(_core, _name)
 
-from thalweg._networks import to_geodataframe, to_networkx  # noqa: E402
-from thalweg._raster import ConversionWarning, Raster  # noqa: E402
-from thalweg._terrain import Terrain, forecast, make  # noqa: E402
+from thalweg._networks import to_geodataframe, to_networkx
+from thalweg._raster import ConversionWarning, Raster
+from thalweg._terrain import Terrain, forecast, make
 
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
     setattr(_kind, "to_geodataframe", to_geodataframe)

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import shutil
+import sys
 import tempfile
 import weakref
 from typing import TYPE_CHECKING, Any, NamedTuple
@@ -13,6 +14,7 @@ import numpy as np
 
 from thalweg import _core, flow, io
 from thalweg import network as networks
+from thalweg._raster import Raster, to_core
 from thalweg._show import bad_input, need
 
 if TYPE_CHECKING:
@@ -154,7 +156,8 @@ class TemporaryPath(str):
 
 def is_table(thing: object) -> bool:
     """Return whether a value is a GeoDataFrame or GeoSeries."""
-    return type(thing).__module__.split(".")[0] == "geopandas" and hasattr(thing, "to_file")
+    gpd = sys.modules.get("geopandas")
+    return gpd is not None and isinstance(thing, (gpd.GeoDataFrame, gpd.GeoSeries))
 
 
 def lines_from(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> TemporaryPath:
@@ -186,11 +189,55 @@ def lines_from(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> Temporary
 
 
 def table_file(frame: geopandas.GeoDataFrame | geopandas.GeoSeries, name: str) -> TemporaryPath:
-    """Write a table as the GeoPackage NAME.gpkg, which is deleted with its name."""
-    path = temporary_path(f"{name}.gpkg")
+    """Write a table as a GeoPackage of this name, which is deleted with its path."""
+    path = temporary_path(f"{name.replace('.', '_')}.gpkg")
     table: Any = frame.to_frame("geometry") if not hasattr(frame, "columns") else frame
-    table.to_file(str(path), driver="GPKG", layer=name)
+    table.to_file(str(path), driver="GPKG", layer=name.replace(".", "_"))
     return path
+
+
+def is_raster(thing: object) -> bool:
+    """Return whether a value is a Raster or an array of numpy or xarray."""
+    xr = sys.modules.get("xarray")
+    return isinstance(thing, (Raster, np.ndarray)) or (xr is not None and isinstance(thing, (xr.DataArray, xr.Dataset)))
+
+
+def raster_file(thing: object, what: str) -> TemporaryPath:
+    """Write heights as a GeoTIFF, which is deleted with its path; what: its name, also in messages."""
+    path = temporary_path(f"{what.replace('.', '_')}.tif")
+    io.write_dem(to_core(thing, np.float32, what), str(path))
+    return path
+
+
+def path_of(thing: object, what: str) -> str:
+    """Return the path of a file: as given, or of one that holds a table of lines or a raster.
+
+    Parameters
+    ----------
+    thing : str, path, GeoDataFrame, GeoSeries, Raster, DataArray or ndarray
+        Tables as for lines_from, rasters as for to_core.
+    what : str
+        Its name in messages.
+
+    Returns
+    -------
+    str
+        Of a table or raster a TemporaryPath: the file lives as long as this object.
+
+    Raises
+    ------
+    BadInput
+        As lines_from and to_core.
+    TypeError
+        For anything else.
+    """
+    if isinstance(thing, (str, os.PathLike)):
+        return os.fspath(thing)
+    if is_table(thing):
+        return lines_from(thing)
+    if is_raster(thing):
+        return raster_file(thing, what)
+    raise TypeError(f"{what}: takes a path, a GeoDataFrame of lines or a raster, not {type(thing).__name__}")
 
 
 def temporary_path(name: str) -> TemporaryPath:

@@ -7,16 +7,15 @@ import functools
 import json
 import os
 import re
-import sys
 import tomllib
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from thalweg import _core, _networks, _show, io, pipeline
+from thalweg import _core, _networks, _show, pipeline
 from thalweg import flow as flows
-from thalweg._raster import Raster, to_core
+from thalweg._raster import Raster
 from thalweg._show import bad_input
 
 if TYPE_CHECKING:
@@ -365,23 +364,12 @@ def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> pipeline.R
         return pipeline.recipe_from(os.fspath(recipe))
     if _networks.is_table(recipe):
         files.append(_networks.lines_from(recipe))
-    elif _is_raster(recipe):
-        files.append(_raster_file(recipe, "dem"))
+    elif _networks.is_raster(recipe):
+        files.append(_networks.raster_file(recipe, "dem"))
     else:
         raise TypeError("make takes a recipe (dict, TOML or path), rivers (GeoDataFrame or path) or a DEM (Raster, array or "
                         f"path), not {type(recipe).__name__}")
     return pipeline.recipe_from(str(files[-1]))
-
-
-def _is_raster(thing: object) -> bool:
-    xr = sys.modules.get("xarray")
-    return isinstance(thing, (Raster, np.ndarray)) or (xr is not None and isinstance(thing, (xr.DataArray, xr.Dataset)))
-
-
-def _raster_file(thing: object, what: str) -> _networks.TemporaryPath:
-    path = _networks.temporary_path(f"{what.replace('.', '_')}.tif")
-    io.write_dem(to_core(thing, np.float32, what), str(path))
-    return path
 
 
 def _values(sections: Mapping[Any, Any], files: list[_networks.TemporaryPath], prefix: str = "") -> Iterator[tuple[str, Value]]:
@@ -402,11 +390,11 @@ def _value_of(value: object, path: str, files: list[_networks.TemporaryPath]) ->
     if isinstance(value, np.generic) or (isinstance(value, np.ndarray) and value.ndim < 2):
         value = value.tolist()
     if _networks.is_table(value):
-        value = _networks.table_file(value, path.replace(".", "_"))
+        value = _networks.table_file(value, path)
         files.append(value)
         value = str(value)
-    elif _is_raster(value):
-        value = _raster_file(value, path)
+    elif _networks.is_raster(value):
+        value = _networks.raster_file(value, path)
         files.append(value)
         value = str(value)
     elif isinstance(value, os.PathLike):

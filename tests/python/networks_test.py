@@ -11,10 +11,11 @@ import unittest
 import geopandas
 import networkx
 import numpy as np
+import shapely.geometry
 
 import thalweg
 from thalweg import BadInput, BadParameter, ElevatedNetwork, StreamNetwork
-from thalweg._networks import lines_from
+from thalweg._networks import lines_from, path_of
 
 # Two sources that meet, and a bend below.
 NODES = np.array([[0.0, 0.0], [0.0, 100.0], [100.0, 100.0], [50.0, 50.0]])
@@ -110,6 +111,17 @@ class Files(unittest.TestCase):
         self.assertEqual((len(written), list(written.columns)), (len(table), list(table.columns)))
         del path
         self.assertFalse(os.path.exists(name))
+
+    def test_values_stand_for_files(self):
+        table = geopandas.GeoDataFrame(geometry=[shapely.geometry.LineString(line) for line in LINES], crs=32631)
+        dem = thalweg.Raster(np.eye(3, dtype=np.float32), cell_m=30, crs="EPSG:32631")
+        self.assertEqual(path_of("rivers.gpkg", "rivers"), "rivers.gpkg")
+        self.assertEqual(path_of(pathlib.Path("rivers.gpkg"), "rivers"), "rivers.gpkg")
+        lines, heights = path_of(table, "rivers"), path_of(dem, "dem")
+        self.assertEqual(len(geopandas.read_file(str(lines))), 3)
+        np.testing.assert_array_equal(thalweg.io.read_dem(str(heights)), dem)
+        with self.assertRaisesRegex(TypeError, "rivers: takes a path, a GeoDataFrame of lines or a raster, not int"):
+            path_of(3, "rivers")
 
 
 class WithoutPackages(unittest.TestCase):
