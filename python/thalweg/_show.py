@@ -141,7 +141,9 @@ def plot_raster(raster: Raster, ax: Axes | None) -> Axes:
     if is_heights(raster):
         shade = io.hillshade(raster).values
         ax.imshow(np.where(shade == 0, np.nan, shade), cmap="gray", vmin=0, vmax=255, extent=extent)
-        ax.imshow(raster.values, cmap="gist_earth", alpha=0.4, extent=extent)
+        low, high = float(np.nanmin(raster.values)), float(np.nanmax(raster.values))
+        # The lowest two fifths of these colours are the sea.
+        ax.imshow(raster.values, cmap="gist_earth", alpha=0.4, extent=extent, vmin=low - 0.67 * (high - low), vmax=high)
     else:
         ax.imshow(raster.values, extent=extent, interpolation="nearest")
     return ax
