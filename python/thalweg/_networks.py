@@ -1,0 +1,248 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Networks for GeoPandas and NetworkX, and river files from GeoPandas."""
+from __future__ import annotations
+
+import os
+import shutil
+import sys
+import tempfile
+import weakref
+from typing import TYPE_CHECKING, Any, NamedTuple
+
+import numpy as np
+
+from thalweg import _core, flow, io
+from thalweg import network as networks
+from thalweg._raster import Raster, to_core
+from thalweg._show import bad_input, need
+
+if TYPE_CHECKING:
+    import geopandas
+    import networkx
+
+    from thalweg._terrain import Terrain
+
+LINES = {"LineString", "MultiLineString"}
+# Columns of write_geopackage that a network without heights does not have.
+OF_HEIGHTS = ["length_3d", "z_up", "z_down", "slope", "z"]
+
+
+class Parts(NamedTuple):
+    """A network and what is known beside it."""
+
+    planform: _core.StreamNetwork
+    elevated: _core.ElevatedNetwork | None
+    orders: _core.NetworkOrders | None
+    areas: flow.ContributingAreas | None
+    crs: str
+
+
+def parts_of(network: object) -> Parts:
+    """Return the parts of a StreamNetwork, an ElevatedNetwork or a Terrain.
+
+    Raises
+    ------
+    BadInput
+        When a terrain has no rivers.
+    TypeError
+        For anything else.
+    """
+    if isinstance(network, _core.StreamNetwork):
+        return Parts(network, None, None, None, "")
+    if isinstance(network, _core.ElevatedNetwork):
+        return Parts(network.planform, network, None, None, "")
+    made = getattr(network, "made", None)
+    if made is None:
+        raise TypeError(f"takes a StreamNetwork, an ElevatedNetwork or a Terrain, not {type(network).__name__}")
+    rivers = made.terrain.rivers
+    if not rivers.network.planform.arc_count:
+        raise bad_input("Terrain", "the terrain has no rivers: its recipe has no [network]")
+    return Parts(rivers.network.planform, rivers.network, rivers.orders, made.terrain.areas, made.terrain.grid.crs)
+
+
+def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain, layer: str = "arcs", *,
+                    crs: str | None = None) -> geopandas.GeoDataFrame:
+    """Return the arcs or nodes of a network as a table.
+
+    Parameters
+    ----------
+    network : StreamNetwork, ElevatedNetwork or Terrain
+        A forest, as all stages return.
+    layer : {"arcs", "nodes"}, default "arcs"
+        Which of both.
+    crs : str, optional
+        "EPSG:n" or WKT. Left out: that of a terrain, else none.
+
+    Returns
+    -------
+    geopandas.GeoDataFrame
+        The columns of this layer of network.gpkg, which `thalweg make` writes (docs/interchange.md). Contributing areas are
+        known of a terrain, and else -1. A StreamNetwork has no heights: geometries are in plan, columns of heights missing.
+
+    Raises
+    ------
+    BadParameter
+        For another layer.
+    BadInput
+        When two arcs leave a node or arcs form a cycle, or a terrain has no rivers.
+    ImportError
+        Without geopandas.
+    """
+    gpd = need("geopandas", "python3-geopandas")
+    if layer not in ("arcs", "nodes"):
+        raise _core.BadParameter(f"layer = {layer!r}: write arcs or nodes")
+    parts = parts_of(network)
+    net = parts.planform
+    named = parts.crs if crs is None else crs
+    flat_z = [np.zeros(len(line)) for line in net.lines]
+    elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
+    with tempfile.TemporaryDirectory() as folder:
+        path = os.path.join(folder, "network.gpkg")
+        io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
+        frame = gpd.read_file(path, layer=layer)
+    shapes = list(frame.geometry)
+    columns = frame.drop(columns=[frame.geometry.name])
+    if parts.elevated is None:
+        shape = need("shapely.geometry", "python3-shapely")
+        shapes = list(map(shape.LineString, net.lines) if layer == "arcs" else map(shape.Point, net.nodes))
+        columns = columns.drop(columns=OF_HEIGHTS, errors="ignore")
+    # GeoPackages have a CRS that stands for none.
+    table: geopandas.GeoDataFrame = gpd.GeoDataFrame(columns, geometry=shapes, crs=frame.crs if named else None)
+    return table
+
+
+def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain) -> networkx.DiGraph:
+    """Return a network as a graph, directed downstream.
+
+    Parameters
+    ----------
+    network : StreamNetwork, ElevatedNetwork or Terrain
+        A forest, as all stages return.
+
+    Returns
+    -------
+    networkx.DiGraph
+        Nodes 0, 1, ... in the network's order, with x, y and, where the network has heights, z [m]. Edges with arc (the
+        number of the arc), length_m [m], strahler, and line [m]: its vertices downstream, ndarray, shape (k, 2) or (k, 3).
+
+    Raises
+    ------
+    BadInput
+        When two arcs leave a node or arcs form a cycle, or a terrain has no rivers.
+    ImportError
+        Without networkx.
+    """
+    nx = need("networkx", "python3-networkx")
+    parts = parts_of(network)
+    net = parts.planform
+    orders = parts.orders or networks.order(net)
+    graph: networkx.DiGraph = nx.DiGraph()
+    for node, (x, y) in enumerate(net.nodes.tolist()):
+        graph.add_node(node, x=x, y=y)
+    lines = list(net.lines)
+    if parts.elevated is not None:
+        nx.set_node_attributes(graph, dict(enumerate(parts.elevated.node_z.tolist())), "z")
+        lines = [np.column_stack([line, z]) for line, z in zip(lines, parts.elevated.arc_z)]
+    ends = zip(net.from_nodes.tolist(), net.to_nodes.tolist())
+    for arc, ((up, down), length, order) in enumerate(zip(ends, net.length_m.tolist(), np.asarray(orders.strahler).tolist())):
+        graph.add_edge(up, down, arc=arc, length_m=length, strahler=order, line=lines[arc])
+    return graph
+
+
+class TemporaryPath(str):
+    """The name of a file that is deleted with it; others get str() of it, as some keep what they were given."""
+
+
+def is_table(thing: object) -> bool:
+    """Return whether a value is a GeoDataFrame or GeoSeries."""
+    gpd = sys.modules.get("geopandas")
+    return gpd is not None and isinstance(thing, (gpd.GeoDataFrame, gpd.GeoSeries))
+
+
+def lines_from(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> TemporaryPath:
+    """Write lines as a river file.
+
+    Parameters
+    ----------
+    frame : GeoDataFrame or GeoSeries
+        Lines with a CRS; rows of other geometries are the reader's to refuse or leave out.
+
+    Returns
+    -------
+    TemporaryPath
+        A GeoPackage with the columns of the table, which is deleted with its name.
+
+    Raises
+    ------
+    BadInput
+        When there are no rows, no lines, or no CRS.
+    """
+    if len(frame) == 0:
+        raise bad_input("rivers", "rivers: the table is empty")
+    kinds = set(frame.geometry.geom_type.dropna())
+    if not kinds & LINES:
+        raise bad_input("rivers", f"rivers: no lines in the table, but {', '.join(sorted(kinds)) or 'no geometry'}")
+    if frame.crs is None:
+        raise bad_input("rivers", "rivers: the table has no CRS: set it, as .set_crs(\"EPSG:32610\") does")
+    return table_file(frame, "rivers")
+
+
+def table_file(frame: geopandas.GeoDataFrame | geopandas.GeoSeries, name: str) -> TemporaryPath:
+    """Write a table as a GeoPackage of this name, which is deleted with its path."""
+    path = temporary_path(f"{name.replace('.', '_')}.gpkg")
+    table: Any = frame.to_frame("geometry") if not hasattr(frame, "columns") else frame
+    table.to_file(str(path), driver="GPKG", layer=name.replace(".", "_"))
+    return path
+
+
+def is_raster(thing: object) -> bool:
+    """Return whether a value is a Raster or an array of numpy or xarray."""
+    xr = sys.modules.get("xarray")
+    return isinstance(thing, (Raster, np.ndarray)) or (xr is not None and isinstance(thing, (xr.DataArray, xr.Dataset)))
+
+
+def raster_file(thing: object, what: str) -> TemporaryPath:
+    """Write heights as a GeoTIFF, which is deleted with its path; what: its name, also in messages."""
+    path = temporary_path(f"{what.replace('.', '_')}.tif")
+    io.write_dem(to_core(thing, np.float32, what), str(path))
+    return path
+
+
+def path_of(thing: object, what: str) -> str:
+    """Return the path of a file: as given, or of one that holds a table of lines or a raster.
+
+    Parameters
+    ----------
+    thing : str, path, GeoDataFrame, GeoSeries, Raster, DataArray or ndarray
+        Tables as for lines_from, rasters as for to_core.
+    what : str
+        Its name in messages.
+
+    Returns
+    -------
+    str
+        Of a table or raster a TemporaryPath: the file lives as long as this object.
+
+    Raises
+    ------
+    BadInput
+        As lines_from and to_core.
+    TypeError
+        For anything else.
+    """
+    if isinstance(thing, (str, os.PathLike)):
+        return os.fspath(thing)
+    if is_table(thing):
+        return lines_from(thing)
+    if is_raster(thing):
+        return raster_file(thing, what)
+    raise TypeError(f"{what}: takes a path, a GeoDataFrame of lines or a raster, not {type(thing).__name__}")
+
+
+def temporary_path(name: str) -> TemporaryPath:
+    """Return a file name in a new folder, which is deleted with it."""
+    folder = tempfile.mkdtemp(prefix="thalweg-")
+    path = TemporaryPath(os.path.join(folder, name))
+    weakref.finalize(path, shutil.rmtree, folder, ignore_errors=True)
+    return path

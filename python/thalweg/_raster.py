@@ -1,0 +1,480 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rasters: numpy arrays with a grid, and what else is accepted as one."""
+from __future__ import annotations
+
+import os
+import sys
+import warnings
+from collections.abc import Iterator
+from typing import TYPE_CHECKING, Any, TypeAlias
+
+import numpy as np
+import numpy.typing as npt
+from numpy.lib.mixins import NDArrayOperatorsMixin
+
+from thalweg import _core, _show, io
+from thalweg._show import bad_input
+
+if TYPE_CHECKING:
+    import xarray
+    from matplotlib.axes import Axes
+
+Array = npt.NDArray[Any]
+RasterLike: TypeAlias = "Raster | Array | xarray.DataArray | str | os.PathLike[str]"
+
+ROWS = {"y", "lat", "latitude", "northing", "row"}
+COLUMNS = {"x", "lon", "longitude", "easting", "col", "column"}
+FEET = {"ft", "foot", "feet", "us survey foot", "us_survey_foot", "us-ft", "ftus"}
+
+
+class ConversionWarning(UserWarning):
+    """Values were converted or copied before a call of the library could read them."""
+
+
+class Raster(NDArrayOperatorsMixin):
+    """One value per cell of a grid, as a numpy array that cannot be written.
+
+    numpy's functions and operators take a raster as its array and return plain arrays.
+
+    Parameters
+    ----------
+    values : array_like, shape (height, width)
+        Rows from the north. An array is shown, not copied. Of masked arrays the masked cells become NaN.
+    grid : Grid, optional
+        Frame of the cells. Without it the grid follows from the keywords.
+    cell_m : float, default 1.0
+        [m] Side of a cell.
+    west : float, default 0.0
+        [m] Outer edge of column 0.
+    north : float, optional
+        [m] Outer edge of row 0; left out: the southern edge is at 0.
+    crs : str, default ""
+        "EPSG:n" or WKT; "" for none.
+
+    Raises
+    ------
+    BadInput
+        When values are not a table of real numbers, or the grid has another size.
+
+    Examples
+    --------
+    >>> dem = Raster(np.zeros((2, 3), np.float32), cell_m=10)
+    >>> dem.bounds
+    (0.0, 0.0, 30.0, 20.0)
+    """
+
+    values: Array
+    grid: _core.Grid
+
+    def __init__(self, values: npt.ArrayLike, grid: _core.Grid | None = None, *, cell_m: float = 1.0, west: float = 0.0,
+                 north: float | None = None, crs: str = "") -> None:
+        shown = _unmasked(values, "values").view()
+        _require_table(shown, "values")
+        shown.flags.writeable = False
+        height, width = shown.shape
+        if grid is None:
+            if not cell_m > 0.0:
+                raise bad_input("Raster", f"cell_m = {cell_m} is not above 0")
+            grid = _core.Grid(width, height, cell_m, west, height * cell_m if north is None else north, crs)
+        elif (grid.width, grid.height) != (width, height):
+            raise bad_input("Raster", f"values of {height} rows and {width} columns do not fit a grid of {grid.height} rows "
+                                      f"and {grid.width} columns")
+        self.values = shown
+        self.grid = grid
+
+    @property
+    def shape(self) -> tuple[int, int]:
+        """Numbers of rows and columns."""
+        height, width = self.values.shape
+        return height, width
+
+    @property
+    def ndim(self) -> int:
+        """2."""
+        return 2
+
+    @property
+    def size(self) -> int:
+        """Number of cells."""
+        return self.values.size
+
+    @property
+    def dtype(self) -> np.dtype[Any]:
+        """Type of a value."""
+        return self.values.dtype
+
+    @property
+    def crs(self) -> str:
+        """Coordinate system, "EPSG:n" or WKT; "" for none."""
+        return self.grid.crs
+
+    @property
+    def cell_m(self) -> float:
+        """[m] Side of a cell."""
+        return self.grid.cell_m
+
+    @property
+    def bounds(self) -> tuple[float, float, float, float]:
+        """[m] Outer edges: west, south, east, north."""
+        grid = self.grid
+        return (grid.west, grid.north - grid.height * grid.cell_m, grid.west + grid.width * grid.cell_m, grid.north)
+
+    def array(self, copy: bool = False) -> Array:
+        """Return the values.
+
+        Parameters
+        ----------
+        copy : bool, default False
+            Whether to return a copy, which can be written.
+
+        Returns
+        -------
+        ndarray, shape (height, width)
+            A view that cannot be written and keeps the memory alive, or a copy.
+        """
+        return self.values.copy() if copy else self.values
+
+    def __array__(self, dtype: npt.DTypeLike | None = None, copy: bool | None = None) -> Array:
+        if dtype is None or np.dtype(dtype) == self.dtype:
+            return self.array(copy=bool(copy))
+        if copy is False:
+            raise ValueError(f"{self.dtype} cannot be shown as {np.dtype(dtype)} without a copy")
+        return self.values.astype(dtype)
+
+    def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
+        if "out" in options:
+            options["out"] = tuple(_plain(one) for one in options["out"])
+        return getattr(ufunc, method)(*(_plain(one) for one in inputs), **options)
+
+    def __getitem__(self, key: Any) -> Any:
+        return self.values[key]
+
+    def __len__(self) -> int:
+        return len(self.values)
+
+    def __iter__(self) -> Iterator[Array]:
+        return iter(self.values)
+
+    def __reduce__(self) -> tuple[Any, ...]:
+        grid = self.grid
+        return _restored, (self.values, grid.cell_m, grid.west, grid.north, grid.crs)
+
+    def __repr__(self) -> str:
+        return f"<Raster {self._words()}>"
+
+    def _words(self) -> str:
+        grid = self.grid
+        crs = "no CRS" if not grid.crs else grid.crs if len(grid.crs) < 20 else io.crs_in_words(grid.crs)
+        known = self.values[np.isfinite(self.values)]
+        extent = f"from {known.min():g} to {known.max():g}" if known.size else "without data"
+        return f"{grid.width} × {grid.height} cells of {grid.cell_m:g}, {self.dtype}, {extent}, {crs}"
+
+    def _repr_html_(self) -> str:
+        return _show.html_of(_show.png_of(self), self._words())
+
+    def plot(self, ax: Axes | None = None) -> Axes:
+        """Draw the raster with matplotlib: heights as a hillshade under a tint, other values in colours.
+
+        Parameters
+        ----------
+        ax : matplotlib.axes.Axes, optional
+            Left out: new ones.
+
+        Returns
+        -------
+        matplotlib.axes.Axes
+            In the raster's coordinates.
+
+        Raises
+        ------
+        ImportError
+            Without matplotlib.
+        """
+        return _show.plot_raster(self, ax)
+
+    def to_xarray(self, name: str | None = None) -> xarray.DataArray:
+        """Return the raster as xarray has it, by the conventions of rioxarray.
+
+        Parameters
+        ----------
+        name : str, optional
+            Name of the array.
+
+        Returns
+        -------
+        xarray.DataArray, dims (y, x)
+            The same memory. Coordinates are those of the cells' centres, y falls; spatial_ref holds CRS and GeoTransform.
+
+        Raises
+        ------
+        ImportError
+            Without xarray.
+        """
+        xr = _show.need("xarray", "python3-xarray")
+        grid = self.grid
+        x = grid.west + (np.arange(grid.width) + 0.5) * grid.cell_m
+        y = grid.north - (np.arange(grid.height) + 0.5) * grid.cell_m
+        reference = {"GeoTransform": f"{grid.west!r} {grid.cell_m!r} 0.0 {grid.north!r} 0.0 {-grid.cell_m!r}"}
+        if grid.crs:
+            wkt = _wkt_of(grid.crs)
+            reference |= {"crs_wkt": wkt, "spatial_ref": wkt}
+        shown = xr.DataArray(
+            self.values, dims=("y", "x"), name=name, attrs={"_FillValue": np.nan} if self.dtype.kind == "f" else {},
+            coords={"y": ("y", y, {"axis": "Y"}), "x": ("x", x, {"axis": "X"}), "spatial_ref": ((), 0, reference)})
+        shown.encoding["grid_mapping"] = "spatial_ref"
+        array: xarray.DataArray = shown
+        return array
+
+
+def from_core(values: Array, grid: _core.Grid) -> Raster:
+    """Return the raster of a result of the library, without copying.
+
+    Parameters
+    ----------
+    values : ndarray, shape (grid.height, grid.width)
+        Keeps the memory alive.
+    grid : Grid
+    """
+    return Raster(values, grid)
+
+
+def to_core(thing: object, dtype: npt.DTypeLike, what: str) -> Raster:
+    """Return anything that is accepted as a raster as the library reads it.
+
+    Parameters
+    ----------
+    thing : Raster, ndarray, xarray.DataArray, str or path
+        Also a masked array, and anything else that numpy takes as an array. Arrays have the grid of a raster without
+        place: cells of 1, the south-western corner at 0. A path is read as by io.read_dem.
+    dtype : dtype
+        float32, float64, uint8, int32 or int64.
+    what : str
+        Its name in messages.
+
+    Returns
+    -------
+    Raster
+        Of this dtype, C-contiguous, aligned, in native byte order; the given memory where it is so already.
+
+    Raises
+    ------
+    BadInput
+        When it is not a table of real numbers, its cells are not square, or a value is none of the dtype; names its place.
+    TypeError
+        When it is nothing of the kind.
+
+    Warns
+    -----
+    ConversionWarning
+        When values are converted or copied.
+    """
+    target = np.dtype(dtype)
+    raster = _raster_of(thing, target, what)
+    values = _converted(raster.values, target, what)
+    return raster if values is raster.values else Raster(values, raster.grid)
+
+
+def _raster_of(thing: object, target: np.dtype[Any], what: str) -> Raster:
+    if isinstance(thing, Raster):
+        return thing
+    if isinstance(thing, (str, os.PathLike)):
+        # What is not a height may be any number, also one that no terrain has.
+        return io.read_dem(os.fspath(thing), values="heights" if target == np.float32 else "numbers")
+    xr = sys.modules.get("xarray")
+    if xr is not None and isinstance(thing, xr.Dataset):
+        raise bad_input(what, f"{what}: a Dataset holds several arrays ({', '.join(map(str, thing.data_vars))}): choose one")
+    if xr is not None and isinstance(thing, xr.DataArray):
+        return _from_xarray(thing, target, what)
+    if hasattr(thing, "__array__"):
+        if target.kind != "f" and _is_masked(thing):
+            raise bad_input(what, f"{what}: masked cells, and {target.name} has no value for them")
+        values = _unmasked(thing, what)
+        _require_table(values, what)
+        return Raster(values)
+    raise TypeError(f"{what}: takes a Raster, a numpy array, an xarray.DataArray or a path, not {type(thing).__name__}")
+
+
+def _converted(values: Array, target: np.dtype[Any], what: str) -> Array:
+    if values.dtype == np.bool_ and target == np.uint8:
+        values = values.view(np.uint8)
+    flags = values.flags
+    if values.dtype == target and flags.c_contiguous and flags.aligned:
+        return values
+    if values.dtype.newbyteorder("=") != target:
+        _say(f"{what}: {values.dtype.name} converted to {target.name}")
+        if target.kind != "f":
+            _require_integers(values, target, what)
+    elif not values.dtype.isnative:
+        _say(f"{what}: copied, not in native byte order")
+    else:
+        _say(f"{what}: copied, not in C order" if not flags.c_contiguous else f"{what}: copied, not aligned")
+    with np.errstate(over="ignore"):
+        out = values.astype(target, order="C")
+    if target.kind == "f" and values.dtype.itemsize > target.itemsize and np.isinf(out).any():
+        _refuse_at(np.isinf(out) & np.isfinite(values), values, what, f"is beyond the range of {target.name}")
+    return out
+
+
+def _require_integers(values: Array, target: np.dtype[Any], what: str) -> None:
+    if values.dtype.kind == "f":
+        _refuse_at(np.isnan(values), values, what, f"is no value of {target.name}")
+        _refuse_at(values != np.trunc(values), values, what, f"is not an integer, as {target.name} has them")
+    least, most = np.iinfo(target).min, np.iinfo(target).max
+    # Python's integers: numpy would compare uint64 with int64 as float64.
+    for place in (values.argmin(), values.argmax()):
+        value = values.flat[place]
+        if not np.isfinite(value) or not least <= int(value) <= most:
+            row, column = np.unravel_index(place, values.shape)
+            raise bad_input(what, f"{what}: {value} in row {row}, column {column} (from 0) is beyond the range of "
+                                  f"{target.name}, [{least}, {most}]")
+
+
+def _refuse_at(bad: npt.NDArray[np.bool_], values: Array, what: str, fault: str) -> None:
+    if bad.any():
+        row, column = np.unravel_index(int(bad.argmax()), bad.shape)
+        raise bad_input(what, f"{what}: {values[row, column]} in row {row}, column {column} (from 0) {fault}")
+
+
+def _require_table(values: Array, what: str) -> None:
+    if values.dtype.kind not in "biuf":
+        raise bad_input(what, f"{what}: values are {values.dtype.name}, not real numbers")
+    if values.ndim != 2:
+        raise bad_input(what, f"{what}: has {values.ndim} dimensions, a raster has two: rows and columns")
+    if values.size == 0:
+        raise bad_input(what, f"{what}: is empty: {values.shape[0]} rows, {values.shape[1]} columns")
+
+
+def _unmasked(values: Any, what: str) -> Array:
+    array: Array = np.asarray(values)
+    if _is_masked(values):
+        _say(f"{what}: copied, masked cells become NaN")
+        array = _with_nan(array, values.mask)
+    return array
+
+
+def _is_masked(values: object) -> bool:
+    return isinstance(values, np.ma.MaskedArray) and bool(np.any(values.mask))
+
+
+def _with_nan(values: Array, unknown: npt.NDArray[np.bool_]) -> Array:
+    """A copy with NaN where a value is not known, of a floating-point type that holds the others."""
+    copy = values.astype(np.result_type(values.dtype, np.float16 if values.dtype.kind == "f" else np.float32))
+    copy[unknown] = np.nan
+    return copy
+
+
+def _plain(one: Any) -> Any:
+    return one.values if isinstance(one, Raster) else one
+
+
+def _restored(values: Array, cell_m: float, west: float, north: float, crs: str) -> Raster:
+    return Raster(values, cell_m=cell_m, west=west, north=north, crs=crs)
+
+
+def _say(text: str) -> None:
+    """Warn at the line outside this package that led here."""
+    frame, level = sys._getframe(1), 2
+    while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == "thalweg":
+        frame, level = frame.f_back, level + 1
+    warnings.warn(text, ConversionWarning, stacklevel=level)
+
+
+def _from_xarray(array: xarray.DataArray, target: np.dtype[Any], what: str) -> Raster:
+    if array.ndim == 3:
+        bands = [dim for dim in array.dims if str(dim).lower() not in ROWS | COLUMNS]
+        if len(bands) != 1 or array.sizes[bands[0]] != 1:
+            raise bad_input(what, f"{what}: has three dimensions {array.dims} and more than one band: choose one, "
+                                  "as .isel(band=0) does")
+        array = array.isel({bands[0]: 0})
+    if array.ndim == 2 and (str(array.dims[1]).lower() in ROWS or str(array.dims[0]).lower() in COLUMNS):
+        array = array.transpose(array.dims[1], array.dims[0])
+    values = _known(array, target, what)
+    _require_table(values, what)
+    mapping = array.encoding.get("grid_mapping", array.attrs.get("grid_mapping", "spatial_ref"))
+    reference = array.coords[mapping].attrs if mapping in array.coords else {}
+    crs = str(reference.get("crs_wkt", reference.get("spatial_ref", array.attrs.get("crs", ""))))
+    affine = _affine_of(reference, what)
+    y, x = (array.coords[dim].values.astype(np.float64) if dim in array.coords else None for dim in array.dims)
+    if y is not None and y.size > 1 and y[0] < y[-1]:
+        values, y = values[::-1], y[::-1]
+    if x is not None and x.size > 1 and x[0] > x[-1]:
+        values, x = values[:, ::-1], x[::-1]
+    return Raster(values, _grid_of(values.shape, x, None if y is None else -y, affine, _code_of(crs), what))
+
+
+def _known(array: xarray.DataArray, target: np.dtype[Any], what: str) -> Array:
+    """The values with NaN where there is no data, scale and offset applied."""
+    attributes = array.attrs
+    if target == np.float32 and str(attributes.get("units", "")).lower() in FEET:
+        raise bad_input(what, f"{what}: heights are in feet (attribute units = {attributes['units']!r}): multiply them by "
+                              "0.3048, or 1200/3937 for survey feet, and set units to m")
+    values = _unmasked(array.values, what)
+    if values.dtype.kind not in "biuf":
+        return values
+    named = [attributes[name] for name in ("_FillValue", "missing_value", "nodata", "nodatavals") if name in attributes]
+    unknown = np.isin(values, np.concatenate([np.ravel(one) for one in named]) if named else [])
+    scale, offset = float(attributes.get("scale_factor", 1.0)), float(attributes.get("add_offset", 0.0))
+    if unknown.any():
+        if target.kind != "f":
+            raise bad_input(what, f"{what}: cells without data, and {target.name} has no value for them")
+        _say(f"{what}: copied, cells without data become NaN")
+        values = _with_nan(values, unknown)
+    if (scale, offset) != (1.0, 0.0):
+        _say(f"{what}: copied, scale and offset applied")
+        values = (values.astype(np.float64) * scale + offset).astype(target if target.kind == "f" else np.float64)
+    return values
+
+
+def _affine_of(reference: dict[Any, Any], what: str) -> tuple[float, float, float] | None:
+    """West, cell and north of a GeoTransform, as GDAL writes it; None where there is none, or cells are not square."""
+    numbers = [float(word) for word in str(reference.get("GeoTransform", "")).split()]
+    if len(numbers) != 6:
+        return None
+    west, dx, skew_x, north, skew_y, dy = numbers
+    if skew_x or skew_y:
+        raise bad_input(what, f"{what}: is rotated (GeoTransform {reference['GeoTransform']}): warp it to a grid that is not")
+    return (west, dx, north) if dx == -dy else None
+
+
+def _grid_of(shape: tuple[int, ...], x: Array | None, down: Array | None, affine: tuple[float, float, float] | None, crs: str,
+             what: str) -> _core.Grid:
+    """The grid of cells with these centres, both ascending (down: -y)."""
+    height, width = shape
+    usual = affine[1] if affine is not None else None
+    dx = _step(x, "x", what) or usual
+    dy = _step(down, "y", what) or dx
+    dx = dx or dy
+    if dx is None or dy is None:  # no coordinates, or one cell
+        dx = dy = 1.0
+    if abs(dx - dy) > 1e-3 * dx or abs(dx - dy) * max(width, height) > 0.1 * dx:
+        raise bad_input(what, f"{what}: cells are not square: {dx:g} x {dy:g}. Warp it to square cells first")
+    west = 0.0 if x is None else float(x[0]) - 0.5 * dx
+    north = height * dx if down is None else -float(down[0]) + 0.5 * dx
+    if affine is not None:
+        absent = x is None or down is None
+        near = max(abs(affine[0] - west), abs(affine[2] - north), abs(affine[1] - dx) * max(width, height)) < 1e-3 * dx
+        if absent or near:  # exactly what was written; it is stale where a part of the raster was cut out
+            west, dx, north = affine
+    return _core.Grid(width, height, dx, west, north, crs)
+
+
+def _step(centres: Array | None, name: str, what: str) -> float | None:
+    if centres is None or centres.size < 2:
+        return None
+    step = float(centres[-1] - centres[0]) / (centres.size - 1)
+    if not np.all(np.abs(np.diff(centres) - step) <= 0.01 * step):
+        raise bad_input(what, f"{what}: coordinates {name} are not evenly spaced")
+    return float(f"{step:.12g}")
+
+
+def _wkt_of(crs: str) -> str:
+    return str(_show.need("pyproj", "python3-pyproj").CRS.from_user_input(crs).to_wkt())
+
+
+def _code_of(crs: str) -> str:
+    """ "EPSG:n" where a CRS is one, as files are read."""
+    if not crs or crs.startswith("EPSG:"):
+        return crs
+    authority = _show.need("pyproj", "python3-pyproj").CRS.from_user_input(crs).to_authority(min_confidence=100)
+    return ":".join(authority) if authority and authority[0] == "EPSG" else crs

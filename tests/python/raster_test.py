@@ -1,0 +1,327 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Rasters are numpy arrays without copies; what is converted is said, what is wrong is said with its place."""
+import copy
+import gc
+import pathlib
+import pickle
+import tempfile
+import unittest
+import warnings
+
+import matplotlib
+import matplotlib.pyplot
+import numpy as np
+import rioxarray
+import xarray
+
+import thalweg
+from thalweg import BadInput, ConversionWarning, Grid, Raster
+from thalweg._raster import to_core
+
+matplotlib.use("Agg")
+SAMPLES = pathlib.Path(__file__).parents[2] / "samples"
+DEM = SAMPLES / "jacksboro_utm16.tif"
+
+
+def slope(width=5, height=4):
+    """Heights that differ everywhere."""
+    return np.arange(width * height, dtype=np.float32).reshape(height, width)
+
+
+class Quiet(unittest.TestCase):
+    """Conversions that nobody expects fail."""
+
+    def setUp(self):
+        caught = warnings.catch_warnings()
+        caught.__enter__()
+        self.addCleanup(caught.__exit__, None, None, None)
+        warnings.simplefilter("error", ConversionWarning)
+
+    def said(self, thing, dtype, what="dem"):
+        """The raster, and what is said of its conversion."""
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            raster = to_core(thing, dtype, what)
+        self.assertTrue(all(one.filename == __file__ for one in caught), caught)
+        return raster, [str(one.message) for one in caught]
+
+
+class Values(Quiet):
+    def test_a_raster_shows_the_array_and_cannot_be_written(self):
+        array = slope()
+        raster = Raster(array)
+        self.assertTrue(np.shares_memory(raster.values, array))
+        self.assertFalse(raster.values.flags.writeable)
+        self.assertTrue(array.flags.writeable)
+        with self.assertRaises(ValueError):
+            raster.array()[0, 0] = 1
+        with self.assertRaises(ValueError):
+            raster += 1
+        own = raster.array(copy=True)
+        own[0, 0] = 7
+        self.assertEqual(array[0, 0], 0)
+
+    def test_shape_and_place(self):
+        raster = Raster(slope(), cell_m=10.0, west=100.0, north=500.0, crs="EPSG:32616")
+        self.assertEqual((raster.shape, raster.ndim, raster.size, len(raster)), ((4, 5), 2, 20, 4))
+        self.assertEqual(raster.bounds, (100.0, 460.0, 150.0, 500.0))
+        self.assertEqual((raster.dtype, raster.crs, raster.cell_m), (np.float32, "EPSG:32616", 10.0))
+        self.assertIn("5 × 4 cells of 10", repr(raster))
+        self.assertEqual(Raster(slope()).grid, Grid(5, 4, 1.0, 0.0, 4.0))
+        self.assertEqual(Raster(slope(), raster.grid).grid, raster.grid)
+
+    def test_the_grid_fits(self):
+        with self.assertRaisesRegex(BadInput, "4 rows and 5 columns do not fit a grid of 5 rows and 4 columns"):
+            Raster(slope(), Grid(4, 5))
+        with self.assertRaisesRegex(BadInput, "cell_m = 0 is not above 0"):
+            Raster(slope(), cell_m=0)
+
+    def test_numpy_takes_it(self):
+        array, raster = slope(), Raster(slope())
+        for take in (lambda a: a + 1, lambda a: 2 * a, lambda a: a - a, lambda a: -a, lambda a: a > 3, lambda a: a[1:, ::2],
+                     np.sqrt, np.maximum.accumulate, lambda a: np.where(a > 2, a, 0), lambda a: np.array(list(a))):
+            result, expected = take(raster), take(array)
+            self.assertIs(type(result), np.ndarray)
+            self.assertEqual(result.dtype, expected.dtype)
+            np.testing.assert_array_equal(result, expected)
+        self.assertEqual(np.mean(raster), array.mean())
+        out = np.empty_like(array)
+        np.add(raster, 1, out=out)
+        np.testing.assert_array_equal(out, array + 1)
+
+    def test_both_protocols_of_array(self):
+        raster = Raster(slope())
+        self.assertTrue(np.shares_memory(np.asarray(raster), raster.values))
+        self.assertFalse(np.shares_memory(raster.__array__(copy=True), raster.values))
+        self.assertTrue(raster.__array__(copy=True).flags.writeable)
+        self.assertEqual(np.asarray(raster, dtype=np.float64).dtype, np.float64)
+        with self.assertRaises(ValueError):
+            raster.__array__(np.float64, copy=False)
+
+    def test_copies_and_pickles(self):
+        raster = Raster(slope(), cell_m=3.0, west=9.0, north=70.0, crs="EPSG:32616")
+        for again in (pickle.loads(pickle.dumps(raster)), copy.deepcopy(raster)):
+            np.testing.assert_array_equal(again, raster)
+            self.assertEqual(again.grid, raster.grid)
+
+    def test_a_raster_of_the_library_keeps_its_memory(self):
+        dem = thalweg.io.read_dem(str(DEM))
+        array, first = dem.array(), dem.array(copy=True)
+        self.assertFalse(array.flags.writeable)
+        del dem
+        gc.collect()
+        rubbish = [np.full(array.shape, 7, np.float32) for _ in range(8)]
+        np.testing.assert_array_equal(array, first)
+        del rubbish
+
+
+class Conversions(Quiet):
+    def test_nothing_is_copied_that_is_as_the_library_reads_it(self):
+        for dtype in (np.float32, np.float64, np.uint8, np.int32, np.int64):
+            array = slope().astype(dtype)
+            self.assertTrue(np.shares_memory(to_core(array, dtype, "dem").values, array))
+            raster = Raster(array)
+            self.assertIs(to_core(raster, dtype, "dem"), raster)
+        rows = slope()[1:3]
+        self.assertTrue(np.shares_memory(to_core(rows, np.float32, "dem").values, rows))
+        mask = slope() > 3
+        self.assertTrue(np.shares_memory(to_core(mask, np.uint8, "mask").values, mask))
+
+    def test_what_is_converted_is_said(self):
+        array = slope()
+        unaligned = np.frombuffer(b"\0" + array.tobytes(), dtype=np.uint8)[1:].view(np.float32).reshape(array.shape)
+        for given, dtype, text in [(array.astype(np.float64), np.float32, "dem: float64 converted to float32"),
+                                   (array.astype(np.int16), np.float32, "dem: int16 converted to float32"),
+                                   (array.astype(np.float16), np.float32, "dem: float16 converted to float32"),
+                                   (array, np.float64, "dem: float32 converted to float64"),
+                                   (array, np.uint8, "dem: float32 converted to uint8"),
+                                   (array > 3, np.float32, "dem: bool converted to float32"),
+                                   (np.asfortranarray(array), np.float32, "dem: copied, not in C order"),
+                                   (array[:, ::2], np.float32, "dem: copied, not in C order"),
+                                   (array.astype(">f4"), np.float32, "dem: copied, not in native byte order"),
+                                   (unaligned, np.float32, "dem: copied, not aligned")]:
+            raster, texts = self.said(given, dtype)
+            self.assertEqual(texts, [text])
+            self.assertEqual(raster.dtype, dtype)
+            flags = raster.values.flags
+            self.assertTrue(flags.c_contiguous and flags.aligned and not flags.writeable)
+            np.testing.assert_array_equal(raster.values, given)
+
+    def test_any_layout_and_type_has_the_values_of_numpy(self):
+        random = np.random.default_rng(7)
+        for _ in range(200):
+            dtype = random.choice(["b", "i2", ">i4", "u8", "f2", ">f8", "f4"])
+            array = random.integers(0, 100, random.integers(1, 9, 2)).astype(dtype)
+            array = random.choice([-1, 1]) * array if array.dtype.kind == "f" else array
+            array = array[::random.choice([-1, 1, 2]), ::random.choice([-1, 1])]
+            array = array.T if random.random() < 0.5 else array
+            raster, _ = self.said(array, np.float32)
+            np.testing.assert_array_equal(raster.values, array.astype(np.float32))
+
+    def test_masked_cells_are_nan(self):
+        for dtype in (np.float32, np.int16):
+            given = np.ma.masked_equal(slope().astype(dtype), 3)
+            raster, texts = self.said(given, np.float32)
+            self.assertEqual(texts, ["dem: copied, masked cells become NaN"])
+            self.assertEqual(np.argwhere(np.isnan(raster.values)).tolist(), [[0, 3]])
+        whole = np.ma.masked_equal(slope(), 99)
+        self.assertTrue(np.shares_memory(to_core(whole, np.float32, "dem").values, whole.data))
+        with self.assertRaisesRegex(BadInput, "mask: masked cells, and uint8 has no value for them"):
+            to_core(np.ma.masked_equal(slope(), 3), np.uint8, "mask")
+
+    def test_what_is_no_raster_is_refused_in_words(self):
+        table = slope().astype(np.float64)
+
+        def with_one(value):
+            other = table.copy()
+            other[2, 3] = value
+            return other
+
+        beyond = "row 2, column 3 .from 0. is beyond the range of"
+        for given, dtype, words in [(np.zeros(3), np.float32, "dem: has 1 dimensions, a raster has two"),
+                                    (np.zeros((0, 3)), np.float32, "dem: is empty: 0 rows, 3 columns"),
+                                    (table.astype(complex), np.float32, "dem: values are complex128, not real numbers"),
+                                    (table.astype(object), np.float32, "dem: values are object"),
+                                    (table.astype(str), np.float32, "dem: values are str"),
+                                    (with_one(1e39), np.float32, f"1e[+]39 in {beyond} float32"),
+                                    (with_one(np.nan), np.int64, "nan in row 2, column 3 .from 0. is no value of int64"),
+                                    (with_one(np.nan), np.uint8, "nan in row 2, column 3"),
+                                    (with_one(np.inf), np.int32, f"inf in {beyond} int32"),
+                                    (with_one(-1), np.uint8, f"-1.0 in {beyond} uint8, .0, 255."),
+                                    (with_one(256).astype(int), np.uint8, "256 in row 2, column 3"),
+                                    (with_one(2**63).astype(np.uint64), np.int64, "9223372036854775808 in row 2, column 3"),
+                                    (with_one(0.5), np.int32, "0.5 in row 2, column 3 .from 0. is not an integer")]:
+            with self.subTest(words), warnings.catch_warnings(), self.assertRaisesRegex(BadInput, words):
+                warnings.simplefilter("ignore", ConversionWarning)
+                to_core(given, dtype, "dem")
+        for given in (None, 3.0, [[1.0]]):
+            with self.assertRaisesRegex(TypeError, "dem: takes a Raster, a numpy array, an xarray.DataArray or a path, not"):
+                to_core(given, np.float32, "dem")
+        infinite, _ = self.said(with_one(np.inf), np.float32)
+        self.assertEqual(infinite[2, 3], np.inf)
+
+    def test_a_stage_says_it_at_the_callers_line(self):
+        with warnings.catch_warnings(record=True) as caught:
+            warnings.simplefilter("always")
+            shade = thalweg.io.hillshade(slope().astype(np.float64))
+        said = [(one.filename, str(one.message)) for one in caught]
+        self.assertEqual(said, [(__file__, "dem: float64 converted to float32")])
+        self.assertEqual((shade.shape, shade.dtype), ((4, 5), np.uint8))
+        with self.assertRaises(BadInput) as refused:
+            thalweg.io.hillshade(np.zeros(3))
+        self.assertTrue(refused.exception.where)
+
+    def test_a_path_is_read(self):
+        for path in (DEM, str(DEM)):
+            np.testing.assert_array_equal(to_core(path, np.float32, "dem"), thalweg.io.read_dem(str(DEM)))
+        with self.assertRaises(BadInput):
+            to_core("no such file.tif", np.float32, "dem")
+
+
+class Xarray(Quiet):
+    def setUp(self):
+        super().setUp()
+        self.dem = Raster(slope(), cell_m=30.0, west=500010.0, north=4000020.0, crs="EPSG:32616")
+
+    def test_rioxarray_reads_it(self):
+        array = self.dem.to_xarray("dem")
+        self.assertTrue(np.shares_memory(array.values, self.dem.values))
+        self.assertEqual((array.dims, array.name), (("y", "x"), "dem"))
+        self.assertEqual(array.x.values.tolist(), [500025.0, 500055.0, 500085.0, 500115.0, 500145.0])
+        self.assertEqual(array.y.values.tolist(), [4000005.0, 3999975.0, 3999945.0, 3999915.0])
+        self.assertEqual(array.rio.crs.to_epsg(), 32616)
+        self.assertEqual(tuple(array.rio.transform())[:6], (30.0, 0.0, 500010.0, 0.0, -30.0, 4000020.0))
+        self.assertEqual(array.rio.bounds(), self.dem.bounds)
+        self.assertTrue(np.isnan(array.rio.nodata))
+        self.assertIsNone(Raster(slope()).to_xarray().rio.crs)
+        self.assertNotIn("_FillValue", Raster(slope() > 3).to_xarray().attrs)
+
+    def test_there_and_back_is_the_same(self):
+        for raster in (self.dem, Raster(slope(), cell_m=0.1, west=1 / 3, north=2 / 3), Raster(slope(1, 1), cell_m=7.0),
+                       Raster(slope(1, 3), cell_m=7.0, west=2.0), thalweg.io.read_dem(str(DEM))):
+            again = to_core(raster.to_xarray(), np.float32, "dem")
+            self.assertTrue(np.shares_memory(again.values, raster.values))
+            self.assertEqual(again.grid, raster.grid)
+
+    def test_a_file_that_rioxarray_reads_is_what_the_library_reads(self):
+        expected = thalweg.io.read_dem(str(DEM))
+        for options in ({}, {"masked": True}):
+            raster, _ = self.said(rioxarray.open_rasterio(DEM, **options), np.float32)
+            np.testing.assert_array_equal(raster, expected)
+            self.assertEqual(raster.grid, expected.grid)
+
+    def test_rows_and_columns_are_turned(self):
+        array = self.dem.to_xarray()
+        for turned in (array[::-1], array[:, ::-1], array[::-1, ::-1], array.T, array.expand_dims(band=[1]),
+                       array.rename(y="lat", x="lon").T):
+            raster, texts = self.said(turned, np.float32)
+            np.testing.assert_array_equal(raster, self.dem)
+            self.assertEqual(raster.grid, self.dem.grid)
+            self.assertLessEqual(set(texts), {"dem: copied, not in C order"})
+
+    def test_a_part_lies_where_it_was(self):
+        part, _ = self.said(self.dem.to_xarray()[1:3, 2:], np.float32)
+        np.testing.assert_array_equal(part, slope()[1:3, 2:])
+        self.assertEqual(part.grid, Grid(3, 2, 30.0, 500070.0, 3999990.0, "EPSG:32616"))
+        every_second, _ = self.said(self.dem.to_xarray()[::2, ::2], np.float32)
+        self.assertEqual(every_second.grid, Grid(3, 2, 60.0, 499995.0, 4000035.0, "EPSG:32616"))
+
+    def test_without_coordinates_it_has_no_place(self):
+        self.assertEqual(to_core(xarray.DataArray(slope()), np.float32, "dem").grid, Raster(slope()).grid)
+
+    def test_nodata_scale_and_units(self):
+        array = self.dem.to_xarray().astype(np.int16).assign_attrs(_FillValue=3)
+        raster, texts = self.said(array, np.float32)
+        self.assertEqual(texts, ["dem: copied, cells without data become NaN"])
+        self.assertEqual(np.argwhere(np.isnan(raster.values)).tolist(), [[0, 3]])
+        scaled, texts = self.said(self.dem.to_xarray().assign_attrs(scale_factor=0.5, add_offset=10.0), np.float32)
+        self.assertEqual(texts, ["dem: copied, scale and offset applied"])
+        np.testing.assert_array_equal(scaled, slope() * 0.5 + 10)
+        with self.assertRaisesRegex(BadInput, "mask: cells without data, and uint8"):
+            to_core(array, np.uint8, "mask")
+        with self.assertRaisesRegex(BadInput, "dem: heights are in feet"):
+            to_core(self.dem.to_xarray().assign_attrs(units="ft"), np.float32, "dem")
+
+    def test_what_is_no_grid_is_refused_in_words(self):
+        array = self.dem.to_xarray()
+        rotated = array.copy()
+        rotated.coords["spatial_ref"] = ((), 0, {"GeoTransform": "0 1 0.5 0 0.5 -1"})
+        for given, words in [(array.assign_coords(x=array.x * 2), "dem: cells are not square: 60 x 30"),
+                             (array.assign_coords(x=[0, 30, 60, 90, 150]), "dem: coordinates x are not evenly spaced"),
+                             (rotated, "dem: is rotated"),
+                             (xarray.concat([array, array], "band"), "more than one band"),
+                             (array[0], "dem: has 1 dimensions"),
+                             (array.to_dataset(name="z"), "dem: a Dataset holds several arrays .z.: choose one")]:
+            with self.subTest(words), self.assertRaisesRegex(BadInput, words):
+                to_core(given, np.float32, "dem")
+
+
+class Pictures(Quiet):
+    def test_plot_has_the_rasters_coordinates(self):
+        heights = Raster(slope(), cell_m=10.0, west=100.0, north=500.0)
+        axes = heights.plot()
+        self.assertEqual(len(axes.images), 2)
+        self.assertEqual(axes.images[0].get_extent(), (100.0, 150.0, 460.0, 500.0))
+        self.assertIs(Raster(slope() > 3).plot(axes), axes)
+        matplotlib.pyplot.close("all")
+
+    def test_a_notebook_shows_it(self):
+        empty = np.full((3, 3), np.nan, np.float32)
+        for raster in (Raster(slope()), Raster(slope() > 3), Raster(empty), Raster(slope(2000, 3))):
+            page = raster._repr_html_()
+            self.assertIn("data:image/png;base64,", page)
+            self.assertIn(f"{raster.grid.width} × {raster.grid.height} cells", page)
+
+    def test_written_and_read_it_is_the_same(self):
+        with tempfile.TemporaryDirectory() as folder:
+            path = f"{folder}/dem.tif"
+            raster = Raster(slope(), cell_m=30.0, west=500010.0, north=4000020.0, crs="EPSG:32616")
+            thalweg.io.write_dem(raster, path)
+            again = to_core(path, np.float32, "dem")
+        np.testing.assert_array_equal(again, raster)
+        self.assertEqual(again.grid, raster.grid)
+
+
+if __name__ == "__main__":
+    unittest.main()
