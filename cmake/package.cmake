@@ -1,23 +1,20 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# The Debian package of the program, as `scripts/package deb` makes it.
+# The Debian packages, one a component of what is installed, as `scripts/package deb` makes them.
 set(CPACK_GENERATOR DEB)
 set(CPACK_PACKAGE_NAME thalweg)
 set(CPACK_PACKAGE_VENDOR "the thalweg authors")
 set(CPACK_PACKAGE_CONTACT "the thalweg authors <thalweg@example.org>")
-set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "terrain from its rivers outward")
+set(CPACK_PACKAGE_DESCRIPTION_SUMMARY "") # each package has its own
 set(CPACK_STRIP_FILES ON)
 set(CPACK_PACKAGING_INSTALL_PREFIX /usr)
+set(CPACK_DEB_COMPONENT_INSTALL ON)
+set(CPACK_COMPONENTS_GROUPING IGNORE)
 set(CPACK_DEBIAN_FILE_NAME DEB-DEFAULT)
-set(CPACK_DEBIAN_PACKAGE_SECTION science)
-set(CPACK_DEBIAN_PACKAGE_DESCRIPTION "\
-thalweg reads river networks from files, or grows them, and makes the terrain
-around them. It writes a topology-checked river network (GeoPackage,
-Shapefile), a DEM that these rivers drain, contours, pictures and a report
-page.")
+set(CPACK_DEBIAN_COMPRESSION_TYPE xz)
+set(CPACK_DEBIAN_PACKAGE_SOURCE thalweg)
 set(CPACK_DEBIAN_PACKAGE_SHLIBDEPS ON)
-set(CPACK_DEBIAN_PACKAGE_DEPENDS "fonts-dejavu-core")
-set(CPACK_DEBIAN_PACKAGE_RECOMMENDS "fonts-noto-cjk")
+set(CPACK_DEBIAN_PACKAGE_CONTROL_STRICT_PERMISSION ON)
 set(CPACK_PRE_BUILD_SCRIPTS ${PROJECT_SOURCE_DIR}/cmake/package_files.cmake)
 
 # The changelog's date is that of the last commit: the same sources give the same package.
@@ -42,6 +39,12 @@ Files: *
 Copyright: ${YEAR} the thalweg authors
 License: GPL-3+
 
+Files: samples/*.gpkg samples/*.tif samples/points.csv
+Copyright: none, data of the government of the United States of America
+License: public-domain
+ Rivers of NHDPlus and heights of SRTM, which samples/PROVENANCE.md traces
+ to their sources.
+
 License: GPL-3+
  This program is free software: you can redistribute it and/or modify it
  under the terms of the GNU General Public License as published by the Free
@@ -51,10 +54,103 @@ License: GPL-3+
  On Debian systems, the full text of version 3 of the license is in
  /usr/share/common-licenses/GPL-3.
 ")
-install(FILES ${PROJECT_BINARY_DIR}/debian/copyright DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian)
-install(FILES ${PROJECT_BINARY_DIR}/debian/changelog DESTINATION ${CMAKE_INSTALL_DOCDIR} COMPONENT debian)
-# Of what is installed, the program and these: the library has no package yet.
-set(CPACK_COMPONENTS_ALL program debian)
-set(CPACK_COMPONENTS_GROUPING ALL_COMPONENTS_IN_ONE)
-set(CPACK_DEB_COMPONENT_INSTALL ON)
+
+# depends_on(VARIABLE GROUP...): what scripts/packages names, as a field of a package
+function(depends_on VARIABLE)
+  execute_process(COMMAND ${PROJECT_SOURCE_DIR}/scripts/packages --list ${ARGN} OUTPUT_VARIABLE NAMES
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  string(REPLACE "\n" ", " NAMES "${NAMES}")
+  set(${VARIABLE} "${NAMES}" PARENT_SCOPE)
+endfunction()
+
+# debian_package(COMPONENT NAME SECTION DESCRIPTION): the description's first line is the summary. Other fields: CPACK_DEBIAN_*.
+macro(debian_package COMPONENT NAME SECTION DESCRIPTION)
+  string(TOUPPER ${COMPONENT} FIELD)
+  list(APPEND CPACK_COMPONENTS_ALL ${COMPONENT})
+  set(CPACK_DEBIAN_${FIELD}_PACKAGE_NAME ${NAME})
+  set(CPACK_DEBIAN_${FIELD}_PACKAGE_SECTION ${SECTION})
+  set(CPACK_DEBIAN_${FIELD}_DESCRIPTION "${DESCRIPTION}")
+  install(FILES ${PROJECT_BINARY_DIR}/debian/copyright ${PROJECT_BINARY_DIR}/debian/changelog
+    DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${NAME} COMPONENT ${COMPONENT} EXCLUDE_FROM_ALL)
+endmacro()
+
+unset(CPACK_COMPONENTS_ALL)
+depends_on(FONTS fonts)
+debian_package(program thalweg science "\
+terrain from its rivers outward
+thalweg reads river networks from files, or grows them, and makes the terrain
+around them. It writes a topology-checked river network (GeoPackage,
+Shapefile), a DEM that these rivers drain, contours, pictures and a report
+page.")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_DEPENDS "${FONTS}")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_RECOMMENDS "fonts-noto-cjk")
+set(CPACK_DEBIAN_PROGRAM_PACKAGE_SUGGESTS "thalweg-doc")
+
+set(OPTIONAL)
+if(TARGET libnoise::libnoise)
+  list(APPEND OPTIONAL noise)
+endif()
+if(OpenCL_FOUND)
+  list(APPEND OPTIONAL opencl)
+endif()
+debian_package(library libthalweg-dev libdevel "\
+terrain from its rivers outward - C++ library
+thalweg reads river networks from files, or grows them, and makes the terrain
+around them.
+
+This package contains the static library and its headers, for C++20, with
+what CMake's find_package(thalweg) and pkg-config need.")
+depends_on(CPACK_DEBIAN_LIBRARY_PACKAGE_DEPENDS library fonts ${OPTIONAL})
+set(CPACK_DEBIAN_LIBRARY_PACKAGE_SUGGESTS "thalweg-doc")
+
+if(TARGET thalweg_python)
+  debian_package(python python3-thalweg python "\
+terrain from its rivers outward - Python 3 module
+thalweg reads river networks from files, or grows them, and makes the terrain
+around them.
+
+This package contains the Python module thalweg: rasters are NumPy arrays,
+and networks can be handed to GeoPandas and NetworkX.")
+  # The extension is loaded by the minor version of Python that it was compiled for.
+  execute_process(COMMAND /usr/bin/python3 -c "from sys import version_info as v; print(v[1])" OUTPUT_VARIABLE MINOR
+    OUTPUT_STRIP_TRAILING_WHITESPACE COMMAND_ERROR_IS_FATAL ANY)
+  math(EXPR NEXT "${MINOR} + 1")
+  depends_on(NUMPY numpy fonts)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${MINOR}), python3 (<< 3.${NEXT}), ${NUMPY}")
+  depends_on(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS views)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "thalweg-doc")
+  # What Python compiles is no file of the package, and goes with it.
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/postinst CONTENT "\
+#!/bin/sh
+set -e
+if [ \"$1\" = configure ] && command -v py3compile >/dev/null; then
+    py3compile -p python3-thalweg
+fi
+" @ONLY)
+  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/prerm CONTENT "\
+#!/bin/sh
+set -e
+if command -v py3clean >/dev/null; then
+    py3clean -p python3-thalweg
+fi
+" @ONLY)
+  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/postinst ${PROJECT_BINARY_DIR}/debian/prerm)
+endif()
+
+debian_package(documentation thalweg-doc doc "\
+terrain from its rivers outward - documentation
+thalweg reads river networks from files, or grows them, and makes the terrain
+around them.
+
+This package contains its documentation and the samples: recipes, river files,
+DEMs and programs.")
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_ARCHITECTURE all)
+set(CPACK_DEBIAN_DOCUMENTATION_PACKAGE_SUGGESTS "thalweg, libthalweg-dev, python3-thalweg")
+# Laid out as in the sources, so that links between pages and to samples hold.
+set(DOC ${CMAKE_INSTALL_DATADIR}/doc/thalweg-doc)
+set(IN_DOC COMPONENT documentation EXCLUDE_FROM_ALL)
+install(FILES README.md CHANGELOG.md CONTRIBUTING.md CITATION.cff DESTINATION ${DOC} ${IN_DOC})
+install(FILES web/README.md DESTINATION ${DOC}/web ${IN_DOC})
+install(DIRECTORY docs samples DESTINATION ${DOC} ${IN_DOC} PATTERN CMakeLists.txt EXCLUDE PATTERN Doxyfile.in EXCLUDE
+  PATTERN reference.dox EXCLUDE PATTERN "*.swp" EXCLUDE)
 include(CPack)

@@ -223,7 +223,7 @@ class Binder:
             if name == "std::optional" or whole.endswith("*") or name == "Raster" or whole.startswith("std::function"):
                 return "None"
             if name in ("std::vector", "std::map"):
-                return "()"
+                return "()" if name == "std::vector" else "{}"
             if whole in TEXTS:
                 return "''"
             if whole in NUMBERS:
@@ -303,7 +303,7 @@ class Binder:
             return f"Literal[{', '.join(repr(w) for w in self.words_of(scope))}]" if into else "str"
         shown = scope[1].replace("::", ".")
         if scope[0] and scope[0] != module:
-            shown = f"{scope[0]}.{shown}"
+            shown = f"_{scope[0]}.{shown}"  # no property has such a name
         if into and scope in self.records:
             if self.is_held_raster(scope):
                 return f"{shown} | RasterLike"
@@ -382,6 +382,10 @@ class Binder:
                               "default": "None" if is_pointer else "" if parameter.default is None else self.literal(parameter.default, whole),
                               "says": params.get(parameter.name, "")})
         found.sort(key=lambda a: a["kind"] != "positional")
+        positional = [a for a in found if a["kind"] == "positional"]
+        for argument, after in zip(positional[-2::-1], positional[:0:-1]):
+            if not after["default"]:
+                argument["default"] = ""  # what may be None is given all the same
         names = [a["name"] for a in found]
         if len(set(names)) != len(names) or set(names) & set(RUN):
             raise SystemExit(f"bind.py: {function.space}::{function.name}: an argument has the name of another: {names}")
@@ -397,7 +401,7 @@ class Binder:
             default = "" if not argument["default"] else f" = {argument['default']}" if stub else f"={argument['default']}"
             if stub and argument["default"] == "None" and not annotation.endswith("| None"):
                 annotation += " | None"
-            if stub and argument["default"] == "()":
+            if stub and argument["default"] in ("()", "{}"):
                 default = " = ..."
             parts.append(f"{argument['name']}{annotation}{default}")
         if any(self.is_run(p) for p in function.parameters):
@@ -411,7 +415,7 @@ class Binder:
 
     def words_for(self, argument: dict[str, str], module: str) -> list[str]:
         """The entry of an argument or attribute in a docstring."""
-        type_ = self.python_type(argument["type"], argument.get("kind", "") != "", module)
+        type_ = re.sub(r"\b_([a-z]+\.)", r"\1", self.python_type(argument["type"], argument.get("kind", "") != "", module))
         type_ = re.sub(r"Literal\[(.*?)\]", r"{\1}", type_).replace("npt.NDArray", "ndarray").replace("npt.ArrayLike", "array_like")
         type_ = type_.replace("os.PathLike[str]", "path").replace("np.", "")
         default = argument.get("default", "")
@@ -450,6 +454,7 @@ class Binder:
                 text += "threads, progress, log, device\n    How the work runs, as for `thalweg.make`; the result is the same.\n"
         returned = self.expanded(function.returns, function.space)
         type_ = self.python_type(returned, False, function.space).replace("npt.NDArray", "ndarray").replace("np.", "")
+        type_ = re.sub(r"\b_([a-z]+\.)", r"\1", type_)
         text += f"\nReturns\n-------\n{type_}\n" + (self.wrapped(str(said["returns"]), "    ") + "\n" if said["returns"] else "")
         throws = said["throws"]
         assert isinstance(throws, list)
@@ -592,7 +597,7 @@ class Binder:
         can = "false" if required or not takes else f"std::is_default_constructible_v<{whole}>"
         name = scope[1].replace("::", ".")
         parts = [f"{safe(f.name)}={self.literal(f.default, t)}" for _, f, t in self.fields_of(scope) if self.is_taken(t)]
-        signature = f"__init__($self, {', '.join(parts)})\\n--\\n\\n"
+        signature = f"__init__(self, {', '.join(parts)})\\n--\\n\\n"
         return f"""template <> struct Fields<{whole}> {{
     static constexpr bool can_be_made = {can};
     static constexpr bool is_raster = {'true' if self.is_held_raster(scope) else 'false'};
@@ -652,7 +657,15 @@ class Binder:
         by_name: dict[str, list[Function]] = collections.defaultdict(list)
         for function in self.functions.get(space, []):
             by_name[function.name].append(function)
-        return list(by_name.values())
+        return [self.without_covered(overloads) for overloads in by_name.values()]
+
+    def without_covered(self, overloads: list[Function]) -> list[Function]:
+        """Without those that another one does too: with the same arguments, and options besides."""
+        def covers(one: Function, other: Function) -> bool:
+            mine, others = self.arguments(one), self.arguments(other)
+            given = [(a["name"], a["type"]) for a in mine if not a["default"]]
+            return given == [(a["name"], a["type"]) for a in others if not a["default"]] and {a["name"] for a in others} < {a["name"] for a in mine}
+        return [f for f in overloads if not any(covers(one, f) for one in overloads)]
 
     def records_in(self, space: str) -> list[tuple[str, str]]:
         return sorted((s for s in self.records if s[0] == space), key=lambda s: (s[1].count("::"), s[1]))
@@ -728,7 +741,7 @@ namespace thalweg::python {{
                     annotation = self.python_type(type_, True, space)
                     if default == "None" and not annotation.endswith("| None"):
                         annotation += " | None"
-                    parts.append(f"{safe(field.name)}: {annotation} = {'...' if default == '()' else default}")
+                    parts.append(f"{safe(field.name)}: {annotation} = {'...' if default in ('()', '{}') else default}")
                 lines.append(f"{inner}def __init__(self, {', '.join(parts)}) -> None: ...")
             for _, field, type_ in self.fields_of(scope):
                 if self.can_cross(type_):
@@ -736,6 +749,8 @@ namespace thalweg::python {{
                     if arguments_of(type_)[0] == "Raster" and re.search(r"without cells|empty", field.comment):
                         shown = "Raster | None"
                     lines.append(f"{inner}@property\n{inner}def {safe(field.name)}(self) -> {shown}: ...")
+            if scope == ("", "ElevatedNetwork"):
+                lines.extend(f"{inner}{line}" for line in AS_TABLES)
             lines.append(f"{inner}def as_dict(self) -> dict[str, Any]: ...")
 
         for scope in records:
@@ -749,10 +764,13 @@ namespace thalweg::python {{
         return "\n".join(lines) + "\n"
 
 
+# What the package adds to networks.
+AS_TABLES = ["def to_geodataframe(self, layer: str = 'arcs', *, crs: str | None = None) -> geopandas.GeoDataFrame: ...",
+             "def to_networkx(self) -> networkx.DiGraph: ..."]
 STUB_HEAD = """# Written by python/bind/bind.py.
 import os
 from collections.abc import Callable, Mapping, Sequence
-from typing import Any, Literal, overload
+from typing import TYPE_CHECKING, Any, Literal, overload
 
 import numpy as np
 import numpy.typing as npt
@@ -776,12 +794,16 @@ def main() -> None:
         written[out / f"{called}.cpp"] = binder.write_module(space)
         stub = binder.write_stub(space)
         extra = by_hand / f"by_hand_{called}.pyi"
-        stub += extra.read_text(encoding="utf-8") if extra.exists() else ""
-        others = sorted(m for m in MODULES if m != space and re.search(rf"(?<![\w.]){m}\.", stub))
+        if extra.exists():
+            stub += "".join(f"{line}\n" for line in extra.read_text(encoding="utf-8").splitlines() if not line.startswith("# SPDX"))
+        others = sorted(m for m in MODULES if m != space and re.search(rf"\b_{m}\.", stub))
         values = sorted({s[1] for s in [*binder.records, *BY_HAND] if s[0] == "" and "::" not in s[1]}) if space else []
-        head = STUB_HEAD + "".join(f"from thalweg import {m}\n" for m in others)
+        head = STUB_HEAD + "".join(f"from thalweg import {m} as _{m}\n" for m in others)
         used = [v for v in values if re.search(rf"(?<![\w.]){v}\b", stub)]
         head += f"from thalweg._core import {', '.join(used)}\n" if used else ""
+        if not space:
+            top = sorted(set(re.findall(r"^(?:class|def) (\w+)", stub, re.MULTILINE)) - {"version"})
+            head += f"\n__all__ = {top}\n"
         written[out / "stubs" / ("_core.pyi" if not space else f"{space}.pyi")] = f"{head}\n{stub}"
     (out / "stubs").mkdir(parents=True, exist_ok=True)
     for path, text in written.items():

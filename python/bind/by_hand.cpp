@@ -209,7 +209,7 @@ void declare_picture(py::module_& module) {
     type.def("_repr_svg_", [](draw::Picture const& picture) -> py::object {
         return picture.format == draw::Format::svg ? py::object(py::str(picture.bytes)) : py::object(py::none());
     });
-    add_method(type, "save", R"words(save($self, path)
+    add_method(type, "save", R"words(save(self, path)
 --
 
 Writes the picture to a file; one that exists is replaced.

@@ -36,6 +36,11 @@ std::string shown(py::handle value) {
                             : text;
 }
 
+/// The names of arguments for which a table or a raster may be given, too.
+constexpr std::array<std::string_view, 9> of_files = {"path", "source", "dem", "network", "rivers", "target", "mask", "keep", "breaklines"};
+
+thread_local Args* current = nullptr; ///< the call whose arguments are taken
+
 [[noreturn]] void raise(PyObject* type, std::string const& words) {
     PyErr_SetString(type, words.c_str());
     throw py::error_already_set();
@@ -172,10 +177,14 @@ std::uint64_t take_seed(py::handle value, Place const& place) {
 std::string take_text(py::handle value, Place const& place) {
     py::object text = py::reinterpret_borrow<py::object>(value);
     if (!py::isinstance<py::str>(text)) {
-        if (!py::hasattr(text, "__fspath__")) {
+        if (py::hasattr(text, "__fspath__")) {
+            text = py::module_::import("os").attr("fsdecode")(text);
+        } else if (std::find(of_files.begin(), of_files.end(), place.name) != of_files.end() && current != nullptr) {
+            text = from_package("thalweg._networks", "path_of")(value, place.name);
+            current->files_.append(text);
+        } else {
             refuse_type(place, value, "a text");
         }
-        text = py::module_::import("os").attr("fsdecode")(text);
     }
     return py::module_::import("os").attr("fsencode")(text).cast<std::string>(); // bytes that are not UTF-8 stay
 }
@@ -230,7 +239,15 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
 }
 
 std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py::dtype const& type) {
-    py::object const raster = from_package("thalweg._raster", "to_core")(value, type, place.name);
+    py::object raster;
+    try {
+        raster = from_package("thalweg._raster", "to_core")(value, type, place.name);
+    } catch (py::error_already_set& fault) {
+        if (py::hasattr(fault.value(), "where")) {
+            fault.value().attr("where") = place.function;
+        }
+        throw;
+    }
     auto values = py::cast<py::array>(raster.attr("values"));
     Grid grid = raster.attr("grid").cast<Grid>();
     bool const fits = values.ndim() == 2 && values.dtype().is(type) && (values.flags() & py::array::c_style) != 0;
@@ -274,7 +291,17 @@ py::dict take_dict(py::handle value, Place const& place) {
 }
 
 Args::Args(std::string function, py::args positional, py::kwargs named)
-    : function_(std::move(function)), positional_(std::move(positional)), named_(std::move(named)) {}
+    : function_(std::move(function)), outer_(std::exchange(current, this)), positional_(std::move(positional)),
+      named_(std::move(named)) {}
+
+Args::~Args() {
+    current = outer_;
+    if (outer_ != nullptr) { // a record in its arguments: they live as long
+        for (py::handle const file : files_) {
+            outer_->files_.append(file);
+        }
+    }
+}
 
 py::handle Args::peek(std::size_t position, char const* name) const {
     if (position < positional_.size()) {
@@ -486,6 +513,11 @@ void add_getter(py::handle type, char const* name, char const* words, Getter get
     type.attr(name) = property(py::cpp_function(getter, py::is_method(type)), py::none(), py::none(), py::str(words));
 }
 
+void add_equality(py::handle type, bool (*equal)(py::object const&, py::object const&)) {
+    type.attr("__eq__") = py::cpp_function(equal, py::name("__eq__"), py::is_method(type), py::scope(type));
+    type.attr("__hash__") = py::none();
+}
+
 void add_init(py::handle type, char const* words, void* (*make)(Args&)) {
     auto const name = type.attr("__name__").cast<std::string>();
     type.attr("__init__") = py::cpp_function(
@@ -543,7 +575,7 @@ void finish_record(py::handle type, std::initializer_list<char const*> fields) {
     type.attr("__repr__") = py::cpp_function(repr_of, py::name("__repr__"), py::is_method(type), py::scope(type));
     type.attr("as_dict") =
         py::cpp_function(dict_of_fields, py::name("as_dict"), py::is_method(type), py::scope(type),
-                         py::doc("as_dict($self)\n--\n\nGives the fields as a dictionary, records in them too.\n\nReturns\n-------\ndict[str, Any]\n"));
+                         py::doc("as_dict(self)\n--\n\nGives the fields as a dictionary, records in them too.\n\nReturns\n-------\ndict[str, Any]\n"));
 }
 
 } // namespace thalweg::python

@@ -308,6 +308,9 @@ private:
 class Args {
 public:
     Args(std::string function, py::args positional, py::kwargs named);
+    Args(Args const&) = delete;
+    Args& operator=(Args const&) = delete;
+    ~Args();
 
     /// One form of an overloaded function.
     struct Form {
@@ -380,7 +383,11 @@ public:
 private:
     void work(std::function<void(Run const&)> const& stage);
 
+    friend std::string take_text(py::handle value, Place const& place);
+
     std::string function_;
+    Args* outer_; ///< the call in whose arguments this one's are
+    py::list files_; ///< of tables and rasters given instead of names
     py::args positional_;
     py::kwargs named_;
     std::size_t next_ = 0;
@@ -537,6 +544,7 @@ void add_method(py::handle type, char const* name, char const* words, py::object
 void add_getter(py::handle type, char const* name, char const* words, Getter getter);
 /// Adds repr, as_dict and the names of the fields.
 void finish_record(py::handle type, std::initializer_list<char const*> fields);
+void add_equality(py::handle type, bool (*equal)(py::object const&, py::object const&));
 void add_init(py::handle type, char const* words, void* (*make)(Args&));
 
 template <class T, auto Member> py::object get(py::object const& self) {
@@ -553,6 +561,11 @@ template <class T> py::class_<T> add_record(py::handle scope, char const* name, 
     type.attr("__module__") = module;
     if constexpr (Fields<T>::can_be_made) {
         add_init(type, Fields<T>::signature, &make_record<T>);
+    }
+    if constexpr (std::equality_comparable<T>) {
+        add_equality(type, [](py::object const& one, py::object const& other) {
+            return py::isinstance<T>(other) && one.cast<T const&>() == other.cast<T const&>();
+        });
     }
     return type;
 }

@@ -83,9 +83,11 @@ PYBIND11_MODULE(_core, module) {
     module.attr("MODULES") = py::tuple(names);
     py::list values;
     for (auto const& [name, value] : module.attr("__dict__").cast<py::dict>()) {
-        if (py::isinstance<py::type>(value)) {
+        if (PyCallable_Check(value.ptr()) != 0 && name.cast<std::string>() != "version" && name.cast<std::string>()[0] != '_') {
             values.append(name);
         }
     }
+    values.attr("sort")();
+    module.attr("__all__") = values;
     module.attr("VALUES") = py::tuple(values);
 }

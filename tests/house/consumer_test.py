@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Installs thalweg into an empty prefix and builds and runs a program against it, all outside the tree.
+"""Installs thalweg into an empty prefix and builds and runs a program against it, by CMake and by hand, all outside the tree.
 Usage: consumer_test.py CMAKE BUILD_DIR CXX_COMPILER"""
+import os
 import pathlib
 import shutil
 import subprocess
@@ -19,9 +20,13 @@ with tempfile.TemporaryDirectory() as room:
     subprocess.run([cmake, "-G", "Ninja", "-S", room / "consumer", "-B", room / "build", f"-DCMAKE_PREFIX_PATH={moved}",
                     f"-DCMAKE_CXX_COMPILER={compiler}", "-DCMAKE_BUILD_TYPE=Release"], check=True)
     subprocess.run([cmake, "--build", room / "build"], check=True)
-    said = subprocess.run([room / "build" / "consumer"], check=True, capture_output=True, text=True).stdout
-    if said != "1.2\n":
-        sys.exit(f"the consumer says {said!r}, not 1.2")
+    flags = subprocess.check_output(["pkg-config", "--static", "--cflags", "--libs", "thalweg"], text=True,
+                                    env={**os.environ, "PKG_CONFIG_PATH": str(next(moved.rglob("pkgconfig")))}).split()
+    subprocess.run([compiler, "-std=c++20", room / "consumer" / "main.cpp", "-o", room / "by_hand", *flags], check=True)
+    for program in (room / "build" / "consumer", room / "by_hand"):
+        said = subprocess.run([program], check=True, capture_output=True, text=True).stdout
+        if said != "1.2\n":
+            sys.exit(f"{program} says {said!r}, not 1.2")
     for name in ("man/man1/thalweg-make.1", "man/man5/thalweg-recipe.5", "bash-completion/completions/thalweg",
                  "zsh/site-functions/_thalweg", "fish/vendor_completions.d/thalweg.fish"):
         if not (moved / "share" / name).is_file():

@@ -71,7 +71,7 @@ TYPE = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)(?![\w:])[^;]*\{
 FLAGS = re.compile(r"-march=|-mtune=|-mfma|-mavx|-ffast-math|-Ofast|-funsafe-math|-ffp-contract=fast")
 
 MACHINE_PATH = re.compile(r"(?<![\w.}$)*-])/(?:work|home|root|tmp|Users)(?![\w.-])")
-FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|conan|vcpkg|cargo|gem) install\b|"
+FETCHED = re.compile(r"FetchContent|ExternalProject|CPMAddPackage|\b(?:pip3?|conan|vcpkg|cargo|gem) install\b(?! --no-index)|"
                      r"\b(?:curl|wget) |pypi\.org|pythonhosted\.org|crates\.io|anaconda\.org|"
                      r"(?:ghcr|docker|quay)\.io", re.IGNORECASE)
 LOCK_HOST = re.compile(r'"resolved": *"https?://(?!registry\.npmjs\.org/)[^"\s]+')

@@ -91,6 +91,7 @@ INNOCENT = [
     ("tools/main.cpp", '#include "commands/commands.hpp"\n#include "terminal/progress.hpp"'),
     ("tools/help/roff.cpp", '#include "help/roff.hpp"'),
     ("docs/a.md", "${ROOT}/work and file/home and https://x.example/tmp.html"),
+    ("docs/a.md", "pip install --no-index x"),
     ("web/package-lock.json", '"resolved": "https://registry.npmjs.org/x.tgz"'),
     ("web/dist/report.html", 'a="/' + 'home/";b="curl -O x and pip install x"'),
 ]

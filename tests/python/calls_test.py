@@ -122,7 +122,7 @@ class Arguments(unittest.TestCase):
             (lambda: thalweg.surface.diffuse(valley(), threads=-1), thalweg.BadParameter, "threads is -1"),
             (lambda: thalweg.surface.diffuse(valley(), log=3), TypeError, "log is 3; it must be a function"),
             (lambda: thalweg.surface.diffuse(valley(), device="gpu"), thalweg.BadParameter, "it must be one of cpu, opencl"),
-            (lambda: thalweg.surface.diffuse(valley()[:, :, None]), thalweg.BadInput, "2"),
+            (lambda: thalweg.surface.diffuse(valley()[:, :, None]), thalweg.BadInput, "has 3 dimensions, a raster has two"),
             (lambda: thalweg.surface.diffuse(np.full((4, 4), np.nan, np.float32)), thalweg.BadInput, "river|skeleton|cell"),
             (lambda: thalweg.surface.diffuse("no such.tif"), thalweg.BadInput, "no such.tif"),
             (lambda: thalweg.flow.route(np.full((3, 3), np.inf, np.float32)), thalweg.BadInput, "infinite"),
@@ -139,8 +139,11 @@ class Arguments(unittest.TestCase):
             (lambda: thalweg.Grid(1, 2, 3, 4, 5, "", 7), TypeError, "7 arguments are given"),
             (lambda: thalweg.Grid(width=1, widht=2), TypeError, "Did you mean 'width'?"),
             (lambda: thalweg.network.grow_dla(seed=2**70), TypeError, "seed"),
-            (lambda: thalweg.measure.perched(valley(), [64 * 64], rise_m=1.0), thalweg.BadInput, "outside"),
+            (lambda: thalweg.measure.perched(valley(), [64 * 64], rise_m=1.0), thalweg.BadInput, "cell 4096 is not one of"),
+            (lambda: thalweg.io.read_rivers(path=3), TypeError, "path: takes a path, a GeoDataFrame"),
+            (lambda: thalweg.draw.lines([[[0, 0], [1, 1]]], title=3), TypeError, "title is 3; it must be a text"),
         ]
+        warnings.simplefilter("ignore", thalweg.ConversionWarning)
         for call, kind, words in cases:
             with self.subTest(words), self.assertRaisesRegex(kind, words):
                 call()
@@ -151,6 +154,10 @@ class Arguments(unittest.TestCase):
         self.assertEqual(caught.exception.where, "surface.diffuse")
         self.assertIsInstance(caught.exception, ValueError)
         self.assertIsInstance(caught.exception, thalweg.Error)
+        for bad in (np.full((3, 3), np.inf, np.float32), np.zeros((3, 3), complex)):
+            with self.assertRaises(thalweg.BadInput) as caught:
+                thalweg.flow.route(bad)
+            self.assertEqual(caught.exception.where, "flow.route")
         with self.assertRaises(OSError):
             thalweg.io.write_dem(valley(), "/no/such/folder/dem.tif")
 

@@ -1,0 +1,3 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+def write_geopackage(network: ElevatedNetwork | dict[str, Any], path: str | os.PathLike[str], *, orders: NetworkOrders | dict[str, Any] | None = None, areas: _flow.ContributingAreas | dict[str, Any] | None = None, crs: str = '', threads: int = 0, progress: Progress = None, log: Callable[[str], object] | None = None, device: Literal['cpu', 'opencl'] = 'cpu') -> None: ...
