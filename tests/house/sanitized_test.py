@@ -39,9 +39,10 @@ def random_bits():
 if len(sys.argv) < 3:
     sys.exit(__doc__)
 cmake, preset, *modules = sys.argv[1:]
-modules = modules or MODULES
+modules = modules or MODULES + (["bindings"] if preset == "asan" else [])  # those of Python
+targets = [target for module in modules for target in (["thalweg_package", "thalweg_cli"] if module == "bindings" else [f"test_{module}"])]
 made = ROOT / "build" / "full" / preset
 run(cmake, "--preset", preset, "-B", made, "-DTHALWEG_UNITY=ON", "-DTHALWEG_TESTS=ON", "--log-level=WARNING")
-run(cmake, "--build", made, "--target", *(f"test_{module}" for module in modules))
+run(cmake, "--build", made, "--target", *targets)
 run("ctest", "--test-dir", made, "--label-regex", f"^({'|'.join(modules)})$", "--output-on-failure",
     "--no-tests=error", "--parallel", str(os.cpu_count()))
