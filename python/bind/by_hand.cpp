@@ -68,7 +68,8 @@ void declare_errors(py::module_& module) {
     types.error = error_type(module, "Error", base(PyExc_Exception),
                              "Base class of what thalweg raises; `where` names the function: 'surface.diffuse'.");
     auto const error = py::reinterpret_borrow<py::object>(types.error);
-    types.bad_parameter = error_type(module, "BadParameter", py::make_tuple(error, base(PyExc_ValueError)), "A parameter is outside its range.");
+    types.bad_parameter = error_type(module, "BadParameter", py::make_tuple(error, base(PyExc_ValueError)),
+                                     "A parameter is outside its range.");
     types.bad_input = error_type(module, "BadInput", py::make_tuple(error, base(PyExc_ValueError)),
                                  "The input cannot be used; the message names the feature and its position.");
     types.not_converged =
@@ -97,7 +98,8 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
     in.done();
     auto const require_one_an_arc = [&](char const* name, std::size_t count) {
         if (count != from.size()) {
-            throw BadInput(fmt::format("StreamNetwork: {} has {} entries, and there are {} arcs", name, count, from.size()));
+            throw BadInput(
+                fmt::format("StreamNetwork: {} has {} entries, and there are {} arcs", name, count, from.size()));
         }
     };
     require_one_an_arc("to_nodes", to.size());
@@ -107,7 +109,8 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
     }
     auto const node = [&](std::int64_t number) {
         if (number < 0 || static_cast<std::size_t>(number) >= nodes.size()) {
-            throw BadInput(fmt::format("StreamNetwork: an arc names node {}, and there are {} nodes", number, nodes.size()));
+            throw BadInput(
+                fmt::format("StreamNetwork: an arc names node {}, and there are {} nodes", number, nodes.size()));
         }
         return static_cast<NodeId>(number);
     };
@@ -130,7 +133,8 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
 }
 
 void declare_stream_network(py::module_& module) {
-    auto type = add_record<StreamNetwork>(module, "StreamNetwork", R"words(An immutable river network in plan: nodes, and arcs directed downstream.
+    auto type = add_record<StreamNetwork>(
+        module, "StreamNetwork", R"words(An immutable river network in plan: nodes, and arcs directed downstream.
 
 Ends of lines are the positions of their nodes. Networks from stages are forests: at most one arc leaves a node, each
 basin is a tree with one outlet, and arcs meet only at shared nodes.
@@ -152,18 +156,24 @@ Raises
 BadInput
     when an arc names a node that does not exist, or a sequence has another length
 )words",
-                                          "thalweg._core");
+        "thalweg._core");
     auto const add = [&](char const* name, char const* words, Getter getter) { add_getter(type, name, words, getter); };
-    add("node_count", "Number of nodes.", [](py::object const& self) -> py::object { return py::int_(network_in(self).node_count()); });
-    add("arc_count", "Number of arcs.", [](py::object const& self) -> py::object { return py::int_(network_in(self).arc_count()); });
+    add("node_count", "Number of nodes.",
+        [](py::object const& self) -> py::object { return py::int_(network_in(self).node_count()); });
+    add("arc_count", "Number of arcs.",
+        [](py::object const& self) -> py::object { return py::int_(network_in(self).arc_count()); });
     add("nodes", "[m] positions, shape (n, 2).", [](py::object const& self) {
         static_assert(sizeof(Node) == sizeof(Vec2));
         auto const& nodes = network_in(self).nodes();
-        return py::object(array_of(py::dtype::of<double>(), {static_cast<py::ssize_t>(nodes.size()), 2}, nodes.data(), self));
+        return py::object(
+            array_of(py::dtype::of<double>(), {static_cast<py::ssize_t>(nodes.size()), 2}, nodes.data(), self));
     });
-    add("from_nodes", "The upstream node of each arc.", [](py::object const& self) { return show(network_in(self).from(), self); });
-    add("to_nodes", "The downstream node of each arc.", [](py::object const& self) { return show(network_in(self).to(), self); });
-    add("length_m", "[m] length of each arc in plan.", [](py::object const& self) { return show(network_in(self).length_m(), self); });
+    add("from_nodes", "The upstream node of each arc.",
+        [](py::object const& self) { return show(network_in(self).from(), self); });
+    add("to_nodes", "The downstream node of each arc.",
+        [](py::object const& self) { return show(network_in(self).to(), self); });
+    add("length_m", "[m] length of each arc in plan.",
+        [](py::object const& self) { return show(network_in(self).length_m(), self); });
     add("lines", "[m] vertices of each arc, arrays of shape (k, 2).", [](py::object const& self) {
         py::list lines;
         for (Arc const& arc : network_in(self).arcs()) {
@@ -191,8 +201,9 @@ BadInput
 }
 
 void declare_picture(py::module_& module) {
-    auto type = add_record<draw::Picture>(module, "Picture", "A finished picture; a notebook shows it.\n\nAttributes\n----------\n"
-                                                             "bytes : bytes\n    the file\nformat : str\n    'png', 'svg' or 'pdf'\n",
+    auto type = add_record<draw::Picture>(module, "Picture",
+                                          "A finished picture; a notebook shows it.\n\nAttributes\n----------\n"
+                                          "bytes : bytes\n    the file\nformat : str\n    'png', 'svg' or 'pdf'\n",
                                           "thalweg.draw");
     auto const in_format = [](draw::Format format) {
         return [format](py::object const& self) -> py::object {
@@ -235,7 +246,9 @@ IoError
 }
 
 void define_io_by_hand(py::module_& module) {
-    add_function(module, "write_geopackage", R"words(write_geopackage(network, path, *, orders=None, areas=None, crs='', threads=0, progress=None, log=None, device='cpu')
+    add_function(
+        module, "write_geopackage",
+        R"words(write_geopackage(network, path, *, orders=None, areas=None, crs='', threads=0, progress=None, log=None, device='cpu')
 --
 
 Writes a network as a new GeoPackage with the layers arcs and nodes, in thalweg's own schema.
@@ -266,26 +279,26 @@ BadInput
 IoError
     also when the file exists
 )words",
-                 [](Args& in) {
-                     Held<ElevatedNetwork> const network(in.required("network"), in.place("network"));
-                     auto const path = take<std::string>(in.required("path"), in.place("path"));
-                     std::optional<NetworkOrders> orders;
-                     std::optional<flow::ContributingAreas> areas;
-                     std::string crs;
-                     in.option("orders", orders);
-                     in.option("areas", areas);
-                     in.option("crs", crs);
-                     return in.run([&](Run const& run) {
-                         StreamNetwork const& plan = (*network).planform;
-                         NetworkOrders const known = orders ? *orders : network::order(plan);
-                         flow::ContributingAreas unknown;
-                         unknown.us_area_m2.assign(plan.arc_count(), -1.0);
-                         unknown.ds_area_m2 = unknown.us_area_m2;
-                         unknown.node_m2.assign(plan.node_count(), -1.0);
-                         flow::ContributingAreas const& of = areas ? *areas : unknown;
-                         io::write_geopackage({*network, known, of.us_area_m2, of.ds_area_m2, of.node_m2, crs, {}}, path, run);
-                     });
-                 });
+        [](Args& in) {
+            Held<ElevatedNetwork> const network(in.required("network"), in.place("network"));
+            auto const path = take<std::string>(in.required("path"), in.place("path"));
+            std::optional<NetworkOrders> orders;
+            std::optional<flow::ContributingAreas> areas;
+            std::string crs;
+            in.option("orders", orders);
+            in.option("areas", areas);
+            in.option("crs", crs);
+            return in.run([&](Run const& run) {
+                StreamNetwork const& plan = (*network).planform;
+                NetworkOrders const known = orders ? *orders : network::order(plan);
+                flow::ContributingAreas unknown;
+                unknown.us_area_m2.assign(plan.arc_count(), -1.0);
+                unknown.ds_area_m2 = unknown.us_area_m2;
+                unknown.node_m2.assign(plan.node_count(), -1.0);
+                flow::ContributingAreas const& of = areas ? *areas : unknown;
+                io::write_geopackage({*network, known, of.us_area_m2, of.ds_area_m2, of.node_m2, crs, {}}, path, run);
+            });
+        });
 }
 
 void define_pipeline_by_hand(py::module_& module) {

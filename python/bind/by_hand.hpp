@@ -14,8 +14,8 @@ template <> struct Fields<StreamNetwork> {
     static constexpr bool can_be_made = true;
     static constexpr bool is_raster = false;
     static constexpr char const* name = "StreamNetwork";
-    static constexpr char const* signature =
-        "__init__(self, nodes, from_nodes, to_nodes, lines=None, features=None, types=None, is_input=None, persistence=None)\n--\n\n";
+    static constexpr char const* signature = "__init__(self, nodes, from_nodes, to_nodes, lines=None, features=None, "
+                                             "types=None, is_input=None, persistence=None)\n--\n\n";
     static StreamNetwork made(Args& in);
     static StreamNetwork take(py::handle value, Place const& place) { return take_record<StreamNetwork>(value, place); }
 };

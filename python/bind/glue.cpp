@@ -32,12 +32,14 @@ std::string shown(py::handle value) {
     } catch (py::error_already_set const&) {
         text = "something that cannot be shown";
     }
-    return text.size() > 80 ? fmt::format("{}... ({})", text.substr(0, 60), std::string(py::str(py::type::of(value).attr("__name__"))))
+    return text.size() > 80 ? fmt::format("{}... ({})", text.substr(0, 60),
+                                          std::string(py::str(py::type::of(value).attr("__name__"))))
                             : text;
 }
 
 /// The names of arguments for which a table or a raster may be given, too.
-constexpr std::array<std::string_view, 9> of_files = {"path", "source", "dem", "network", "rivers", "target", "mask", "keep", "breaklines"};
+constexpr std::array<std::string_view, 9> of_files = {"path",   "source", "dem",  "network",   "rivers",
+                                                      "target", "mask",   "keep", "breaklines"};
 
 thread_local Args* current = nullptr; ///< the call whose arguments are taken
 
@@ -61,7 +63,8 @@ Place Place::of(char const* field) const {
 }
 
 void refuse_type(Place const& place, py::handle value, std::string const& wanted) {
-    raise(PyExc_TypeError, fmt::format("{}: {} is {}; it must be {}", place.function, place.name, shown(value), wanted));
+    raise(PyExc_TypeError,
+          fmt::format("{}: {} is {}; it must be {}", place.function, place.name, shown(value), wanted));
 }
 
 py::array array_of(py::dtype const& type, std::vector<py::ssize_t> shape, void const* memory, py::handle owner) {
@@ -137,8 +140,9 @@ double take_number(py::handle value, Place const& place) {
 
 std::int64_t take_whole(py::handle value, Place const& place, std::int64_t low, std::int64_t high) {
     auto const wanted = [&] {
-        return high == std::numeric_limits<std::int64_t>::max() ? std::string("a whole number")
-                                                               : fmt::format("a whole number from {} to {}", low, high);
+        return high == std::numeric_limits<std::int64_t>::max()
+                   ? std::string("a whole number")
+                   : fmt::format("a whole number from {} to {}", low, high);
     };
     if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
         refuse_type(place, value, wanted());
@@ -204,7 +208,8 @@ std::size_t take_word(py::handle value, Place const& place, std::span<char const
 }
 
 py::array take_array(py::handle value, Place const& place, py::dtype const& type, std::size_t count) {
-    std::string const wanted = count > 1 ? fmt::format("an array of numbers with shape (n, {})", count) : "an array of numbers";
+    std::string const wanted =
+        count > 1 ? fmt::format("an array of numbers with shape (n, {})", count) : "an array of numbers";
     py::array numbers;
     try {
         if (py::isinstance<py::str>(value) || py::isinstance<py::dict>(value)) {
@@ -218,10 +223,11 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
         refuse_type(place, value, wanted); // rows of unequal lengths
     }
     if (numbers.size() == 0) {
-        return py::array(type, count > 1 ? std::vector<py::ssize_t>{0, static_cast<py::ssize_t>(count)} : std::vector<py::ssize_t>{0});
+        return py::array(type, count > 1 ? std::vector<py::ssize_t>{0, static_cast<py::ssize_t>(count)}
+                                         : std::vector<py::ssize_t>{0});
     }
-    bool const has_shape = count > 1 ? numbers.ndim() == 2 && numbers.shape(1) == static_cast<py::ssize_t>(count)
-                                     : numbers.ndim() == 1;
+    bool const has_shape =
+        count > 1 ? numbers.ndim() == 2 && numbers.shape(1) == static_cast<py::ssize_t>(count) : numbers.ndim() == 1;
     char const kind = numbers.dtype().kind();
     bool const is_real = type.kind() == 'f';
     if (!has_shape || !(kind == 'i' || kind == 'u' || kind == 'b' || (is_real && kind == 'f'))) {
@@ -231,8 +237,9 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
     if (!is_real && kind != 'b') {
         py::object const range = numpy.attr("iinfo")(type);
         if (numbers.attr("min")() < range.attr("min") || numbers.attr("max")() > range.attr("max")) {
-            refuse_type(place, value, fmt::format("numbers from {} to {}", std::string(py::str(range.attr("min"))),
-                                                  std::string(py::str(range.attr("max")))));
+            refuse_type(place, value,
+                        fmt::format("numbers from {} to {}", std::string(py::str(range.attr("min"))),
+                                    std::string(py::str(range.attr("max")))));
         }
     }
     return numpy.attr("ascontiguousarray")(numbers, py::arg("dtype") = type);
@@ -257,6 +264,10 @@ std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py:
     if (values.shape(0) != grid.height || values.shape(1) != grid.width) {
         throw BadInput(fmt::format("{}: {} has {} x {} values, and its grid {} x {} cells", place.function, place.name,
                                    values.shape(1), values.shape(0), grid.width, grid.height));
+    }
+    if (type.kind() == 'f' && !grid.crs.empty() && place.function.find("io.") != 0 &&
+        place.function.find("pipeline.") != 0) {
+        from_package("thalweg._raster", "say_unit")(grid.crs, place.name);
     }
     return {std::move(values), std::move(grid)};
 }
@@ -380,13 +391,15 @@ py::handle Args::required_by_name(char const* name) {
 
 void Args::done() const {
     if (next_ < positional_.size()) {
-        raise(PyExc_TypeError, fmt::format("{}: {} arguments are given without their names, and it takes {}; name the others",
-                                           function_, positional_.size(), next_));
+        raise(PyExc_TypeError,
+              fmt::format("{}: {} arguments are given without their names, and it takes {}; name the others", function_,
+                          positional_.size(), next_));
     }
     for (auto const& [key, value] : named_) {
         auto const name = key.cast<std::string>();
         if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
-            raise(PyExc_TypeError, fmt::format("{}: there is no argument '{}'.{}", function_, name, did_you_mean(name, asked_)));
+            raise(PyExc_TypeError,
+                  fmt::format("{}: there is no argument '{}'.{}", function_, name, did_you_mean(name, asked_)));
         }
     }
 }
@@ -430,7 +443,8 @@ void Args::work(std::function<void(Run const&)> const& stage) {
     Run run;
     option("threads", run.threads);
     if (run.threads < 0 || run.threads > 1024) {
-        throw BadParameter(fmt::format("{}: threads is {}; it must be from 0 to 1024, 0 for every core", function_, run.threads));
+        throw BadParameter(
+            fmt::format("{}: threads is {}; it must be from 0 to 1024, 0 for every core", function_, run.threads));
     }
     if (py::handle const device = named("device")) {
         static constexpr std::array<char const*, 2> devices = {"cpu", "opencl"};
@@ -504,7 +518,8 @@ void add_function(py::handle module, char const* name, char const* words, Call c
         py::name(name), py::scope(module), py::doc(words));
 }
 
-void add_method(py::handle type, char const* name, char const* words, py::object (*call)(py::object const&, py::args, py::kwargs)) {
+void add_method(py::handle type, char const* name, char const* words,
+                py::object (*call)(py::object const&, py::args, py::kwargs)) {
     type.attr(name) = py::cpp_function(call, py::name(name), py::is_method(type), py::scope(type), py::doc(words));
 }
 
@@ -525,7 +540,8 @@ void add_init(py::handle type, char const* words, void* (*make)(Args&)) {
             Args in(name, std::move(positional), std::move(named));
             place.value_ptr() = make(in);
         },
-        py::name("__init__"), py::is_method(type), py::scope(type), py::detail::is_new_style_constructor(), py::doc(words));
+        py::name("__init__"), py::is_method(type), py::scope(type), py::detail::is_new_style_constructor(),
+        py::doc(words));
 }
 
 namespace {
@@ -573,9 +589,9 @@ void finish_record(py::handle type, std::initializer_list<char const*> fields) {
     }
     type.attr("_fields") = names;
     type.attr("__repr__") = py::cpp_function(repr_of, py::name("__repr__"), py::is_method(type), py::scope(type));
-    type.attr("as_dict") =
-        py::cpp_function(dict_of_fields, py::name("as_dict"), py::is_method(type), py::scope(type),
-                         py::doc("as_dict(self)\n--\n\nGives the fields as a dictionary, records in them too.\n\nReturns\n-------\ndict[str, Any]\n"));
+    type.attr("as_dict") = py::cpp_function(dict_of_fields, py::name("as_dict"), py::is_method(type), py::scope(type),
+                                            py::doc("as_dict(self)\n--\n\nGives the fields as a dictionary, records in "
+                                                    "them too.\n\nReturns\n-------\ndict[str, Any]\n"));
 }
 
 } // namespace thalweg::python

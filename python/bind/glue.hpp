@@ -118,15 +118,16 @@ struct Numbers<std::array<T, N>> {
 
 /// What numpy calls numbers of C++: size_t, of which the greatest means none, becomes int64 with -1; char uint8.
 template <class T>
-using InNumpy = std::conditional_t<std::same_as<T, char>, std::uint8_t, std::conditional_t<std::same_as<T, std::size_t>, std::int64_t, T>>;
+using InNumpy = std::conditional_t<std::same_as<T, char>, std::uint8_t,
+                                   std::conditional_t<std::same_as<T, std::size_t>, std::int64_t, T>>;
 
 /// Everything else that is a struct: held by Python as it is.
 template <class T>
-concept Record = std::is_class_v<T> && !Text<T> && !is_vector<T>::value && !is_array<T>::value && !is_optional<T>::value &&
-                 !is_required<T>::value && !is_raster<T>::value && !is_pair<T>::value && !is_map<T>::value &&
-                 !is_variant<T>::value && !is_span<T>::value && !is_function<T>::value && Numbers<T>::count == 0 &&
-                 !std::same_as<T, Finding> && !std::same_as<T, Check> && !std::same_as<T, io::Source> &&
-                 !std::same_as<T, std::monostate>;
+concept Record = std::is_class_v<T> && !Text<T> && !is_vector<T>::value && !is_array<T>::value &&
+                 !is_optional<T>::value && !is_required<T>::value && !is_raster<T>::value && !is_pair<T>::value &&
+                 !is_map<T>::value && !is_variant<T>::value && !is_span<T>::value && !is_function<T>::value &&
+                 Numbers<T>::count == 0 && !std::same_as<T, Finding> && !std::same_as<T, Check> &&
+                 !std::same_as<T, io::Source> && !std::same_as<T, std::monostate>;
 
 /// A read-only array over memory of the owner.
 /// \param shape one number, or two: rows and numbers a row
@@ -139,7 +140,8 @@ py::object dict_of(Finding const& finding);
 py::object dict_of(Check const& check);
 py::object text_of(std::string_view bytes);
 
-// -- From C++ to Python -------------------------------------------------------------------------------------------------
+// -- From C++ to Python
+// -------------------------------------------------------------------------------------------------
 
 /// Shows a value that lives in owner.
 template <class T> py::object show(T const& value, py::handle owner) {
@@ -177,11 +179,13 @@ template <class T> py::object show(T const& value, py::handle owner) {
             return py::none();
         }
         if constexpr (std::is_enum_v<Value>) {
-            return raster_of(array_of(py::dtype::of<std::uint8_t>(), {value.height(), value.width()}, value.values().data(), owner),
-                             value.grid());
+            return raster_of(
+                array_of(py::dtype::of<std::uint8_t>(), {value.height(), value.width()}, value.values().data(), owner),
+                value.grid());
         } else {
-            return raster_of(array_of(py::dtype::of<Value>(), {value.height(), value.width()}, value.values().data(), owner),
-                             value.grid());
+            return raster_of(
+                array_of(py::dtype::of<Value>(), {value.height(), value.width()}, value.values().data(), owner),
+                value.grid());
         }
     } else if constexpr (is_vector<T>::value) {
         using Element = typename T::value_type;
@@ -259,7 +263,8 @@ template <class T> py::object give(T value) {
     }
 }
 
-// -- From Python to C++ -------------------------------------------------------------------------------------------------
+// -- From Python to C++
+// -------------------------------------------------------------------------------------------------
 
 bool take_bool(py::handle value, Place const& place);
 double take_number(py::handle value, Place const& place);
@@ -386,7 +391,7 @@ private:
     friend std::string take_text(py::handle value, Place const& place);
 
     std::string function_;
-    Args* outer_; ///< the call in whose arguments this one's are
+    Args* outer_;    ///< the call in whose arguments this one's are
     py::list files_; ///< of tables and rasters given instead of names
     py::args positional_;
     py::kwargs named_;
@@ -426,7 +431,8 @@ template <class T> T take(py::handle value, Place const& place) {
         }
         using Number = std::conditional_t<std::is_enum_v<Value>, std::uint8_t, Value>;
         auto [values, grid] = take_raster(value, place, py::dtype::of<Number>());
-        std::span<Value const> const cells(static_cast<Value const*>(values.data()), static_cast<std::size_t>(values.size()));
+        std::span<Value const> const cells(static_cast<Value const*>(values.data()),
+                                           static_cast<std::size_t>(values.size()));
         return T::view_of(std::move(grid), cells, kept_alive(values));
     } else if constexpr (std::same_as<T, Vec2> || std::same_as<T, Vec3> || std::same_as<T, Cell> ||
                          (is_array<T>::value && Numbers<T>::count > 0)) {
@@ -473,7 +479,8 @@ template <class T> T take(py::handle value, Place const& place) {
         if (list.size() != 2) {
             refuse_type(place, value, "two values");
         }
-        return {take<typename T::first_type>(list[0], place.of(std::size_t{0})), take<typename T::second_type>(list[1], place.of(std::size_t{1}))};
+        return {take<typename T::first_type>(list[0], place.of(std::size_t{0})),
+                take<typename T::second_type>(list[1], place.of(std::size_t{1}))};
     } else if constexpr (is_map<T>::value) {
         T result;
         for (auto const& [key, one] : take_dict(value, place)) {
@@ -522,7 +529,8 @@ template <class T> bool is_given(py::handle value) {
 template <class T> T take_record(py::handle value, Place const& place) {
     if constexpr (Fields<T>::can_be_made) {
         if (py::isinstance<py::dict>(value)) {
-            Args in(place.function + ": " + place.name, py::args(), py::kwargs(py::reinterpret_borrow<py::kwargs>(value)));
+            Args in(place.function + ": " + place.name, py::args(),
+                    py::kwargs(py::reinterpret_borrow<py::kwargs>(value)));
             return Fields<T>::made(in);
         }
         if constexpr (Fields<T>::is_raster) {
@@ -532,7 +540,8 @@ template <class T> T take_record(py::handle value, Place const& place) {
     refuse_type(place, value, std::string("a ") + Fields<T>::name);
 }
 
-// -- Declarations -------------------------------------------------------------------------------------------------------
+// -- Declarations
+// -------------------------------------------------------------------------------------------------------
 
 using Call = py::object (*)(Args&);
 using Getter = py::object (*)(py::object const&);
@@ -540,7 +549,8 @@ using Getter = py::object (*)(py::object const&);
 /// Adds a function to a module.
 void add_function(py::handle module, char const* name, char const* words, Call call);
 /// Adds a method of its own kind: what Python calls with the object first.
-void add_method(py::handle type, char const* name, char const* words, py::object (*call)(py::object const&, py::args, py::kwargs));
+void add_method(py::handle type, char const* name, char const* words,
+                py::object (*call)(py::object const&, py::args, py::kwargs));
 void add_getter(py::handle type, char const* name, char const* words, Getter getter);
 /// Adds repr, as_dict and the names of the fields.
 void finish_record(py::handle type, std::initializer_list<char const*> fields);

@@ -34,11 +34,14 @@ struct Module {
 };
 
 constexpr std::array<Module, 12> modules = {{
-    {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry, define_geometry},
+    {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
+     define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
     {"flow", "A DEM: flow directions, conditioning, catchments, streams.", declare_flow, define_flow},
-    {"network", "River networks: grown, imported, pruned, bent, ordered, with heights.", declare_network, define_network},
-    {"skeleton", "Heights that a surface must pass through: random fields and points, ridges, regression.", declare_skeleton, define_skeleton},
+    {"network", "River networks: grown, imported, pruned, bent, ordered, with heights.", declare_network,
+     define_network},
+    {"skeleton", "Heights that a surface must pass through: random fields and points, ridges, regression.",
+     declare_skeleton, define_skeleton},
     {"surface", "A height for every cell, from rivers and a skeleton.", declare_surface, define_surface},
     {"fractal", "Fractal detail, and DEMs with given statistics.", declare_fractal, define_fractal},
     {"blend", "A DEM or mesh and a part of another, without a seam.", declare_blend, define_blend},
@@ -83,7 +86,8 @@ PYBIND11_MODULE(_core, module) {
     module.attr("MODULES") = py::tuple(names);
     py::list values;
     for (auto const& [name, value] : module.attr("__dict__").cast<py::dict>()) {
-        if (PyCallable_Check(value.ptr()) != 0 && name.cast<std::string>() != "version" && name.cast<std::string>()[0] != '_') {
+        if (PyCallable_Check(value.ptr()) != 0 && name.cast<std::string>() != "version" &&
+            name.cast<std::string>()[0] != '_') {
             values.append(name);
         }
     }

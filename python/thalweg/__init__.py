@@ -36,7 +36,7 @@ for _name in _core.VALUES:
     globals()[_name] = getattr(_core, _name)
 
 from thalweg._networks import to_geodataframe, to_networkx
-from thalweg._raster import ConversionWarning, Raster
+from thalweg._raster import ConversionWarning, Raster, UnitWarning
 from thalweg._terrain import Terrain, forecast, make
 
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
@@ -46,6 +46,6 @@ del _kind, _name
 
 __version__ = _core.version()
 __all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "NotConverged", "Raster",
-           "Terrain", "__version__", "blend", "draw", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
+           "Terrain", "UnitWarning", "__version__", "blend", "draw", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
            "network", "pipeline", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
 __all__ += [name for name in _core.VALUES if name not in __all__]

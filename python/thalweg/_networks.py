@@ -12,7 +12,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 import numpy as np
 
-from thalweg import _core, flow, io
+from thalweg import _core, flow, io, pipeline
 from thalweg import network as networks
 from thalweg._raster import Raster, to_core
 from thalweg._show import bad_input, need
@@ -77,8 +77,8 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terra
     Returns
     -------
     geopandas.GeoDataFrame
-        The columns of this layer of network.gpkg, which `thalweg make` writes (docs/interchange.md). Contributing areas are
-        known of a terrain, and else -1. A StreamNetwork has no heights: geometries are in plan, columns of heights missing.
+        The columns of this layer of network.gpkg, which `thalweg make` writes (docs/interchange.md), of a terrain also those
+        of the user's river file. Contributing areas are known of a terrain, and else -1. A StreamNetwork has no heights: geometries are in plan, columns of heights missing.
 
     Raises
     ------
@@ -99,7 +99,11 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terra
     elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
     with tempfile.TemporaryDirectory() as folder:
         path = os.path.join(folder, "network.gpkg")
-        io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
+        made = getattr(network, "made", None)
+        if made is not None and crs is None:
+            pipeline.write_rivers(made, path)
+        else:
+            io.write_geopackage(elevated, path, orders=parts.orders, areas=parts.areas, crs=named)
         frame = gpd.read_file(path, layer=layer)
     shapes = list(frame.geometry)
     columns = frame.drop(columns=[frame.geometry.name])

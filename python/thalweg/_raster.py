@@ -3,6 +3,7 @@
 """Rasters: numpy arrays with a grid, and what else is accepted as one."""
 from __future__ import annotations
 
+import functools
 import os
 import sys
 import warnings
@@ -30,6 +31,10 @@ FEET = {"ft", "foot", "feet", "us survey foot", "us_survey_foot", "us-ft", "ftus
 
 class ConversionWarning(UserWarning):
     """Values were converted or copied before a call of the library could read them."""
+
+
+class UnitWarning(UserWarning):
+    """A stage takes for metres what are none."""
 
 
 class Raster(NDArrayOperatorsMixin):
@@ -275,6 +280,19 @@ def to_core(thing: object, dtype: npt.DTypeLike, what: str) -> Raster:
     return raster if values is raster.values else Raster(values, raster.grid)
 
 
+def say_unit(crs: str, what: str) -> None:
+    """Warn where a raster's coordinates are no metres on the ground: stages take them for metres."""
+    unit = _unit_of(crs)
+    if unit in ("degrees", "other"):
+        _say(f"{what}: its coordinates are {'degrees' if unit == 'degrees' else 'no metres'}, and stages take them for metres: warp it "
+             "to a projected CRS first", UnitWarning)
+
+
+@functools.lru_cache(maxsize=64)
+def _unit_of(crs: str) -> str:
+    return io.ground_cell(_core.Grid(1, 1, 1e-3, 0.0, 1e-3, crs)).unit
+
+
 def _raster_of(thing: object, target: np.dtype[Any], what: str) -> Raster:
     if isinstance(thing, Raster):
         return thing
@@ -372,12 +390,12 @@ def _restored(values: Array, cell_m: float, west: float, north: float, crs: str)
     return Raster(values, cell_m=cell_m, west=west, north=north, crs=crs)
 
 
-def _say(text: str) -> None:
+def _say(text: str, kind: type[UserWarning] = ConversionWarning) -> None:
     """Warn at the line outside this package that led here."""
     frame, level = sys._getframe(1), 2
     while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == "thalweg":
         frame, level = frame.f_back, level + 1
-    warnings.warn(text, ConversionWarning, stacklevel=level)
+    warnings.warn(text, kind, stacklevel=level)
 
 
 def _from_xarray(array: xarray.DataArray, target: np.dtype[Any], what: str) -> Raster:

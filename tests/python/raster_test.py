@@ -219,6 +219,17 @@ class Conversions(Quiet):
             to_core("no such file.tif", np.float32, "dem")
 
 
+class Units(unittest.TestCase):
+    def test_degrees_are_said(self):
+        degrees = Raster(np.zeros((8, 8), np.float32), Grid(8, 8, 1 / 1200, 8.0, 47.0, "EPSG:4326"))
+        with self.assertWarnsRegex(thalweg.UnitWarning, "dem: its coordinates are degrees"):
+            thalweg.measure.slopes(degrees)
+        with warnings.catch_warnings():
+            warnings.simplefilter("error")
+            thalweg.io.ground_cell(degrees.grid)
+            thalweg.measure.slopes(Raster(np.zeros((8, 8), np.float32), Grid(8, 8, 30.0, 5e5, 5e6, "EPSG:32631")))
+
+
 class Xarray(Quiet):
     def setUp(self):
         super().setUp()

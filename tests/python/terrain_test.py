@@ -114,6 +114,12 @@ class Recipes(unittest.TestCase):
 
 
 class Inputs(unittest.TestCase):
+    def test_columns_of_the_user_come_back(self):
+        table = geopandas.read_file(LINES)
+        arcs = thalweg.make(LINES, grid={"cell": 120}).to_geodataframe()
+        known = set(arcs.columns) & set(table.columns) - {"geometry"}
+        self.assertGreater(len(known), 3, sorted(arcs.columns))
+
     def test_a_table_of_lines_is_a_river_file(self):
         expected = thalweg.make(LINES, grid={"cell": 120})
         table = geopandas.read_file(LINES)

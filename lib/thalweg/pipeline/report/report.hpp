@@ -41,6 +41,12 @@ std::string checks_json(std::vector<Check> const& checks);
 /// \return the version of thalweg, e.g. "0.2.0"
 std::string version();
 
+/// Writes the rivers of a terrain as network.gpkg has them, columns of the user's file among them.
+/// \param made a terrain
+/// \param path of a new GeoPackage
+/// \throws BadInput when the recipe has no rivers; as io::write_geopackage
+void write_rivers(Made const& made, std::string const& path, Run const& run = {});
+
 /// Options of draw_map().
 struct DrawMapParams {
     std::optional<std::string> title = {};     ///< that of the recipe if not set

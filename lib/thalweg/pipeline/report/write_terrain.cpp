@@ -97,7 +97,8 @@ void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run)
     io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
 }
 
-void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
+/// Calls write(tables) with what the files of a network hold.
+template <class Write> void with_tables(Made const& t, Write const& write) {
     std::map<std::string, std::string> const about = {{"version", version()},
                                                       {"seed", fmt::format("{}", t.recipe.seed)},
                                                       {"area_from", t.terrain.areas.source},
@@ -117,8 +118,14 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
                                    t.recipe.output.units,
                                    true,
                                    t.assessment.sinks};
-    io::write_geopackage(tables, out.path("network"), run);
-    io::write_shapefiles(tables, out.path("network"), run);
+    write(tables);
+}
+
+void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
+    with_tables(t, [&](io::NetworkTables const& tables) {
+        io::write_geopackage(tables, out.path("network"), run);
+        io::write_shapefiles(tables, out.path("network"), run);
+    });
     if (t.recipe.output.schema != io::Schema::native) {
         write_in_schema(t, out, run);
     }
@@ -199,6 +206,12 @@ void write_surface(Made const& t, std::string const& title, io::OutputFolder con
 }
 
 } // namespace
+
+void write_rivers(Made const& made, std::string const& path, Run const& run) {
+    refuse_if<BadInput>(!made.recipe.network,
+                        "pipeline.write_rivers: the recipe has no [network]: there are no rivers");
+    with_tables(made, [&](io::NetworkTables const& tables) { io::write_geopackage(tables, path, run); });
+}
 
 draw::Picture draw_map(Made const& made, DrawMapParams const& params, Run const& run) {
     refuse_if<BadInput>(!made.terrain.surface,
