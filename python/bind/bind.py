@@ -11,6 +11,7 @@ import pathlib
 import re
 import sys
 import textwrap
+import unicodedata
 
 from headers import Enumeration, Field, Function, Headers, Parameter, Struct, read_headers, split_at
 
@@ -75,13 +76,21 @@ class Binder:
         self.choose()
 
     @staticmethod
-    def citations(bib: str) -> dict[str, str]:
+    def citations(bib: str) -> dict[str, tuple[str, str]]:
+        """By key: as a text names a work, and the work."""
+        def accented(match: re.Match[str]) -> str:
+            return unicodedata.normalize("NFC", match[2] + {'"': "\u0308", "'": "\u0301", "`": "\u0300", "^": "\u0302", "~": "\u0303"}[match[1]])
         found = {}
-        for key, body in re.findall(r"@\w+\{(\w+),(.*?)\n\}", bib, re.DOTALL):
-            fields = {k.lower(): " ".join(v.split()) for k, v in re.findall(r"(\w+)\s*=\s*[{\"](.*?)[}\"],?\s*(?:\n|$)", body, re.DOTALL)}
-            names = [n.split(",")[0].strip() if "," in n else n.split()[-1] for n in fields.get("author", key).split(" and ")]
-            who = names[0] if len(names) == 1 else f"{names[0]} and {names[1]}" if len(names) == 2 else f"{names[0]} et al."
-            found[key] = re.sub(r"[{}\\]", "", f"{who} {fields.get('year', '')}".strip())
+        for key, body in re.findall(r"^@\w+\{(\w+), (.*)\}$", bib, re.MULTILINE):
+            body = re.sub(r"\{\\([\"'`^~])(\w)\}", accented, body)
+            fields = {k: re.sub(r"[{}]", "", v).replace("--", "-")
+                      for k, v in re.findall(r"(\w+) = \{((?:[^{}]|\{[^{}]*\})*)\}", body)}
+            authors = fields["author"].split(" and ")
+            names = [a.split(",")[0] for a in authors]
+            who = names[0] if len(names) == 1 else " and ".join(names) if len(names) == 2 else f"{names[0]} et al."
+            where = next((fields[k] for k in ("journal", "booktitle", "publisher", "school", "institution", "note") if k in fields), "")
+            year = fields.get("year", "")
+            found[key] = (f"{who} {year}".strip(), " ".join(f"{'; '.join(authors)} {year}: {fields['title']}. {where}".split()).rstrip(".") + ".")
         return found
 
     # -- What there is ------------------------------------------------------------------------------------------------
@@ -314,7 +323,7 @@ class Binder:
         return scope in {("", "Valley"), ("", "Skeleton")}
 
     def prose(self, text: str) -> str:
-        text = re.sub(r"\\cite (\w+)", lambda m: self.cite.get(m[1], m[1]), text)
+        text = re.sub(r"\\cite (\w+)", lambda m: self.cite[m[1]][0], text)
         text = re.sub(r"(\w)::(\w)", r"\1.\2", text.replace("\\\\", "\\").replace("nullptr", "None"))
         return " ".join(text.split())
 
@@ -460,15 +469,12 @@ class Binder:
         assert isinstance(throws, list)
         if throws:
             text += "\nRaises\n------\n" + "".join(f"{name}\n{self.wrapped(why or 'As the stages it calls.', '    ')}\n" for name, why in throws)
-        if said["source"]:
-            text += f"\nReferences\n----------\n{self.wrapped(str(said['source']))}\n"
+        cited = sorted({self.cite[key][1] for f in overloads for key in re.findall(r"\\cite (\w+)", f.comment)})
+        if said["source"] or cited:
+            text += "\nReferences\n----------\n" + "\n\n".join(self.wrapped(t) for t in [str(said["source"]), *cited] if t) + "\n"
         return text
 
     # -- C++ ----------------------------------------------------------------------------------------------------------
-
-    def cpp(self, whole: str) -> str:
-        """A whole type in C++, from namespace thalweg."""
-        return whole.replace("std::string_view", "std::string") if whole.startswith("std::string_view") else whole
 
     def held(self, whole: str, name: str, handle: str, place: str) -> str:
         scope = self.scope_of(whole)

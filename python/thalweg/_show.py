@@ -125,6 +125,7 @@ def axes_of(ax: Axes | None) -> Axes:
     if ax is not None:
         return ax
     new: Axes = need("matplotlib.pyplot", "python3-matplotlib").subplots()[1]
+    new.ticklabel_format(style="plain", useOffset=False)
     return new
 
 
@@ -161,7 +162,7 @@ def plot_lines(lines: Sequence[Any], orders: Any, ax: Axes | None, color: str = 
     """
     ax = axes_of(ax)
     collections = need("matplotlib.collections", "python3-matplotlib")
-    widths = 0.4 * np.asarray(orders, dtype=np.float64)
+    widths = 0.4 + 0.5 * np.asarray(orders, dtype=np.float64)
     ax.add_collection(collections.LineCollection(lines, linewidths=widths, colors=color, capstyle="round"))
     ax.autoscale_view()
     ax.set_aspect("equal")
