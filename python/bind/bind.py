@@ -1,6 +1,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Writes the bindings of the library to Python from its headers: C++ for pybind11 (glue.hpp), docstrings in numpydoc's form, and type stubs.
+"""Writes the bindings of the library to Python from its headers: C++ for pybind11 (glue.hpp), docstrings in numpydoc's form,
+and type stubs.
 Usage: bind.py SOURCE OUT: SOURCE/lib has the headers; OUT gets NAME.cpp of each module, records.hpp and stubs/NAME.pyi.
        bind.py --left-out SOURCE: the functions of the modules that Python does not have, and why."""
 from __future__ import annotations
@@ -15,36 +16,93 @@ import unicodedata
 
 from headers import Enumeration, Field, Function, Headers, Parameter, Struct, read_headers, split_at
 
-MODULES = ["geometry", "solver", "flow", "network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io", "pipeline"]
+MODULES = [
+    "geometry",
+    "solver",
+    "flow",
+    "network",
+    "skeleton",
+    "surface",
+    "fractal",
+    "blend",
+    "measure",
+    "draw",
+    "io",
+    "pipeline",
+]
 
 # Functions that Python does not get, by regular expressions of SPACE::NAME; the first that fits gives the reason.
 LEFT_OUT = [
-    (r"(?!nearest_cells|cells_along|cells_of_vertices|length_of)\w+|portable::.*", "numbers, memory and messages of the library itself"),
+    (
+        r"(?!nearest_cells|cells_along|cells_of_vertices|length_of)\w+|portable::.*",
+        "numbers, memory and messages of the library itself",
+    ),
     (r"solver::.*", "no stage: what stages solve with"),
-    (r"\w+::name_of|network::rosgen_of|io::(quantity_of|schema_named|point_format|tin_format|network_format)", "a word is a str"),
-    (r"io::(is_pipe_or_device|refuse_pipe|read_text|write_text|copy_file|names_connection|require_allowed|is_recipe_file|confine_proj|packed"
-     r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|holds_tin)",
-     "files and formats inside io"),
-    (r"(skeleton|surface|fractal|network|pipeline)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights|check_folder"
-     r"|check_memory|check_memory_of_cluster|bytes_needed|frame_\w+|room_for_network|margin_around|missing_for|files_of_report)",
-     "a part of a stage"),
-    (r"pipeline::(live_\w+|grid_json|sea_json|rivers_to_be|cluster_arms|keep_inputs|keep_user_file|file_names|state_of_files|as_json"
-     r"|statistics_json|checks_json|relief_json|forecast_make|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
-     "a part of the program"),
+    (
+        r"\w+::name_of|network::rosgen_of|io::(quantity_of|schema_named|point_format|tin_format|network_format)",
+        "a word is a str",
+    ),
+    (
+        r"io::(is_pipe_or_device|refuse_pipe|read_text|write_text|copy_file|names_connection|require_allowed|is_recipe_file|confine_proj|packed"
+        r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|holds_tin)",
+        "files and formats inside io",
+    ),
+    (
+        r"(skeleton|surface|fractal|network|pipeline)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights|check_folder"
+        r"|check_memory|check_memory_of_cluster|bytes_needed|frame_\w+|room_for_network|margin_around|missing_for|files_of_report)",
+        "a part of a stage",
+    ),
+    (
+        r"pipeline::(live_\w+|grid_json|sea_json|rivers_to_be|cluster_arms|keep_inputs|keep_user_file|file_names|state_of_files|as_json"
+        r"|statistics_json|checks_json|relief_json|forecast_make|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
+        "a part of the program",
+    ),
     (r"geometry::put_in_order|pipeline::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
     (r"io::write_geopackage", "see by_hand.cpp"),
 ]
 RUN = ["threads", "progress", "log", "device"]
-NUMBERS = {"double": "float", "float": "float", "int": "int", "std::int64_t": "int", "std::uint64_t": "int", "std::int32_t": "int",
-           "std::uint32_t": "int", "std::uint8_t": "int", "std::size_t": "int", "char": "int"}
-DTYPES = {"double": "np.float64", "float": "np.float32", "int": "np.int32", "std::int64_t": "np.int64", "std::int32_t": "np.int32",
-          "std::uint32_t": "np.uint32", "std::uint8_t": "np.uint8", "std::size_t": "np.int64", "char": "np.uint8",
-          "Vec2": "np.float64", "Vec3": "np.float64", "Cell": "np.int64", "std::uint64_t": "np.uint64"}
+NUMBERS = {
+    "double": "float",
+    "float": "float",
+    "int": "int",
+    "std::int64_t": "int",
+    "std::uint64_t": "int",
+    "std::int32_t": "int",
+    "std::uint32_t": "int",
+    "std::uint8_t": "int",
+    "std::size_t": "int",
+    "char": "int",
+}
+DTYPES = {
+    "double": "np.float64",
+    "float": "np.float32",
+    "int": "np.int32",
+    "std::int64_t": "np.int64",
+    "std::int32_t": "np.int32",
+    "std::uint32_t": "np.uint32",
+    "std::uint8_t": "np.uint8",
+    "std::size_t": "np.int64",
+    "char": "np.uint8",
+    "Vec2": "np.float64",
+    "Vec3": "np.float64",
+    "Cell": "np.int64",
+    "std::uint64_t": "np.uint64",
+}
 TEXTS = {"std::string", "std::string_view", "char const*", "io::Source"}
 # By hand: by_hand.cpp binds it.
 BY_HAND = {("", "StreamNetwork"), ("draw", "Picture")}
-NOT_RECORDS = {("", "Finding"), ("", "Check"), ("", "Vec2"), ("", "Vec3"), ("", "Cell"), ("io", "Source"), ("", "Run"), ("", "Node"),
-               ("", "NetworkDraft"), ("", "DraftArc")}
+NOT_RECORDS = {
+    ("", "Finding"),
+    ("", "Check"),
+    ("", "Vec2"),
+    ("", "Vec3"),
+    ("", "Cell"),
+    ("io", "Source"),
+    ("", "Run"),
+    ("", "Node"),
+    ("", "NetworkDraft"),
+    ("", "DraftArc"),
+}
 
 
 def bare(type_: str) -> str:
@@ -78,19 +136,30 @@ class Binder:
     @staticmethod
     def citations(bib: str) -> dict[str, tuple[str, str]]:
         """By key: as a text names a work, and the work."""
+
         def accented(match: re.Match[str]) -> str:
-            return unicodedata.normalize("NFC", match[2] + {'"': "\u0308", "'": "\u0301", "`": "\u0300", "^": "\u0302", "~": "\u0303"}[match[1]])
+            return unicodedata.normalize(
+                "NFC", match[2] + {'"': "\u0308", "'": "\u0301", "`": "\u0300", "^": "\u0302", "~": "\u0303"}[match[1]]
+            )
+
         found = {}
         for key, body in re.findall(r"^@\w+\{(\w+), (.*)\}$", bib, re.MULTILINE):
             body = re.sub(r"\{\\([\"'`^~])(\w)\}", accented, body)
-            fields = {k: re.sub(r"[{}]", "", v).replace("--", "-")
-                      for k, v in re.findall(r"(\w+) = \{((?:[^{}]|\{[^{}]*\})*)\}", body)}
+            fields = {
+                k: re.sub(r"[{}]", "", v).replace("--", "-")
+                for k, v in re.findall(r"(\w+) = \{((?:[^{}]|\{[^{}]*\})*)\}", body)
+            }
             authors = fields["author"].split(" and ")
             names = [a.split(",")[0] for a in authors]
             who = names[0] if len(names) == 1 else " and ".join(names) if len(names) == 2 else f"{names[0]} et al."
-            where = next((fields[k] for k in ("journal", "booktitle", "publisher", "school", "institution", "note") if k in fields), "")
+            where = next(
+                (fields[k] for k in ("journal", "booktitle", "publisher", "school", "institution", "note") if k in fields), ""
+            )
             year = fields.get("year", "")
-            found[key] = (f"{who} {year}".strip(), " ".join(f"{'; '.join(authors)} {year}: {fields['title']}. {where}".split()).rstrip(".") + ".")
+            found[key] = (
+                f"{who} {year}".strip(),
+                " ".join(f"{'; '.join(authors)} {year}: {fields['title']}. {where}".split()).rstrip(".") + ".",
+            )
         return found
 
     # -- What there is ------------------------------------------------------------------------------------------------
@@ -157,7 +226,11 @@ class Binder:
         if name in NUMBERS or name in TEXTS or name in ("bool", "std::monostate", "void"):
             return True
         scope = self.scope_of(name)
-        return scope in self.enumerations or scope in BY_HAND or (scope in self.structs and scope not in {("", "Run"), ("", "NetworkDraft")})
+        return (
+            scope in self.enumerations
+            or scope in BY_HAND
+            or (scope in self.structs and scope not in {("", "Run"), ("", "NetworkDraft")})
+        )
 
     def fields_of(self, scope: tuple[str, str]) -> list[tuple[tuple[str, str], Field, str]]:
         """The fields of a struct, those of its bases first: the struct that has it, the field, its whole type."""
@@ -178,7 +251,8 @@ class Binder:
         """Whether an argument's fields become keywords."""
         whole = self.expanded(function.parameters[number].type, function.space)
         is_last = number == len(function.parameters) - 1 or (
-            number == len(function.parameters) - 2 and self.is_run(function.parameters[-1]))
+            number == len(function.parameters) - 2 and self.is_run(function.parameters[-1])
+        )
         return whole.endswith("Params") and is_last and self.scope_of(whole) in self.structs
 
     @staticmethod
@@ -214,7 +288,12 @@ class Binder:
         waiting.append(("", "Grid"))
         while waiting:
             scope = waiting.pop()
-            if scope in self.records or scope in BY_HAND or scope in NOT_RECORDS or self.is_sheet("::".join(filter(None, scope))):
+            if (
+                scope in self.records
+                or scope in BY_HAND
+                or scope in NOT_RECORDS
+                or self.is_sheet("::".join(filter(None, scope)))
+            ):
                 continue
             self.records[scope] = self.structs[scope]
             for _, _, type_ in self.fields_of(scope):
@@ -298,7 +377,8 @@ class Binder:
             if into:
                 return "npt.ArrayLike" if element in DTYPES else f"Sequence[{self.python_type(element, into, module)}]"
             return f"{'list[' if name == 'std::vector' else 'tuple['}{self.python_type(element, into, module)}" + (
-                "]" if name == "std::vector" else ", ...]")
+                "]" if name == "std::vector" else ", ...]"
+            )
         if name == "std::pair":
             return f"tuple[{', '.join(self.python_type(a, into, module) for a in arguments)}]"
         if name == "std::map":
@@ -383,13 +463,30 @@ class Binder:
                         continue
                     is_given = field.type.endswith("const&")
                     must = is_given or arguments_of(type_)[0] == "Required"
-                    found.append({"name": safe(field.name), "kind": "positional" if is_given else "keyword", "type": type_,
-                                  "default": "" if must else self.literal(field.default, type_), "says": self.prose(field.comment)})
+                    found.append(
+                        {
+                            "name": safe(field.name),
+                            "kind": "positional" if is_given else "keyword",
+                            "type": type_,
+                            "default": "" if must else self.literal(field.default, type_),
+                            "says": self.prose(field.comment),
+                        }
+                    )
             else:
                 is_pointer = whole.endswith("*") and whole != "char const*"
-                found.append({"name": safe(parameter.name), "kind": "positional", "type": whole,
-                              "default": "None" if is_pointer else "" if parameter.default is None else self.literal(parameter.default, whole),
-                              "says": params.get(parameter.name, "")})
+                found.append(
+                    {
+                        "name": safe(parameter.name),
+                        "kind": "positional",
+                        "type": whole,
+                        "default": "None"
+                        if is_pointer
+                        else ""
+                        if parameter.default is None
+                        else self.literal(parameter.default, whole),
+                        "says": params.get(parameter.name, ""),
+                    }
+                )
         found.sort(key=lambda a: a["kind"] != "positional")
         positional = [a for a in found if a["kind"] == "positional"]
         for argument, after in zip(positional[-2::-1], positional[:0:-1]):
@@ -416,16 +513,27 @@ class Binder:
         if any(self.is_run(p) for p in function.parameters):
             if "*" not in parts:
                 parts.append("*")
-            parts += (["threads: int = 0", "progress: Progress = None", "log: Callable[[str], object] | None = None",
-                       "device: Literal['cpu', 'opencl'] = 'cpu'"] if stub else
-                      ["threads=0", "progress=None", "log=None", "device='cpu'"])
-        returns = f" -> {self.python_type(self.expanded(function.returns, function.space), False, function.space)}" if stub else ""
+            parts += (
+                [
+                    "threads: int = 0",
+                    "progress: Progress = None",
+                    "log: Callable[[str], object] | None = None",
+                    "device: Literal['cpu', 'opencl'] = 'cpu'",
+                ]
+                if stub
+                else ["threads=0", "progress=None", "log=None", "device='cpu'"]
+            )
+        returns = (
+            f" -> {self.python_type(self.expanded(function.returns, function.space), False, function.space)}" if stub else ""
+        )
         return f"{safe(function.name)}({', '.join(parts)}){returns}"
 
     def words_for(self, argument: dict[str, str], module: str) -> list[str]:
         """The entry of an argument or attribute in a docstring."""
         type_ = re.sub(r"\b_([a-z]+\.)", r"\1", self.python_type(argument["type"], argument.get("kind", "") != "", module))
-        type_ = re.sub(r"Literal\[(.*?)\]", r"{\1}", type_).replace("npt.NDArray", "ndarray").replace("npt.ArrayLike", "array_like")
+        type_ = (
+            re.sub(r"Literal\[(.*?)\]", r"{\1}", type_).replace("npt.NDArray", "ndarray").replace("npt.ArrayLike", "array_like")
+        )
         type_ = type_.replace("os.PathLike[str]", "path").replace("np.", "")
         default = argument.get("default", "")
         says = argument["says"]
@@ -438,8 +546,12 @@ class Binder:
 
     @staticmethod
     def wrapped(text: str, indent: str = "") -> str:
-        return "\n\n".join(textwrap.fill(p, 100, initial_indent=indent, subsequent_indent=indent, break_long_words=False,
-                                         break_on_hyphens=False) for p in text.split("\n\n"))
+        return "\n\n".join(
+            textwrap.fill(
+                p, 100, initial_indent=indent, subsequent_indent=indent, break_long_words=False, break_on_hyphens=False
+            )
+            for p in text.split("\n\n")
+        )
 
     def docstring(self, overloads: list[Function]) -> str:
         """numpydoc, with the signature in the form that inspect reads where there is one."""
@@ -460,18 +572,26 @@ class Binder:
             for argument in every.values():
                 text += "\n".join(self.words_for(argument, function.space)) + "\n"
             if runs:
-                text += "threads, progress, log, device\n    How the work runs, as for `thalweg.make`; the result is the same.\n"
+                text += (
+                    "threads, progress, log, device\n    How the work runs, as for `thalweg.make`; the result is the same.\n"
+                )
         returned = self.expanded(function.returns, function.space)
         type_ = self.python_type(returned, False, function.space).replace("npt.NDArray", "ndarray").replace("np.", "")
         type_ = re.sub(r"\b_([a-z]+\.)", r"\1", type_)
-        text += f"\nReturns\n-------\n{type_}\n" + (self.wrapped(str(said["returns"]), "    ") + "\n" if said["returns"] else "")
+        text += f"\nReturns\n-------\n{type_}\n" + (
+            self.wrapped(str(said["returns"]), "    ") + "\n" if said["returns"] else ""
+        )
         throws = said["throws"]
         assert isinstance(throws, list)
         if throws:
-            text += "\nRaises\n------\n" + "".join(f"{name}\n{self.wrapped(why or 'As the stages it calls.', '    ')}\n" for name, why in throws)
+            text += "\nRaises\n------\n" + "".join(
+                f"{name}\n{self.wrapped(why or 'As the stages it calls.', '    ')}\n" for name, why in throws
+            )
         cited = sorted({self.cite[key][1] for f in overloads for key in re.findall(r"\\cite (\w+)", f.comment)})
         if said["source"] or cited:
-            text += "\nReferences\n----------\n" + "\n\n".join(self.wrapped(t) for t in [str(said["source"]), *cited] if t) + "\n"
+            text += (
+                "\nReferences\n----------\n" + "\n\n".join(self.wrapped(t) for t in [str(said["source"]), *cited] if t) + "\n"
+            )
         return text
 
     # -- C++ ----------------------------------------------------------------------------------------------------------
@@ -508,9 +628,11 @@ class Binder:
                 continue
             if whole.endswith("*") and whole != "char const*":
                 pointed = whole[:-1].strip().removesuffix("const").strip()
-                text += (f"        std::optional<Held<{pointed}>> arg_{name};\n"
-                         f'        if (py::handle const value = in.next("{name}"); value && !value.is_none()) {{\n'
-                         f'            arg_{name}.emplace(value, in.place("{name}"));\n        }}\n')
+                text += (
+                    f"        std::optional<Held<{pointed}>> arg_{name};\n"
+                    f'        if (py::handle const value = in.next("{name}"); value && !value.is_none()) {{\n'
+                    f'            arg_{name}.emplace(value, in.place("{name}"));\n        }}\n'
+                )
                 passed.append(f"arg_{name} ? &**arg_{name} : nullptr")
                 continue
             if parameter.default is None:
@@ -522,7 +644,7 @@ class Binder:
                     default = ""
                 elif not default.startswith('"') and re.search(r"[A-Za-z_]\w*::", default) and not default.startswith("std::"):
                     default = f"{function.space}::{default}" if self.scope_of(whole)[0] == function.space else default
-                text += (f"        {kind} arg_{name}{{{default}}};\n        in.field(\"{name}\", arg_{name});\n")
+                text += f'        {kind} arg_{name}{{{default}}};\n        in.field("{name}", arg_{name});\n'
                 passed.append(f"arg_{name}")
                 continue
             passed.append(self.passed(whole, name))
@@ -551,10 +673,15 @@ class Binder:
                 record = self.scope_of(pointed) in self.records or self.scope_of(pointed) in BY_HAND
                 kind = f"Held<{pointed}>" if record else pointed
                 before += f"        std::optional<{kind}> arg_{name};\n"
-                made = f'arg_{name}.emplace(value, in.place("{name}"))' if record else (
-                    f'arg_{name}.emplace(take<{pointed}>(value, in.place("{name}")))')
-                after += (f'        if (py::handle const value = in.named("{name}"); value && !value.is_none()) {{\n            {made};\n'
-                          f"            {variable}.{field.name} = &*{'*' if record else ''}arg_{name};\n        }}\n")
+                made = (
+                    f'arg_{name}.emplace(value, in.place("{name}"))'
+                    if record
+                    else (f'arg_{name}.emplace(take<{pointed}>(value, in.place("{name}")))')
+                )
+                after += (
+                    f'        if (py::handle const value = in.named("{name}"); value && !value.is_none()) {{\n            {made};\n'
+                    f"            {variable}.{field.name} = &*{'*' if record else ''}arg_{name};\n        }}\n"
+                )
             elif self.is_taken(type_):
                 after += f'        in.option("{name}", {variable}.{field.name});\n'
         if self.scope_of(whole) in self.structs and not initial:
@@ -568,16 +695,22 @@ class Binder:
     def overloaded(self, overloads: list[Function]) -> str:
         if len(overloads) == 1:
             return self.body(overloads[0])
+
         # What takes records of ours is asked first: others take anything.
         def known(function: Function) -> list[tuple[int, str, str]]:
             found = []
             for number, parameter in enumerate(p for p in function.parameters if not self.is_run(p)):
                 whole = self.expanded(parameter.type, function.space)
                 scope = self.scope_of(whole)
-                if (scope in self.records or scope in BY_HAND) and parameter.default is None and not whole.endswith("Params") \
-                        and not self.is_held_raster(scope):
+                if (
+                    (scope in self.records or scope in BY_HAND)
+                    and parameter.default is None
+                    and not whole.endswith("Params")
+                    and not self.is_held_raster(scope)
+                ):
                     found.append((number, safe(parameter.name), whole))
             return found
+
         ordered = sorted(overloads, key=lambda f: -len(known(f)))
         text = "        switch (in.choose({\n"
         for function in ordered:
@@ -628,7 +761,9 @@ class Binder:
     def record_words(self, scope: tuple[str, str]) -> str:
         struct = self.structs[scope]
         said = self.parsed(struct.comment)
-        text = (self.wrapped(str(said["said"])) or f"A value of thalweg.{'.'.join(filter(None, scope)).replace('::', '.')}.") + "\n\nAttributes\n----------\n"
+        text = (
+            self.wrapped(str(said["said"])) or f"A value of thalweg.{'.'.join(filter(None, scope)).replace('::', '.')}."
+        ) + "\n\nAttributes\n----------\n"
         for _, field, type_ in self.fields_of(scope):
             if self.can_cross(type_):
                 argument = {"name": safe(field.name), "type": type_, "says": self.prose(field.comment)}
@@ -641,8 +776,10 @@ class Binder:
         outer = scope[1].rpartition("::")[0]
         parent = f'type_{outer.replace("::", "_")}' if outer and (scope[0], outer) in self.records else "module"
         module = f"thalweg.{scope[0]}" if scope[0] else "thalweg._core"
-        text = (f'    auto type_{scope[1].replace("::", "_")} = add_record<{whole}>({parent}, "{name}", R"words({self.record_words(scope)})words", '
-                f'"{module}");\n')
+        text = (
+            f'    auto type_{scope[1].replace("::", "_")} = add_record<{whole}>({parent}, "{name}", R"words({self.record_words(scope)})words", '
+            f'"{module}");\n'
+        )
         return text
 
     def getters(self, scope: tuple[str, str]) -> str:
@@ -667,10 +804,14 @@ class Binder:
 
     def without_covered(self, overloads: list[Function]) -> list[Function]:
         """Without those that another one does too: with the same arguments, and options besides."""
+
         def covers(one: Function, other: Function) -> bool:
             mine, others = self.arguments(one), self.arguments(other)
             given = [(a["name"], a["type"]) for a in mine if not a["default"]]
-            return given == [(a["name"], a["type"]) for a in others if not a["default"]] and {a["name"] for a in others} < {a["name"] for a in mine}
+            return given == [(a["name"], a["type"]) for a in others if not a["default"]] and {a["name"] for a in others} < {
+                a["name"] for a in mine
+            }
+
         return [f for f in overloads if not any(covers(one, f) for one in overloads)]
 
     def records_in(self, space: str) -> list[tuple[str, str]]:
@@ -680,7 +821,10 @@ class Binder:
         text = "".join(f"#include <thalweg/{m}.hpp>\n" for m in ["core", *MODULES])
         text += '\n#include "glue.hpp"\n\nnamespace thalweg::python {\n\n'
         for scope, enumeration in sorted(self.enumerations.items()):
-            if enumeration.header.startswith(("thalweg/core/run/", "thalweg/core/numbers/")) or "internal" in enumeration.header:
+            if (
+                enumeration.header.startswith(("thalweg/core/run/", "thalweg/core/numbers/"))
+                or "internal" in enumeration.header
+            ):
                 continue
             whole = "::".join(filter(None, scope))
             names = ", ".join(f'"{w}"' for w in self.words_of(scope))
@@ -722,8 +866,10 @@ namespace thalweg::python {{
         text += f"    using namespace thalweg{'::' + space if space else ''};\n"
         for overloads in self.grouped(space):
             words = self.docstring(overloads)
-            text += (f'    add_function(module, "{safe(overloads[0].name)}", R"words({words})words", [](Args& in) -> py::object {{\n'
-                     f"{self.overloaded(overloads)}    }});\n")
+            text += (
+                f'    add_function(module, "{safe(overloads[0].name)}", R"words({words})words", [](Args& in) -> py::object {{\n'
+                f"{self.overloaded(overloads)}    }});\n"
+            )
         return text + "}\n\n} // namespace thalweg::python\n"
 
     # -- Stubs --------------------------------------------------------------------------------------------------------
@@ -771,8 +917,10 @@ namespace thalweg::python {{
 
 
 # What the package adds to networks.
-AS_TABLES = ["def to_geodataframe(self, layer: str = 'arcs', *, crs: str | None = None) -> geopandas.GeoDataFrame: ...",
-             "def to_networkx(self) -> networkx.DiGraph: ..."]
+AS_TABLES = [
+    "def to_geodataframe(self, layer: str = 'arcs', *, crs: str | None = None) -> geopandas.GeoDataFrame: ...",
+    "def to_networkx(self) -> networkx.DiGraph: ...",
+]
 STUB_HEAD = """# Written by python/bind/bind.py.
 import os
 from collections.abc import Callable, Mapping, Sequence
@@ -801,7 +949,9 @@ def main() -> None:
         stub = binder.write_stub(space)
         extra = by_hand / f"by_hand_{called}.pyi"
         if extra.exists():
-            stub += "".join(f"{line}\n" for line in extra.read_text(encoding="utf-8").splitlines() if not line.startswith("# SPDX"))
+            stub += "".join(
+                f"{line}\n" for line in extra.read_text(encoding="utf-8").splitlines() if not line.startswith("# SPDX")
+            )
         others = sorted(m for m in MODULES if m != space and re.search(rf"\b_{m}\.", stub))
         values = sorted({s[1] for s in [*binder.records, *BY_HAND] if s[0] == "" and "::" not in s[1]}) if space else []
         head = STUB_HEAD + "".join(f"from thalweg import {m} as _{m}\n" for m in others)

@@ -130,8 +130,12 @@ class Reader:
             code = code.split("//")[0].strip()
             text = f"{text} {code}".strip()
             opened = text.count("{") - text.count("}")
-            if text.endswith((";", "{")) and (opened <= 0 or re.match(r"(namespace|struct|class|enum|template|friend)\b", text)
-                                              or ")" in text and text.endswith("{")):
+            if text.endswith((";", "{")) and (
+                opened <= 0
+                or re.match(r"(namespace|struct|class|enum|template|friend)\b", text)
+                or ")" in text
+                and text.endswith("{")
+            ):
                 break
             if text.endswith("}") and opened == 0 and "(" in text.split("{")[0]:  # a function in one line
                 break
@@ -226,7 +230,7 @@ class Reader:
         if match is None or "operator" in head:
             return
         parameters = []
-        for part in split_at(text[begin + 1:end], ","):
+        for part in split_at(text[begin + 1 : end], ","):
             declared, _, default = part.partition(" = ")
             one = re.match(r"(.+?[\s&*>])(\w+)$", declared.strip())
             if one is None:

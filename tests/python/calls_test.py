@@ -59,6 +59,17 @@ class Arguments(unittest.TestCase):
         with self.assertRaises(ValueError):
             dem[0, 0] = 1
 
+    def test_a_raster_returned_is_shown_where_it_lies(self):
+        made = thalweg.surface.dilate(valley(4096))
+        before = resident_bytes()
+        shown, again = made.dem.values, np.asarray(made.dem)
+        other = thalweg.Raster(shown).values
+        self.assertLess(resident_bytes() - before, shown.nbytes / 8)
+        self.assertTrue(np.shares_memory(shown, again) and np.shares_memory(shown, other))
+        del made, again, other
+        gc.collect()
+        self.assertEqual(float(shown[2048, 0]), 100.0)
+
     def test_a_raster_given_is_read_where_it_lies(self):
         big = np.zeros((4096, 4096), np.float32)
         big[2048] = 1.0
