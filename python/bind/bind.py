@@ -57,6 +57,7 @@ LEFT_OUT = [
         r"|statistics_json|checks_json|relief_json|forecast_make|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
         "a part of the program",
     ),
+    (r"measure::relief_range", "by the number of a metric, which relief_rows names"),
     (r"geometry::put_in_order|pipeline::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
     (r"io::write_geopackage", "see by_hand.cpp"),
 ]
@@ -89,6 +90,8 @@ DTYPES = {
     "std::uint64_t": "np.uint64",
 }
 TEXTS = {"std::string", "std::string_view", "char const*", "io::Source"}
+# What only the library makes: parts of a terrain that belong together.
+ONLY_MADE = {("pipeline", name) for name in ("Plan", "Planform", "Terrain", "Made", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
 # By hand: by_hand.cpp binds it.
 BY_HAND = {("", "StreamNetwork"), ("draw", "Picture")}
 NOT_RECORDS = {
@@ -615,6 +618,8 @@ class Binder:
         text = ""
         passed = []
         runs = False
+        says = self.parsed(function.comment)["params"]
+        assert isinstance(says, dict)
         for number, parameter in enumerate(function.parameters):
             if self.is_run(parameter):
                 runs = True
@@ -636,7 +641,9 @@ class Binder:
                 passed.append(f"arg_{name} ? &**arg_{name} : nullptr")
                 continue
             if parameter.default is None:
-                text += self.held(whole, name, f'in.required("{name}")', f'in.place("{name}")')
+                is_value = whole.startswith("Raster<") and not re.search(r"empty|without cells", says.get(parameter.name, ""))
+                given = "required_value" if is_value else "required"
+                text += self.held(whole, name, f'in.{given}("{name}")', f'in.place("{name}")')
             else:
                 kind = "std::string" if whole in ("std::string_view", "char const*") else whole
                 default = parameter.default
@@ -729,11 +736,16 @@ class Binder:
             text += f"        {label} {{\n{self.body(function)}        }}\n"
         return text + "        }\n"
 
+    def is_made(self, scope: tuple[str, str]) -> bool:
+        """Whether Python can make a record of its fields."""
+        fields = [(f, t) for _, f, t in self.fields_of(scope)]
+        return (scope not in ONLY_MADE and any(self.is_taken(t) for _, t in fields)
+                and not any(arguments_of(t)[0] == "Required" or (f.default is None and t.endswith("*")) for f, t in fields))
+
     def record_declaration(self, scope: tuple[str, str]) -> str:
         whole = "::".join(filter(None, scope))
         takes = [f for _, f, t in self.fields_of(scope) if self.is_taken(t)]
-        required = [f for _, f, t in self.fields_of(scope) if arguments_of(t)[0] == "Required"]
-        can = "false" if required or not takes else f"std::is_default_constructible_v<{whole}>"
+        can = f"std::is_default_constructible_v<{whole}>" if self.is_made(scope) else "false"
         name = scope[1].replace("::", ".")
         parts = [f"{safe(f.name)}={self.literal(f.default, t)}" for _, f, t in self.fields_of(scope) if self.is_taken(t)]
         signature = f"__init__(self, {', '.join(parts)})\\n--\\n\\n"
@@ -749,14 +761,13 @@ class Binder:
 
     def record_definition(self, scope: tuple[str, str]) -> str:
         whole = "::".join(filter(None, scope))
-        required = any(arguments_of(t)[0] == "Required" for _, _, t in self.fields_of(scope))
         takes = [(f, t) for _, f, t in self.fields_of(scope) if self.is_taken(t)]
-        if required or not takes:
+        if not self.is_made(scope):
             return ""
         text = f"{whole} Fields<{whole}>::made(Args& in) {{\n    {whole} made{{}};\n"
         for field, _ in takes:
             text += f'    in.field("{safe(field.name)}", made.{field.name});\n'
-        return text + "    in.done();\n    return made;\n}\n\n"
+        return text + "    in.done();\n    require_sound(made);\n    return made;\n}\n\n"
 
     def record_words(self, scope: tuple[str, str]) -> str:
         struct = self.structs[scope]
@@ -886,7 +897,7 @@ namespace thalweg::python {{
                 if nested[1].rpartition("::")[0] == scope[1]:
                     write_record(nested, inner)
             takes = [(f, t) for _, f, t in self.fields_of(scope) if self.is_taken(t)]
-            if takes and not any(arguments_of(t)[0] == "Required" for _, t in takes):
+            if self.is_made(scope):
                 parts = []
                 for field, type_ in takes:
                     default = self.literal(field.default, type_)

@@ -132,6 +132,94 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
     return {std::move(draft)};
 }
 
+void require_sound(Grid const& grid) {
+    constexpr std::int64_t most = std::int64_t{1} << 40;
+    if (grid.width < 0 || grid.height < 0 || (grid.height > 0 && grid.width > most / grid.height)) {
+        throw BadInput(
+            fmt::format("Grid: {} x {} cells are no grid; it has at most 2^40 cells", grid.width, grid.height));
+    }
+}
+
+void require_sound(ElevatedNetwork const& network) {
+    StreamNetwork const& plan = network.planform;
+    bool fits = network.node_z.size() == plan.node_count() && network.arc_z.size() == plan.arc_count();
+    for (ArcId a = 0; fits && a < plan.arc_count(); ++a) {
+        fits = network.arc_z[a].size() == plan.arc(a).line.size();
+    }
+    if (!fits) {
+        throw BadInput("ElevatedNetwork: heights are one per node, and one per vertex of each arc");
+    }
+}
+
+void require_sound(RiverLine const& line) {
+    if (line.vertices.size() < 2) {
+        throw BadInput(fmt::format("RiverLine: a line of {} vertices; it needs two", line.vertices.size()));
+    }
+}
+
+void require_sound(flow::FlowField const& drainage) {
+    Raster<flow::Direction> const& direction = drainage.direction;
+    Grid const& grid = direction.grid();
+    if (direction.cells() == 0 || !(drainage.area_cells.grid() == grid)) {
+        throw BadInput("FlowField: direction and area_cells are rasters on one grid");
+    }
+    // By cell: 0 unknown, 1 on the way that is followed, 2 leads to an end.
+    Raster<std::uint8_t> state(grid);
+    std::vector<std::int64_t> way;
+    for (std::int64_t first = 0; first < grid.cells(); ++first) {
+        std::int64_t at = first;
+        while (at >= 0 && state[at] == 0) {
+            state[at] = 1;
+            way.push_back(at);
+            Cell const here = grid.at(at);
+            if (flow::goes_on(direction[at])) {
+                Cell const step = d8_steps[flow::index_of(direction[at])];
+                Cell const next{here.col + step.col, here.row + step.row};
+                if (!grid.contains(next)) {
+                    throw BadInput(
+                        fmt::format("FlowField: the direction in row {}, column {} (from 0) leads off the grid",
+                                    here.row, here.col));
+                }
+                at = grid.index(next);
+                if (state[at] == 1) {
+                    throw BadInput(fmt::format("FlowField: directions form a cycle at row {}, column {} (from 0)",
+                                               next.row, next.col));
+                }
+            } else {
+                at = -1;
+            }
+        }
+        for (std::int64_t const cell : way) {
+            state[cell] = 2;
+        }
+        way.clear();
+    }
+}
+
+void require_sound(network::TokunagaTree const& tree) {
+    auto const count = static_cast<network::LinkId>(tree.links.size());
+    bool fits = count > 0;
+    for (network::LinkId i = 0; i < count; ++i) {
+        network::TreeLink const& link = tree.links[i];
+        fits =
+            fits && (i == 0 ? link.down == -1 : link.down >= 0 && link.down < i) && link.turn >= -2 && link.turn <= 2;
+        for (network::LinkId const up : link.up) {
+            fits = fits && (up == -1 || (up > i && up < count));
+        }
+    }
+    if (!fits) {
+        throw BadInput("TokunagaTree: links are numbered from the outlet upstream, from 0");
+    }
+}
+
+void require_sound(network::LSystem const& system) {
+    for (auto const& [sign, words] : system.rules) {
+        if (words.empty()) {
+            throw BadInput(fmt::format("LSystem: the sign {} has no rule", sign));
+        }
+    }
+}
+
 void declare_stream_network(py::module_& module) {
     auto type = add_record<StreamNetwork>(
         module, "StreamNetwork", R"words(An immutable river network in plan: nodes, and arcs directed downstream.

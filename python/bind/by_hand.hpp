@@ -4,8 +4,11 @@
 
 #include "glue.hpp"
 
+#include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/draw/picture.hpp>
+#include <thalweg/flow/route.hpp>
+#include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 /// What bind.py does not read from the headers: exceptions, classes, functions that change their arguments.
 namespace thalweg::python {
@@ -27,6 +30,13 @@ template <> struct Fields<draw::Picture> {
     static constexpr char const* signature = "";
     static draw::Picture take(py::handle value, Place const& place) { return take_record<draw::Picture>(value, place); }
 };
+
+void require_sound(Grid const& grid);
+void require_sound(ElevatedNetwork const& network);
+void require_sound(RiverLine const& line);
+void require_sound(flow::FlowField const& drainage);
+void require_sound(network::TokunagaTree const& tree);
+void require_sound(network::LSystem const& system);
 
 /// The exceptions of the library, and how they become those of Python.
 void declare_errors(py::module_& module);

@@ -41,6 +41,13 @@ std::string shown(py::handle value) {
 constexpr std::array<std::string_view, 9> of_files = {"path",   "source", "dem",  "network",   "rivers",
                                                       "target", "mask",   "keep", "breaklines"};
 
+/// A text, or "?" where it is none, or none that UTF-8 can hold.
+std::string text_or_nothing(py::handle value) {
+    char const* const text = PyUnicode_Check(value.ptr()) != 0 ? PyUnicode_AsUTF8(value.ptr()) : nullptr;
+    PyErr_Clear();
+    return text == nullptr ? "?" : text;
+}
+
 thread_local Args* current = nullptr; ///< the call whose arguments are taken
 
 [[noreturn]] void raise(PyObject* type, std::string const& words) {
@@ -165,6 +172,10 @@ std::uint64_t take_seed(py::handle value, Place const& place) {
         refuse_type(place, value, "a whole number");
     }
     auto const index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+    if (!index) {
+        PyErr_Clear();
+        refuse_type(place, value, "a whole number");
+    }
     int overflow = 0;
     long long const number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
     if (overflow == 0 && number >= -1) {
@@ -183,7 +194,8 @@ std::string take_text(py::handle value, Place const& place) {
     if (!py::isinstance<py::str>(text)) {
         if (py::hasattr(text, "__fspath__")) {
             text = py::module_::import("os").attr("fsdecode")(text);
-        } else if (std::find(of_files.begin(), of_files.end(), place.name) != of_files.end() && current != nullptr) {
+        } else if (std::find(of_files.begin(), of_files.end(), place.name) != of_files.end() && current != nullptr &&
+                   current->takes_files_) {
             text = from_package("thalweg._networks", "path_of")(value, place.name);
             current->files_.append(text);
         } else {
@@ -198,7 +210,7 @@ std::size_t take_word(py::handle value, Place const& place, std::span<char const
     if (!py::isinstance<py::str>(value)) {
         refuse_type(place, value, fmt::format("one of '{}'", fmt::join(known, "', '")));
     }
-    std::string const word = value.cast<std::string>();
+    std::string const word = text_or_nothing(value);
     auto const found = std::find(known.begin(), known.end(), word);
     if (found == known.end()) {
         throw BadParameter(fmt::format("{}: {} is '{}'; it must be one of {}.{}", place.function, place.name, word,
@@ -215,7 +227,12 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
         if (py::isinstance<py::str>(value) || py::isinstance<py::dict>(value)) {
             refuse_type(place, value, wanted);
         }
-        numbers = py::module_::import("numpy").attr("asarray")(value);
+        py::object const numpy = py::module_::import("numpy");
+        if (py::isinstance(value, numpy.attr("ma").attr("MaskedArray")) &&
+            py::bool_(numpy.attr("any")(value.attr("mask")))) {
+            refuse_type(place, value, wanted + " without masked ones");
+        }
+        numbers = numpy.attr("asarray")(value);
     } catch (py::error_already_set& fault) {
         if (!fault.matches(PyExc_ValueError)) {
             throw;
@@ -272,6 +289,23 @@ std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py:
     return {std::move(values), std::move(grid)};
 }
 
+void require_codes(py::array const& values, Place const& place, std::vector<int> const& codes) {
+    py::object const numpy = py::module_::import("numpy");
+    py::list list;
+    for (int const code : codes) {
+        list.append(code);
+    }
+    py::object const known = numpy.attr("isin")(values, list);
+    if (!py::bool_(known.attr("all")())) {
+        py::object const at = numpy.attr("argwhere")(numpy.attr("logical_not")(known)).attr("__getitem__")(0);
+        throw BadInput(fmt::format("{}: {} is {} in row {}, column {} (from 0), which is no code of it; they are {}",
+                                   place.function, place.name,
+                                   std::string(py::str(values.attr("__getitem__")(py::tuple(at)))),
+                                   std::string(py::str(at.attr("__getitem__")(0))),
+                                   std::string(py::str(at.attr("__getitem__")(1))), fmt::join(codes, ", ")));
+    }
+}
+
 std::shared_ptr<void const> kept_alive(py::object object) {
     PyObject* const pointer = object.release().ptr();
     return {pointer, [](void const* kept) {
@@ -302,8 +336,12 @@ py::dict take_dict(py::handle value, Place const& place) {
 }
 
 Args::Args(std::string function, py::args positional, py::kwargs named)
-    : function_(std::move(function)), outer_(std::exchange(current, this)), positional_(std::move(positional)),
-      named_(std::move(named)) {}
+    : function_(std::move(function)), outer_(std::exchange(current, this)),
+      takes_files_(outer_ != nullptr
+                       ? outer_->takes_files_
+                       : function_.find('.') != std::string::npos && function_.find(".write_") == std::string::npos &&
+                             function_ != "Picture.save"),
+      positional_(std::move(positional)), named_(std::move(named)) {}
 
 Args::~Args() {
     current = outer_;
@@ -335,7 +373,7 @@ std::size_t Args::choose(std::vector<Form> const& forms) {
     };
     auto const knows_all = [&](Form const& form) {
         return std::all_of(named_.begin(), named_.end(), [&](auto const& given) {
-            std::string const name = given.first.template cast<std::string>();
+            std::string const name = text_or_nothing(given.first);
             auto const is_in = [&](auto const& names) {
                 return std::any_of(names.begin(), names.end(), [&](char const* one) { return name == one; });
             };
@@ -376,6 +414,14 @@ py::handle Args::required(char const* name) {
     return value;
 }
 
+py::handle Args::required_value(char const* name) {
+    py::handle const value = required(name);
+    if (value.is_none()) {
+        refuse_type(place(name), value, "a raster");
+    }
+    return value;
+}
+
 py::handle Args::named(char const* name) {
     asked_.emplace_back(name);
     return py::handle(PyDict_GetItemString(named_.ptr(), name));
@@ -396,7 +442,7 @@ void Args::done() const {
                           positional_.size(), next_));
     }
     for (auto const& [key, value] : named_) {
-        auto const name = key.cast<std::string>();
+        std::string const name = text_or_nothing(key);
         if (std::find(asked_.begin(), asked_.end(), name) == asked_.end()) {
             raise(PyExc_TypeError,
                   fmt::format("{}: there is no argument '{}'.{}", function_, name, did_you_mean(name, asked_)));
@@ -405,6 +451,51 @@ void Args::done() const {
 }
 
 namespace {
+
+/// Whether the interpreter ends: a thread that asks for its lock then would be ended in the middle.
+bool is_at_end() {
+#if PY_VERSION_HEX >= 0x030d0000
+    return Py_IsFinalizing() != 0;
+#else
+    return _Py_IsFinalizing() != 0;
+#endif
+}
+
+/// The calls that run, so that the end of the interpreter can stop them.
+struct Running {
+    std::mutex guard;
+    std::condition_variable changed;
+    std::vector<std::stop_source*> calls;
+};
+
+Running& running() {
+    static auto* const all = new Running; // threads may outlive static objects
+    return *all;
+}
+
+/// Keeps a call among those that run, and its thread from being left behind.
+class Registered {
+public:
+    Registered(std::stop_source& stop, std::thread& worker) : stop_(stop), worker_(worker) {
+        std::lock_guard const lock(running().guard);
+        running().calls.push_back(&stop);
+    }
+    Registered(Registered const&) = delete;
+    Registered& operator=(Registered const&) = delete;
+    ~Registered() {
+        if (worker_.joinable()) {
+            stop_.request_stop();
+            worker_.join();
+        }
+        std::lock_guard const lock(running().guard);
+        std::erase(running().calls, &stop_);
+        running().changed.notify_all();
+    }
+
+private:
+    std::stop_source& stop_;
+    std::thread& worker_;
+};
 
 /// What a stage calls back, in its own threads.
 struct Callbacks {
@@ -416,6 +507,9 @@ struct Callbacks {
 
     /// \return false: it raised
     bool calls(std::function<void()> const& call) {
+        if (is_at_end()) {
+            return false;
+        }
         py::gil_scoped_acquire const held;
         try {
             call();
@@ -469,12 +563,15 @@ void Args::work(std::function<void(Run const&)> const& stage) {
 
     std::exception_ptr fault;
     std::exception_ptr interrupted;
+    std::thread worker;
+    Registered const registered(callbacks.stop,
+                                worker); // until the lock is held again: who ends the interpreter waits for that
     {
         py::gil_scoped_release const others;
         std::mutex guard;
         std::condition_variable ended;
         bool has_ended = false;
-        std::thread worker([&] {
+        worker = std::thread([&] {
             try {
                 stage(run);
             } catch (...) {
@@ -487,7 +584,7 @@ void Args::work(std::function<void(Run const&)> const& stage) {
         std::unique_lock lock(guard);
         while (!ended.wait_for(lock, std::chrono::milliseconds(50), [&] { return has_ended; })) {
             lock.unlock();
-            {
+            if (!is_at_end()) {
                 py::gil_scoped_acquire const held;
                 if (PyErr_CheckSignals() != 0 && !interrupted) {
                     interrupted = std::make_exception_ptr(py::error_already_set());
@@ -504,6 +601,15 @@ void Args::work(std::function<void(Run const&)> const& stage) {
             std::rethrow_exception(one);
         }
     }
+}
+
+void stop_all_calls() {
+    py::gil_scoped_release const others;
+    std::unique_lock lock(running().guard);
+    for (std::stop_source* const call : running().calls) {
+        call->request_stop();
+    }
+    running().changed.wait(lock, [] { return running().calls.empty(); });
 }
 
 void add_function(py::handle module, char const* name, char const* words, Call call) {

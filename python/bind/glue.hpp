@@ -147,7 +147,8 @@ py::object text_of(std::string_view bytes);
 template <class T> py::object show(T const& value, py::handle owner) {
     if constexpr (std::same_as<T, bool> || std::is_arithmetic_v<T>) {
         if constexpr (std::same_as<T, std::size_t>) {
-            return py::int_(static_cast<std::int64_t>(value));
+            // the greatest stands for none; a seed is any other
+            return value == std::numeric_limits<T>::max() ? py::int_(-1) : py::int_(value);
         } else if constexpr (std::same_as<T, char>) {
             return py::int_(static_cast<int>(value));
         } else {
@@ -155,6 +156,8 @@ template <class T> py::object show(T const& value, py::handle owner) {
         }
     } else if constexpr (std::is_enum_v<T>) {
         return py::str(Words<T>::of(value));
+    } else if constexpr (std::same_as<T, char const*>) {
+        return text_of(value == nullptr ? "" : value);
     } else if constexpr (Text<T>) {
         return text_of(value);
     } else if constexpr (std::same_as<T, Finding> || std::same_as<T, Check>) {
@@ -280,6 +283,8 @@ std::size_t take_word(py::handle value, Place const& place, std::span<char const
 py::array take_array(py::handle value, Place const& place, py::dtype const& type, std::size_t count);
 /// \return {values, grid}: a C-contiguous array of two dimensions
 std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py::dtype const& type);
+/// \throws BadInput naming the first cell whose value is none of the codes
+void require_codes(py::array const& values, Place const& place, std::vector<int> const& codes);
 /// Keeps an object of Python alive; may be let go in any thread.
 std::shared_ptr<void const> kept_alive(py::object object);
 Finding take_finding(py::handle value, Place const& place);
@@ -334,6 +339,8 @@ public:
     py::handle next(char const* name);
     /// \throws TypeError when it is not given
     py::handle required(char const* name);
+    /// \throws TypeError when it is not given, or None
+    py::handle required_value(char const* name);
     /// An argument that is given by its name alone; null: not given.
     py::handle named(char const* name);
     py::handle required_by_name(char const* name);
@@ -391,8 +398,9 @@ private:
     friend std::string take_text(py::handle value, Place const& place);
 
     std::string function_;
-    Args* outer_;    ///< the call in whose arguments this one's are
-    py::list files_; ///< of tables and rasters given instead of names
+    Args* outer_;      ///< the call in whose arguments this one's are
+    bool takes_files_; ///< a table or raster may stand for a file that is read during the call
+    py::list files_;   ///< of tables and rasters given instead of names
     py::args positional_;
     py::kwargs named_;
     std::size_t next_ = 0;
@@ -431,6 +439,13 @@ template <class T> T take(py::handle value, Place const& place) {
         }
         using Number = std::conditional_t<std::is_enum_v<Value>, std::uint8_t, Value>;
         auto [values, grid] = take_raster(value, place, py::dtype::of<Number>());
+        if constexpr (std::is_enum_v<Value>) {
+            std::vector<int> codes;
+            for (Value const one : Words<Value>::values) {
+                codes.push_back(static_cast<int>(one));
+            }
+            require_codes(values, place, codes);
+        }
         std::span<Value const> const cells(static_cast<Value const*>(values.data()),
                                            static_cast<std::size_t>(values.size()));
         return T::view_of(std::move(grid), cells, kept_alive(values));
@@ -520,6 +535,10 @@ template <class T> T take(py::handle value, Place const& place) {
     }
 }
 
+/// Checks what Python made of its parts before a stage relies on it; by_hand.hpp has more of these.
+/// \throws BadInput naming what does not fit together
+template <class T> void require_sound(T const& /*made*/) {}
+
 /// Whether an argument is given and of a type.
 template <class T> bool is_given(py::handle value) {
     return value && py::isinstance<T>(value);
@@ -556,6 +575,8 @@ void add_getter(py::handle type, char const* name, char const* words, Getter get
 void finish_record(py::handle type, std::initializer_list<char const*> fields);
 void add_equality(py::handle type, bool (*equal)(py::object const&, py::object const&));
 void add_init(py::handle type, char const* words, void* (*make)(Args&));
+/// Stops every call and waits for their threads, when the interpreter ends.
+void stop_all_calls();
 
 template <class T, auto Member> py::object get(py::object const& self) {
     return show(self.cast<T const&>().*Member, self);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "by_hand.hpp"
 
+#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::python {
@@ -60,6 +61,8 @@ PYBIND11_MODULE(_core, module) {
     module.doc() = "The library of thalweg; use the package thalweg.";
     py::options words;
     words.disable_function_signatures();
+    thalweg::io::share_gdal();
+    py::module_::import("atexit").attr("register")(py::cpp_function(stop_all_calls));
     declare_errors(module);
     declare_stream_network(module);
     declare_core(module);

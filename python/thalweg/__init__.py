@@ -39,6 +39,7 @@ from thalweg._networks import to_geodataframe, to_networkx
 from thalweg._raster import ConversionWarning, Raster, UnitWarning
 from thalweg._terrain import Terrain, forecast, make
 
+setattr(_core.Grid, "__reduce__", lambda grid: (_core.Grid, tuple(grid.as_dict().values())))
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
     setattr(_kind, "to_geodataframe", to_geodataframe)
     setattr(_kind, "to_networkx", to_networkx)

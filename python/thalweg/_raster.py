@@ -46,7 +46,7 @@ class Raster(NDArrayOperatorsMixin):
     ----------
     values : array_like, shape (height, width)
         Rows from the north. An array is shown, not copied. Of masked arrays the masked cells become NaN.
-    grid : Grid, optional
+    grid : Grid or dict, optional
         Frame of the cells. Without it the grid follows from the keywords.
     cell_m : float, default 1.0
         [m] Side of a cell.
@@ -72,12 +72,14 @@ class Raster(NDArrayOperatorsMixin):
     values: Array
     grid: _core.Grid
 
-    def __init__(self, values: npt.ArrayLike, grid: _core.Grid | None = None, *, cell_m: float = 1.0, west: float = 0.0,
+    def __init__(self, values: npt.ArrayLike, grid: _core.Grid | dict[str, Any] | None = None, *, cell_m: float = 1.0, west: float = 0.0,
                  north: float | None = None, crs: str = "") -> None:
         shown = _unmasked(values, "values").view()
         _require_table(shown, "values")
         shown.flags.writeable = False
         height, width = shown.shape
+        if isinstance(grid, dict):
+            grid = _core.Grid(**grid)
         if grid is None:
             if not cell_m > 0.0:
                 raise bad_input("Raster", f"cell_m = {cell_m} is not above 0")

@@ -1,9 +1,11 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Calls of the library: what they take, what they say of nonsense, how they stop, what they leave in memory."""
+import copy
 import gc
 import os
 import pathlib
+import pickle
 import resource
 import signal
 import subprocess
@@ -154,6 +156,32 @@ class Arguments(unittest.TestCase):
             (lambda: thalweg.Grid(1, 2, 3, 4, 5, "", 7), TypeError, "7 arguments are given"),
             (lambda: thalweg.Grid(width=1, widht=2), TypeError, "Did you mean 'width'?"),
             (lambda: thalweg.network.grow_dla(seed=2**70), TypeError, "seed"),
+            (lambda: thalweg.flow.route(None), TypeError, "dem is None; it must be a raster"),
+            (lambda: thalweg.network.random_turn(np.array(3.0)), TypeError, "it must be a whole number"),
+            (lambda: thalweg.nearest_cells(np.zeros((4, 4), np.uint8)), thalweg.BadInput, "no cell is marked"),
+            (lambda: thalweg.fractal.estimate_fractal(valley(), {"col": 60, "width": 9, "height": 1}), thalweg.BadInput, "leaves the raster"),
+            (lambda: thalweg.flow.flow_lengths({"direction": np.full((4, 4), 64, np.uint8), "area_cells": np.ones((4, 4), np.int64)}),
+             thalweg.BadInput, "is 64 in row 0, column 0 .from 0., which is no code"),
+            (lambda: thalweg.flow.flow_lengths({"direction": np.full((4, 4), 0, np.uint8), "area_cells": np.ones((4, 4), np.int64)}),
+             thalweg.BadInput, "leads off the grid"),
+            (lambda: thalweg.flow.flow_lengths({"direction": np.array([[0, 4]], np.uint8), "area_cells": np.ones((1, 2), np.int64)}),
+             thalweg.BadInput, "form a cycle"),
+            (lambda: thalweg.flow.first_met([{"cell": 10**7}], thalweg.flow.route(np.zeros((4, 4), np.float32))), thalweg.BadInput,
+             "is none of the flow field's 16"),
+            (lambda: thalweg.flow.FlowField(), thalweg.BadInput, "rasters on one grid"),
+            (lambda: thalweg.ElevatedNetwork(net, [1.0], []), thalweg.BadInput, "heights are one per node"),
+            (lambda: thalweg.network.fill_heights({"lines": [{"vertices": []}], "has_z": True}, 1.0), thalweg.BadInput, "it needs two"),
+            (lambda: thalweg.skeleton.separable_ar(thalweg.Grid(2**40, 2**40)), thalweg.BadInput, "at most 2.40 cells"),
+            (lambda: thalweg.network.write_lsystem({}), thalweg.BadInput, "numbered from the outlet"),
+            (lambda: thalweg.network.rewrite({"axiom": "F", "rules": {"F": []}}, 1), thalweg.BadInput, "has no rule"),
+            (lambda: thalweg.draw.map(np.zeros((4, 4), np.float32), np.ones((4, 4), np.uint8), orders=thalweg.network.order(net)),
+             thalweg.BadInput, "orders without the network"),
+            (lambda: thalweg.geometry.triangulate(np.ma.array(np.ones((3, 3)), mask=np.eye(3))), TypeError, "without masked ones"),
+            (lambda: thalweg.io.write_dem(valley(), valley()), TypeError, "path"),
+            (lambda: thalweg.pipeline.BlendIntoParams(source=valley()), TypeError, "source"),
+            (lambda: thalweg.cells_along([[0, 0], [1, 1]], {1: 2}), TypeError, "there is no argument"),
+            (lambda: thalweg.flow.condition(valley(), valley(), method="\ud800"), thalweg.BadParameter, "must be one of"),
+            (lambda: thalweg.pipeline.Made(), TypeError, "No constructor|no constructor"),
             (lambda: thalweg.measure.perched(valley(), [64 * 64], rise_m=1.0), thalweg.BadInput, "cell 4096 is not one of"),
             (lambda: thalweg.io.read_rivers(path=3), TypeError, "path: takes a path, a GeoDataFrame"),
             (lambda: thalweg.draw.lines([[[0, 0], [1, 1]]], title=3), TypeError, "title is 3; it must be a text"),
@@ -162,6 +190,34 @@ class Arguments(unittest.TestCase):
         for call, kind, words in cases:
             with self.subTest(words), self.assertRaisesRegex(kind, words):
                 call()
+
+    def test_seeds_keep_all_their_bits(self):
+        self.assertEqual(thalweg.pipeline.Recipe(seed=2**63 + 5).seed, 2**63 + 5)
+        repr(thalweg.io.network_formats())
+
+    def test_grids_can_be_copied(self):
+        grid = thalweg.Grid(3, 4, 5.0, crs="EPSG:32631")
+        self.assertEqual(copy.copy(grid), grid)
+        self.assertEqual(pickle.loads(pickle.dumps(grid)), grid)
+
+    def test_gdal_stays_as_others_use_it(self):
+        code, said, _ = in_a_process("""
+            from osgeo import gdal
+            gdal.UseExceptions()
+            before = gdal.GetDriverCount()
+            import numpy as np, thalweg
+            thalweg.flow.route(thalweg.Raster(np.zeros((4, 4), np.float32), crs="EPSG:32631"))
+            print(gdal.GetDriverCount() - before, gdal.GetDriverByName("netCDF") is not None)
+            try:
+                gdal.Open("/vsicurl/http://127.0.0.1:9/none.tif")
+            except RuntimeError as e:
+                print("only what the command line names" in str(e))
+            try:
+                thalweg.io.read_dem("/vsicurl/http://127.0.0.1:9/none.tif")
+            except thalweg.Error as e:
+                print("refused or not there")
+            """)
+        self.assertEqual((code, said), (0, "0 True\nFalse\nrefused or not there\n"))
 
     def test_errors_name_their_function(self):
         with self.assertRaises(thalweg.BadParameter) as caught:
@@ -223,6 +279,14 @@ class Running(unittest.TestCase):
                 self.assertEqual((code, said), (0, "stopped\n"))
                 print(f"{name}: {seconds:.2f} s after Ctrl-C")
                 self.assertLess(seconds, STOPS_WITHIN)
+
+    def test_the_interpreter_may_end_while_a_thread_works(self):
+        code, said, _ = in_a_process("""
+            import threading, time, thalweg
+            threading.Thread(target=lambda: thalweg.make({"grid": {"width": 512, "height": 512}}, log=lambda line: None), daemon=True).start()
+            time.sleep(0.4)
+            """)
+        self.assertEqual(code, 0, said)
 
     def test_two_threads_make_at_once(self):
         made = {}

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <thalweg/core/cells.hpp>
 
 #include <fmt/format.h>
@@ -131,6 +132,10 @@ void search_row(Raster<std::int64_t>& nearest, std::int64_t row, std::vector<Sit
 } // namespace
 
 Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run) {
+    bool const any = std::any_of(marked.values().begin(), marked.values().end(), [](std::uint8_t m) { return m != 0; });
+    if (!any) {
+        throw BadInput("core.nearest_cells: no cell is marked");
+    }
     Raster<std::int64_t> nearest(marked.grid());
     parallel_ranges(run, marked.width(), 64, [&](std::int64_t first, std::int64_t last) {
         run.check();

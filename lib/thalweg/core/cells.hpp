@@ -148,6 +148,7 @@ std::vector<Cell> cells_along(std::vector<Vec2> const& line, Grid const& grid, s
 /// Finds the nearest marked cell of every cell, by exact Euclidean distance.
 /// \param marked at least one cell is not 0
 /// \return by cell: index of the nearest marked cell; of several equally near, the lowest
+/// \throws BadInput when no cell is marked
 ///
 /// Source: \cite meijster2000, with a total order for ties.
 Raster<std::int64_t> nearest_cells(Mask const& marked, Run const& run);

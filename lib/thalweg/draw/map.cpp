@@ -433,6 +433,8 @@ void require_sheet(MapSheet const& sheet, MapParams const& params) {
     refuse_if<BadInput>(!(grid.cell_m > 0.0) || !std::isfinite(grid.east()) || !std::isfinite(grid.south()),
                         "draw.map: the grid's cell of {} m or its origin ({}, {}) is not usable; mend its georeference",
                         grid.cell_m, grid.west, grid.north);
+    refuse_if<BadInput>(sheet.orders != nullptr && sheet.network == nullptr,
+                        "draw.map: orders without the network that they are of");
     refuse_if<BadInput>(sheet.hillshade.width() != grid.width || sheet.hillshade.height() != grid.height,
                         "draw.map: the hillshade has {} x {} cells, the DEM {} x {}; shade this DEM",
                         sheet.hillshade.width(), sheet.hillshade.height(), grid.width, grid.height);

@@ -101,6 +101,10 @@ Raster<std::int32_t> first_met(std::vector<RiverCell> const& cells, FlowField co
     Grid const& grid = drainage.direction.grid();
     Raster<std::int32_t> to(grid, unknown);
     for (std::size_t i = 0; i < cells.size(); ++i) {
+        if (cells[i].cell < 0 || cells[i].cell >= grid.cells()) {
+            throw BadInput("flow.first_met: cell " + std::to_string(cells[i].cell) + " is none of the flow field's " +
+                           std::to_string(grid.cells()));
+        }
         if (drainage.direction[cells[i].cell] != Direction::no_data) {
             to[cells[i].cell] = static_cast<std::int32_t>(i);
         }

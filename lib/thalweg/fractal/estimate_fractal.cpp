@@ -150,6 +150,14 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params,
 
 Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, EstimateParams const& params) {
     check_hurst(params);
+    bool const is_inside = window.col >= 0 && window.row >= 0 && window.width >= 0 && window.height >= 0 &&
+                           window.col <= dem.width() && window.width <= dem.width() - window.col &&
+                           window.row <= dem.height() && window.height <= dem.height() - window.row;
+    refuse_if<BadInput>(
+        !is_inside,
+        "fractal.estimate_fractal: the window of {} x {} cells from column {}, row {} leaves the raster of "
+        "{} x {}",
+        window.width, window.height, window.col, window.row, dem.width(), dem.height());
     Sums sums;
     for (std::int64_t row = window.row; row < window.row + window.height; ++row) {
         Sums const one = sums_of_row(dem, window, row, params.differences);

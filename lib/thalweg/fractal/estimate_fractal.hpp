@@ -56,6 +56,7 @@ Fractal estimate_fractal(Raster<float> const& dem, EstimateParams const& params 
 /// \param dem [m] by cell; NaN: no data
 /// \param window inside the raster
 /// \return as for a whole raster
+/// \throws BadInput when the window leaves the raster
 Fractal estimate_fractal(Raster<float> const& dem, CellWindow const& window, EstimateParams const& params = {});
 
 } // namespace thalweg::fractal

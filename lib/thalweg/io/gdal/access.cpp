@@ -87,6 +87,8 @@ constexpr std::array local_systems{"/vsimem/",   "/vsizip/",     "/vsigzip/",
                                    "/vsicached?"};
 
 std::atomic<int> connections{0};
+std::atomic<bool> is_shared{false};
+thread_local int inside = 0; ///< Drivers of this thread
 thread_local Refusal refused;
 
 struct Roots {
@@ -135,8 +137,13 @@ bool is_near(char const* path) {
            std::ranges::any_of(own->second, [&](std::string const& folder) { return lies_in(real, folder); });
 }
 
+/// Whether a call comes from others who use GDAL in this process.
+bool is_of_others() {
+    return is_shared && inside == 0;
+}
+
 bool is_no_pipe(char const* path) {
-    if (!is_pipe_or_device(path)) {
+    if (is_of_others() || !is_pipe_or_device(path)) {
         return true;
     }
     refused.pipe = path;
@@ -151,7 +158,7 @@ void refuse_address(std::string const& address) {
 }
 
 bool is_reachable(char const* path) {
-    if (connections > 0) {
+    if (connections > 0 || is_of_others()) {
         return true;
     }
     refuse_address(path);
@@ -286,19 +293,43 @@ void set_unless_set(char const* option, char const* value) {
 
 } // namespace
 
-void guard_gdal() {
-    for (char const* const name : network_drivers) {
-        if (GDALDriver* const driver = take_away(name)) {
-            unregistered_drivers().never.push_back(driver);
-        }
+void share_gdal() {
+    is_shared = true;
+}
+
+bool is_gdal_shared() {
+    return is_shared;
+}
+
+void enter_gdal() {
+    if (inside++ == 0 && is_shared) {
+        CPLHTTPPushFetchCallback(refuse_fetch, nullptr);
+        CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
     }
-    unregistered_drivers().postgres = take_away("PostgreSQL");
-    unregistered_drivers().netcdf = take_away("netCDF");
+}
+
+void leave_gdal() {
+    if (--inside == 0 && is_shared) {
+        CPLHTTPPopFetchCallback();
+        CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", nullptr);
+    }
+}
+
+void guard_gdal() {
+    if (!is_shared) {
+        for (char const* const name : network_drivers) {
+            if (GDALDriver* const driver = take_away(name)) {
+                unregistered_drivers().never.push_back(driver);
+            }
+        }
+        unregistered_drivers().postgres = take_away("PostgreSQL");
+        unregistered_drivers().netcdf = take_away("netCDF");
+        CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+        CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
+    }
     if (char const* const table = CPLFindFile("gdal", "gdalvrt.xsd")) {
         roots().tables = real_path(fs::path(table).parent_path());
     }
-    CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
-    CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
     guard_file_systems();
 }
 

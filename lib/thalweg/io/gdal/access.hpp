@@ -43,6 +43,10 @@ void require_allowed(Source const& source);
 /// \return true: it may
 bool is_recipe_file(std::string const& path);
 
+/// Says, before the first use of GDAL, that this process has others who use it, as a program in Python: its drivers and
+/// settings stay as they are, and what may be opened is restricted within this library's own calls alone.
+void share_gdal();
+
 // Files that PROJ may open.
 
 /// Restricts a context of PROJ: from now on it reads files in PROJ's own folders only (projinfo --searchpaths) and

@@ -69,15 +69,19 @@ Driver::Driver() : log_(std::make_unique<Log>()) {
     [[maybe_unused]] static bool const is_registered = [] {
         GDALAllRegister();
         guard_gdal();
-        CPLSetErrorHandler(note_elsewhere);
-        OSRSetPROJEnableNetwork(0); // a datum grid downloaded on one machine would change coordinates only there
+        if (!is_gdal_shared()) {
+            CPLSetErrorHandler(note_elsewhere);
+            OSRSetPROJEnableNetwork(0); // a datum grid downloaded on one machine would change coordinates only there
+        }
         return true;
     }();
+    enter_gdal();
     CPLPushErrorHandlerEx(note, static_cast<Kept*>(log_.get()));
 }
 
 Driver::~Driver() {
     CPLPopErrorHandler();
+    leave_gdal();
 }
 
 std::string Driver::take() const {

@@ -12,6 +12,13 @@ namespace thalweg::io {
 /// devices are not opened either, whatever their name comes from. Call it once, after the drivers are registered.
 void guard_gdal();
 
+/// Whether share_gdal() was called.
+bool is_gdal_shared();
+
+/// A thread begins and ends to use GDAL for this library; pairs may be nested.
+void enter_gdal();
+void leave_gdal();
+
 /// While an object lives, one server that the user names may be contacted. It must respond within 10 s.
 class Connection {
 public:
