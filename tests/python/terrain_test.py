@@ -269,7 +269,7 @@ class Values(unittest.TestCase):
         self.assertEqual((axes.get_xlim(), axes.get_ylim()), ((west, east), (south, north)))
         rivers = axes.collections[0]
         self.assertEqual(len(rivers.get_paths()), self.terrain.network.planform.arc_count)
-        np.testing.assert_allclose(rivers.get_linewidths(), 0.4 * np.asarray(self.terrain.orders.strahler))
+        np.testing.assert_allclose(rivers.get_linewidths(), 0.4 + 0.5 * np.asarray(self.terrain.orders.strahler))
         self.assertIs(self.terrain.plot(axes), axes)
         matplotlib.pyplot.close("all")
 
