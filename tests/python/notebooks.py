@@ -19,14 +19,14 @@ COLOUR = re.compile("\x1b\\[[0-9;]*m")  # of a terminal
 
 
 def text_of(cell):
-    """What a cell printed and returned, without figures."""
+    """What a cell printed and returned, without figures and empty lines: where printed text is cut into pieces is chance."""
     texts = []
     for output in cell.get("outputs", []):
         if output.output_type == "stream":
             texts.append(output.text)
         elif "image/png" not in output.get("data", {}):
-            texts.append(output.get("data", {}).get("text/plain", ""))
-    return "\n".join(line.rstrip() for line in "".join(f"{text}\n" for text in texts).splitlines()).strip()
+            texts.append("\n" + output.get("data", {}).get("text/plain", "") + "\n")
+    return "\n".join(line.rstrip() for line in "".join(texts).splitlines() if line.strip())
 
 
 def small(figure):
