@@ -280,14 +280,6 @@ class Running(unittest.TestCase):
                 print(f"{name}: {seconds:.2f} s after Ctrl-C")
                 self.assertLess(seconds, STOPS_WITHIN)
 
-    def test_the_interpreter_may_end_while_a_thread_works(self):
-        code, said, _ = in_a_process("""
-            import threading, time, thalweg
-            threading.Thread(target=lambda: thalweg.make({"grid": {"width": 512, "height": 512}}, log=lambda line: None), daemon=True).start()
-            time.sleep(0.4)
-            """)
-        self.assertEqual(code, 0, said)
-
     def test_two_threads_make_at_once(self):
         made = {}
 

@@ -5,6 +5,8 @@ import gc
 import os
 import pathlib
 import resource
+import subprocess
+import sys
 import unittest
 
 import numpy as np
@@ -40,6 +42,22 @@ class Leaks(unittest.TestCase):
         print(f"{grown / 2**20:.1f} MiB more after 1000 makes")
         self.assertLess(grown, 8 << 20)
         self.assertEqual(len(os.listdir("/proc/self/fd")), files)
+
+
+class Ending(unittest.TestCase):
+    def test_the_interpreter_may_end_while_a_thread_works(self):
+        for seconds in (0.1, 0.3, 0.5):
+            ended = subprocess.run([sys.executable, "-c", f"""
+import threading, time, thalweg
+def work():
+    try:
+        thalweg.make({{"grid": {{"width": 512, "height": 512}}}}, log=lambda line: None)
+    except thalweg.Cancelled:
+        pass
+threading.Thread(target=work, daemon=True).start()
+time.sleep({seconds})
+"""], capture_output=True, text=True, timeout=300)
+            self.assertEqual(ended.returncode, 0, ended.stderr)
 
 
 if __name__ == "__main__":
