@@ -55,6 +55,29 @@ thread_local Args* current = nullptr; ///< the call whose arguments are taken
     throw py::error_already_set();
 }
 
+/// Whether the interpreter ends or has ended: a thread that asks for its lock then would be ended in the middle.
+bool is_at_end() {
+#if PY_VERSION_HEX >= 0x030d0000
+    return Py_IsInitialized() == 0 || Py_IsFinalizing() != 0;
+#else
+    return Py_IsInitialized() == 0 || _Py_IsFinalizing() != 0;
+#endif
+}
+
+/// A whole number of Python's.
+/// \throws TypeError that it must be WANTED
+py::object index_of(py::handle value, Place const& place, std::string const& wanted) {
+    py::object index;
+    if (!py::isinstance<py::bool_>(value) && PyIndex_Check(value.ptr()) != 0) {
+        index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
+        PyErr_Clear();
+    }
+    if (!index) {
+        refuse_type(place, value, wanted);
+    }
+    return index;
+}
+
 py::object from_package(char const* module, char const* name) {
     return py::module_::import(module).attr(name);
 }
@@ -146,36 +169,20 @@ double take_number(py::handle value, Place const& place) {
 }
 
 std::int64_t take_whole(py::handle value, Place const& place, std::int64_t low, std::int64_t high) {
-    auto const wanted = [&] {
-        return high == std::numeric_limits<std::int64_t>::max()
-                   ? std::string("a whole number")
-                   : fmt::format("a whole number from {} to {}", low, high);
-    };
-    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-        refuse_type(place, value, wanted());
-    }
-    auto const index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    if (!index) {
-        PyErr_Clear();
-        refuse_type(place, value, wanted());
-    }
+    std::string const wanted = high == std::numeric_limits<std::int64_t>::max()
+                                   ? "a whole number"
+                                   : fmt::format("a whole number from {} to {}", low, high);
+    py::object const index = index_of(value, place, wanted);
     int overflow = 0;
     long long const number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
     if (overflow != 0 || number < low || number > high) {
-        refuse_type(place, value, wanted());
+        refuse_type(place, value, wanted);
     }
     return number;
 }
 
 std::uint64_t take_seed(py::handle value, Place const& place) {
-    if (py::isinstance<py::bool_>(value) || PyIndex_Check(value.ptr()) == 0) {
-        refuse_type(place, value, "a whole number");
-    }
-    auto const index = py::reinterpret_steal<py::object>(PyNumber_Index(value.ptr()));
-    if (!index) {
-        PyErr_Clear();
-        refuse_type(place, value, "a whole number");
-    }
+    py::object const index = index_of(value, place, "a whole number");
     int overflow = 0;
     long long const number = PyLong_AsLongLongAndOverflow(index.ptr(), &overflow);
     if (overflow == 0 && number >= -1) {
@@ -274,8 +281,7 @@ std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py:
     }
     auto values = py::cast<py::array>(raster.attr("values"));
     Grid grid = raster.attr("grid").cast<Grid>();
-    bool const fits = values.ndim() == 2 && values.dtype().is(type) && (values.flags() & py::array::c_style) != 0;
-    if (!fits && !(values.ndim() == 2 && values.dtype().equal(type) && (values.flags() & py::array::c_style) != 0)) {
+    if (values.ndim() != 2 || !values.dtype().equal(type) || (values.flags() & py::array::c_style) == 0) {
         refuse_type(place, value, "a raster");
     }
     if (values.shape(0) != grid.height || values.shape(1) != grid.width) {
@@ -309,7 +315,7 @@ void require_codes(py::array const& values, Place const& place, std::vector<int>
 std::shared_ptr<void const> kept_alive(py::object object) {
     PyObject* const pointer = object.release().ptr();
     return {pointer, [](void const* kept) {
-                if (Py_IsInitialized() != 0) {
+                if (!is_at_end()) {
                     py::gil_scoped_acquire const held;
                     Py_DECREF(static_cast<PyObject*>(const_cast<void*>(kept)));
                 }
@@ -451,15 +457,6 @@ void Args::done() const {
 }
 
 namespace {
-
-/// Whether the interpreter ends: a thread that asks for its lock then would be ended in the middle.
-bool is_at_end() {
-#if PY_VERSION_HEX >= 0x030d0000
-    return Py_IsFinalizing() != 0;
-#else
-    return _Py_IsFinalizing() != 0;
-#endif
-}
 
 /// The calls that run, so that the end of the interpreter can stop them.
 struct Running {

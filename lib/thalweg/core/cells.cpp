@@ -1,7 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <algorithm>
 #include <thalweg/core/cells.hpp>
+
+#include <algorithm>
 
 #include <fmt/format.h>
 
