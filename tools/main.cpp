@@ -139,6 +139,9 @@ void add_options_of_all(CLI::App& sub, Session& session) {
     CLI::Option* const quiet = sub.add_flag("-q,--quiet", session.quiet, "Print errors only.");
     sub.add_flag("-v,--verbose", session.verbose, "Print every note and repair, and the time of each stage.")
         ->excludes(quiet);
+    sub.add_flag("--progress", session.progress,
+                 "Report progress on stderr as lines of JSON, for programs that run thalweg: {\"stage\": \"surface\", "
+                 "\"share\": 0.3125}.");
 }
 
 Commands add_commands(CLI::App& app, Session& session) {
@@ -272,7 +275,8 @@ int run(int argc, char** argv) {
     if (std::optional<int> const code = parse(app, argc, argv)) {
         return *code;
     }
-    Terminal terminal(session.quiet ? Terminal::Manner::quiet : Terminal::Manner::talk);
+    Terminal terminal(session.quiet ? Terminal::Manner::quiet : Terminal::Manner::talk,
+                      session.progress ? Terminal::Progress::json : Terminal::Progress::bar);
     prepare(session, terminal);
     CLI::App* const chosen = app.get_subcommands().front();
     return call([&] { return work(*chosen, commands.at(chosen), session, terminal); }, terminal);

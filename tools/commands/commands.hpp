@@ -23,6 +23,7 @@ struct Session {
     bool quiet = false;
     bool verbose = false;
     bool json = false;
+    bool progress = false; ///< as lines of JSON
     Run run; ///< ready when the command is called
 };
 

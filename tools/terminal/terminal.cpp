@@ -73,7 +73,8 @@ std::string toned(Tone tone, std::string_view text, std::FILE* stream) {
     return fmt::format("\033[{}m{}\033[0m", code, text);
 }
 
-Terminal::Terminal(Manner manner) : talks_(manner == Manner::talk), abilities_(abilities(stderr)) {}
+Terminal::Terminal(Manner manner, Progress progress)
+    : talks_(manner == Manner::talk), is_json_(progress == Progress::json), abilities_(abilities(stderr)) {}
 
 Terminal::~Terminal() {
     wipe();
@@ -147,11 +148,30 @@ void Terminal::show(double share) {
     bar_shown_ = true;
 }
 
+void Terminal::report(double share, std::string_view stage) {
+    auto const now = std::chrono::steady_clock::now();
+    bool const is_end = share >= 1.0;
+    bool const is_same = state_.what == stage && (state_.share >= 1.0) == is_end;
+    if (is_same && (is_end || now - last_ < std::chrono::milliseconds(100))) {
+        return;
+    }
+    state_.what = stage;
+    state_.share = share;
+    last_ = now;
+    write_to_stderr(
+        fmt::format("{{\"stage\": \"{}\", \"share\": {:.4f}}}\n", printable(stage), std::clamp(share, 0.0, 1.0)));
+}
+
 int Terminal::progress(double share, char const* what, void* terminal) {
     auto& self = *static_cast<Terminal*>(terminal);
     std::lock_guard const lock(self.mutex_);
     std::string_view const name = what == nullptr ? "" : what;
-    self.times_.at(name.substr(0, name.find(' ')), share >= 1.0, self.seconds());
+    std::string_view const stage = name.substr(0, name.find(' '));
+    self.times_.at(stage, share >= 1.0, self.seconds());
+    if (self.is_json_) {
+        self.report(share, stage);
+        return 1;
+    }
     if (!self.talks_ || !self.abilities_.moves) {
         return 1;
     }

@@ -36,11 +36,13 @@ std::string toned(Tone tone, std::string_view text, std::FILE* stream);
 void write_to_stderr(std::string_view text) noexcept;
 
 /// Output to stderr: finished lines, and on a terminal a bar with rate and time left below them. Stages shorter than
-/// 0.3 s show no bar.
+/// 0.3 s show no bar. For other programs the progress is a line of JSON instead: at the beginning and end of each stage,
+/// and between them at most ten a second.
 class Terminal {
 public:
     enum class Manner { talk, quiet };
-    explicit Terminal(Manner manner);
+    enum class Progress { bar, json };
+    explicit Terminal(Manner manner, Progress progress = Progress::bar);
     ~Terminal();
     Terminal(Terminal const&) = delete;
     Terminal& operator=(Terminal const&) = delete;
@@ -58,9 +60,11 @@ private:
     void begin_stage(std::string_view what);
     double seconds() const; ///< since construction
     void show(double share);
+    void report(double share, std::string_view stage);
 
     std::mutex mutex_;
     bool talks_;
+    bool is_json_;
     Abilities abilities_;
     bool bar_shown_ = false;
     BarState state_;

@@ -2,9 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdlib>
 #include <regex>
+#include <set>
+#include <sstream>
 #include <string>
 
 #include <gtest/gtest.h>
+#include <nlohmann/json.hpp>
 #include <support.hpp>
 
 #include "command.hpp"
@@ -87,6 +90,27 @@ TEST(Manners, JsonIsExactlyOneObject) {
     }
     EXPECT_GT(stats["lx_cells"], 0.0);
     EXPECT_GT(stats["dimension"], 2.0);
+}
+
+TEST(Manners, ProgressForOtherPrograms) {
+    Workplace const place;
+    Outcome const o = expect_run(place, small + "out --progress", 0); // with -q
+    std::set<std::string> ended;
+    std::istringstream lines(o.err);
+    for (std::string line; std::getline(lines, line);) {
+        auto const said = nlohmann::json::parse(line); // nothing else is there
+        EXPECT_EQ(said.size(), 2U) << line;
+        EXPECT_GE(said["share"], 0.0);
+        EXPECT_LE(said["share"], 1.0);
+        if (said["share"] == 1.0) {
+            ended.insert(said["stage"]);
+        }
+    }
+    for (char const* stage : {"grow", "thin", "meander", "write"}) {
+        EXPECT_TRUE(ended.contains(stage)) << stage;
+    }
+    Outcome const mixed = expect_run(place, "check out --progress", 0);
+    EXPECT_TRUE(test::has(mixed.err, "{\"stage\": \"", "\n"));
 }
 
 TEST(Manners, ADryRunWritesNothing) {
