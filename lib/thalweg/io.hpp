@@ -16,6 +16,8 @@
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/table.hpp>
 #include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/qgis/project.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>

@@ -109,6 +109,7 @@ Rows const made{
     {"wireframe.svg, sections.svg", "A wireframe seen up the valley, and cross-sections."},
     {"report.html", "Terrain, rivers, diagrams and statistics on one page for any browser; it needs no internet."},
     {"report.json", "Statistics, timings, checks and repairs."},
+    {"project.qgz, dem.qml", "A QGIS project of these layers with their styles, and the style of the DEM."},
     {"recipe.toml, inputs/", "The recipe with every default written out, and copies of the files it names."},
 };
 

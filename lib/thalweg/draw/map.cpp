@@ -101,6 +101,15 @@ constexpr int level_shade = 181; ///< GDAL's hillshade of level ground under a l
 
 } // namespace
 
+std::vector<std::string> tint_colours() {
+    std::vector<std::string> codes;
+    for (auto const& [red, green, blue] : tints) {
+        codes.push_back(
+            fmt::format("#{:02x}{:02x}{:02x}", static_cast<int>(red), static_cast<int>(green), static_cast<int>(blue)));
+    }
+    return codes;
+}
+
 Colour mix(Colour a, Colour b, double share) {
     auto const blend = [share](double p, double q) { return p + (q - p) * share; };
     return {blend(a.red, b.red), blend(a.green, b.green), blend(a.blue, b.blue), 1.0};

@@ -30,6 +30,10 @@ struct LinesParams {
 /// \throws BadInput when a coordinate is not finite
 Picture lines(std::vector<std::vector<Vec2>> const& lines, LinesParams const& params = {});
 
+/// The hypsometric tints of maps.
+/// \return codes such as "#7ea688", the lowest first, for equal steps of height
+std::vector<std::string> tint_colours();
+
 /// Options of map().
 struct MapParams {
     std::string title;               ///< UTF-8; "" for none

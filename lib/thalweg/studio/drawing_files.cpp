@@ -17,6 +17,7 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/table.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 
 namespace thalweg::studio {
@@ -263,6 +264,7 @@ io::Table table_of_rivers(Drawing const& drawing) {
         }
         return in_space(line);
     };
+    table.style = io::river_style("", 1, {});
     return table;
 }
 
@@ -293,17 +295,19 @@ void write_lakes(Drawing const& drawing, std::string const& path) {
         auto const& level_m = drawing.lakes[row].level_m;
         return level_m ? io::Column::Value(*level_m) : io::Column::Value();
     }));
+    table.style = io::water_style();
     io::write_tables({table}, drawing.grid.crs, path);
 }
 
 void write_masks(Drawing const& drawing, std::string const& path) {
-    io::Table const table = table_of_areas("masks", drawing.masks.size(), [&](std::size_t row) {
+    io::Table table = table_of_areas("masks", drawing.masks.size(), [&](std::size_t row) {
         std::vector<DrawnLine> rings{drawing.masks[row]};
         if (row < drawing.mask_islands.size()) {
             rings.insert(rings.end(), drawing.mask_islands[row].begin(), drawing.mask_islands[row].end());
         }
         return rings;
     });
+    table.style = io::polygon_style();
     io::write_tables({table}, drawing.grid.crs, path);
 }
 

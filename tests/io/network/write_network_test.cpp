@@ -317,7 +317,7 @@ TEST(WriteNetwork, FilesHaveAFixedDate) {
 TEST(WriteNetwork, GeoPackageHasRunTableAndSpatialIndex) {
     Written const written(y_shape());
     auto const dataset = opened(written.folder() / "net.gpkg");
-    ASSERT_EQ(dataset->GetLayerCount(), 3);
+    ASSERT_EQ(dataset->GetLayerCount(), 4) << "layer_styles too";
     EXPECT_TRUE(dataset->GetLayerByName("arcs")->TestCapability(OLCFastSpatialFilter));
     EXPECT_TRUE(dataset->GetLayerByName("nodes")->TestCapability(OLCFastSpatialFilter));
     OGRLayer& run = *dataset->GetLayerByName("run");
@@ -339,7 +339,7 @@ TEST(WriteNetwork, RidgesAreALayerOfTheGeoPackage) {
     ScratchFolder const folder;
     io::write_geopackage(tables, folder / "net.gpkg");
     auto const dataset = opened(folder / "net.gpkg");
-    ASSERT_EQ(dataset->GetLayerCount(), 4);
+    ASSERT_EQ(dataset->GetLayerCount(), 5);
     OGRLayer& layer = *dataset->GetLayerByName("ridges");
     EXPECT_EQ(fields_of(layer), "ridge_id:i left:i right:i length:r z_min:r z_max:r ");
     EXPECT_EQ(layer.GetGeomType(), wkbLineString25D);

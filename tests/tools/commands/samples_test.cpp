@@ -102,7 +102,7 @@ void hold_to_contract(fs::path const& folder) {
     EXPECT_TRUE(dem->GetSpatialRef()->IsSame(layer->GetSpatialRef()));
 
     for (char const* name : {"report.html", "map.png", "profile.svg", "wireframe.svg", "sections.svg", "contours.gpkg",
-                             "recipe.toml", "network_nodes.shp"}) {
+                             "recipe.toml", "network_nodes.shp", "project.qgz", "dem.qml"}) {
         EXPECT_TRUE(fs::exists(folder / name)) << name;
     }
     EXPECT_EQ(fs::exists(folder / "curve.svg"), report["recipe"]["surface"]["method"] == "dilate");
@@ -113,7 +113,7 @@ void same_bytes(fs::path const& a, fs::path const& b) {
     for (char const* name :
          {"dem.tif", "network.tif", "network.gpkg", "network_arcs.shp", "network_arcs.dbf", "network_arcs.shx",
           "network_nodes.shp", "network_nodes.dbf", "contours.gpkg", "catchments.gpkg", "map.png", "profile.svg",
-          "wireframe.svg", "sections.svg", "recipe.toml"}) {
+          "wireframe.svg", "sections.svg", "recipe.toml", "project.qgz", "dem.qml"}) {
         EXPECT_FALSE(file_bytes(a / name).empty()) << name;
         EXPECT_TRUE(file_bytes(a / name) == file_bytes(b / name)) << name;
     }

@@ -14,6 +14,7 @@
 #include <thalweg/io/mesh/internal/las_ply.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/table.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -197,7 +198,9 @@ Table faces_table(Tin const& tin) {
               }}},
             [corner](std::size_t row) {
                 return std::vector<Vec3>{corner(row, 0), corner(row, 1), corner(row, 2), corner(row, 0)};
-            }};
+            },
+            {},
+            polygon_style()};
 }
 
 } // namespace

@@ -12,6 +12,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 
 namespace thalweg::io {
 
@@ -347,6 +348,25 @@ void add_unit(Table& table, HeightUnit unit) {
     }
 }
 
+/// \return null where a schema has no such field
+SchemaField const* written_field(SchemaTable const& schema, Quantity quantity) {
+    auto const found = std::ranges::find_if(
+        schema.fields, [quantity](SchemaField const& field) { return field.written && field.quantity == quantity; });
+    return found == schema.fields.end() ? nullptr : &*found;
+}
+
+QgisStyle style_of_arcs(NetworkTables const& tables, SchemaTable const& schema) {
+    SchemaField const* const order = written_field(schema, Quantity::strahler);
+    SchemaField const* const area = written_field(schema, Quantity::ds_area);
+    double const greatest_m2 = std::ranges::max(tables.ds_area_m2);
+    RiverWidths widths;
+    if (area != nullptr && greatest_m2 > 0.0) {
+        widths = {std::string(area->name), greatest_m2 / area->unit};
+    }
+    return river_style(order == nullptr ? "" : std::string(order->name),
+                       static_cast<int>(std::ranges::max(tables.orders.strahler)), widths);
+}
+
 Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool short_names) {
     auto const arcs = std::make_shared<Arcs const>(tables, schema);
     Table table{std::string(schema.layer), Table::Shape::line, tables.network.planform.arc_count(), {}, {}};
@@ -366,6 +386,7 @@ Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool sh
     if (schema.schema == Schema::native) {
         add_unit(table, tables.unit);
     }
+    table.style = style_of_arcs(tables, schema);
     return table;
 }
 
@@ -454,6 +475,7 @@ Table nodes_table(NetworkTables const& tables) {
         real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[row]; }),
     };
     add_unit(table, tables.unit);
+    table.style = node_style();
     return table;
 }
 
@@ -483,6 +505,7 @@ Table ridges_table(RidgeLines const& ridges, HeightUnit unit, std::string const&
         real("z_max", length_decimals, [line](auto row) { return std::ranges::max(line(row), {}, &Vec3::z).z; }),
     };
     add_unit(table, unit);
+    table.style = ridge_style();
     return table;
 }
 
@@ -500,6 +523,7 @@ Table secondary_table(std::vector<SecondaryLine> const& secondary, UserData cons
         add_user_columns(
             table, user->attributes, [one](std::size_t row) { return one(row).record; }, false);
     }
+    table.style = secondary_style();
     return table;
 }
 

@@ -16,6 +16,7 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
+#include <thalweg/io/qgis/internal/qgis.hpp>
 
 namespace thalweg::io {
 
@@ -252,6 +253,11 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     target.require(!transactions || dataset->StartTransaction() == OGRERR_NONE);
     for (Table const& table : tables) {
         write_layer(target, table, run);
+    }
+    if (format == LayerFormat::geopackage) {
+        if (Table const styles = styles_table(tables); styles.rows > 0) {
+            write_layer(target, styles, run);
+        }
     }
     target.require(!transactions || dataset->CommitTransaction() == OGRERR_NONE);
     dataset.reset();

@@ -39,6 +39,7 @@ struct Table {
         shape_at; ///< one position for a point; a closed ring for a polygon
     std::function<std::vector<Polygon>(std::size_t row)> parts_at =
         {}; ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
+    std::string style = {}; ///< by which QGIS draws it (QgisStyle), a default of the GeoPackage; "": none
 };
 
 /// Writes tables as the layers of a new GeoPackage, those without shape as attribute tables.

@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <iterator>
+#include <set>
 
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
@@ -17,6 +18,8 @@
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
+#include <thalweg/io/qgis/internal/qgis.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
@@ -27,21 +30,6 @@ using Kind = Column::Kind;
 using Value = Column::Value;
 /// A text as the format writes it.
 using Quote = std::string (*)(std::string_view);
-
-/// XML 1.0 has no control characters but three, not even escaped.
-std::string in_xml(std::string_view text) {
-    std::string out;
-    for (char const c : text) {
-        switch (c) {
-        case '&': out += "&amp;"; break;
-        case '<': out += "&lt;"; break;
-        case '>': out += "&gt;"; break;
-        case '"': out += "&quot;"; break;
-        default: out += static_cast<unsigned char>(c) < 0x20 && c != '\t' && c != '\n' && c != '\r' ? ' ' : c;
-        }
-    }
-    return out;
-}
 
 std::string in_csv(std::string_view text) {
     if (text.find_first_of("\",\r\n") == std::string_view::npos) {
@@ -101,7 +89,8 @@ char const* graphml_type(Kind kind) {
 }
 
 std::string graphml_key(std::string const& id, char const* of, std::string const& name, char const* type) {
-    return fmt::format("  <key id=\"{}\" for=\"{}\" attr.name=\"{}\" attr.type=\"{}\"/>\n", id, of, in_xml(name), type);
+    return fmt::format("  <key id=\"{}\" for=\"{}\" attr.name=\"{}\" attr.type=\"{}\"/>\n", id, of, xml_escaped(name),
+                       type);
 }
 
 // Writes a new GraphML file: a directed graph with attribute crs; nodes with their columns and x, y; edges with theirs
@@ -126,12 +115,12 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
     append_keys(nodes, 'n', "node");
     append_keys(arcs, 'e', "edge");
     graph.append(fmt::format("  <graph id=\"network\" edgedefault=\"directed\">\n    <data key=\"crs\">{}</data>\n",
-                             in_xml(tables.crs)));
+                             xml_escaped(tables.crs)));
     auto const data = [&](Table const& table, char letter, std::size_t row) {
         std::string out;
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
             out += fmt::format("<data key=\"{}{}\">{}</data>", letter, i,
-                               value_text(table, table.columns[i], row, in_xml, what));
+                               value_text(table, table.columns[i], row, xml_escaped, what));
         }
         return out;
     };
@@ -144,7 +133,7 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
     each_row(arcs, run, [&](std::size_t row) {
         graph.append(fmt::format("    <edge source=\"{}\" target=\"{}\">{}<data key=\"geometry\">{}</data></edge>\n",
                                  plan.from(row) + 1, plan.to(row) + 1, data(arcs, 'e', row),
-                                 in_xml(well_known(arcs.shape_at(row)))));
+                                 xml_escaped(well_known(arcs.shape_at(row)))));
     });
     graph.append("  </graph>\n</graphml>\n");
     graph.close();
@@ -297,6 +286,9 @@ void write_findings(std::vector<Finding> const& findings, std::string const& crs
                      {"feature", Column::Kind::wide_integer, 0, [=](std::size_t row) { return at(row).feature; }},
                      {"amount", Column::Kind::real, 0, [=](std::size_t row) { return finite(at(row).amount); }},
                      {"text", Column::Kind::text, 0, [=](std::size_t row) { return at(row).text; }}};
+    std::set<std::string> kinds;
+    std::ranges::transform(findings, std::inserter(kinds, kinds.end()), &Finding::kind);
+    table.style = finding_style({kinds.begin(), kinds.end()});
     write_tables({table}, crs, path, run);
 }
 

@@ -17,6 +17,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/table.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 
 namespace thalweg::io {
 
@@ -138,6 +139,7 @@ void write_contours(std::vector<ContourLine> const& lines, double interval, std:
         table.columns.push_back(
             {"z_unit", Column::Kind::text, 0, [unit](std::size_t) { return std::string(name_of(unit)); }});
     }
+    table.style = contour_style();
     write_tables({table}, crs, path, run);
 }
 

@@ -22,6 +22,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/table.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/internal/polygons.hpp>
 
 namespace thalweg::io {
@@ -416,6 +417,7 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
         {"ds_area", Kind::real, 0, [=](std::size_t row) { return area(row_at(row).upstream_cells); }},
     };
     catchments.parts_at = [&](std::size_t row) { return outlines[drawn[row]]; };
+    catchments.style = catchment_style(false);
 
     auto const basin_at = [&](std::size_t row) -> Basin const& { return basins[row]; };
     Table whole{"basins", Table::Shape::multi_polygon, basins.size(), {}, {}};
@@ -426,6 +428,7 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
         {"area", Kind::real, 0, [=](std::size_t row) { return area(basin_at(row).cells); }},
     };
     whole.parts_at = [&](std::size_t row) { return shores[row]; };
+    whole.style = catchment_style(true);
     write_tables({std::move(catchments), std::move(whole)}, grid.crs, path, run);
     return count;
 }

@@ -18,6 +18,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
@@ -128,7 +129,9 @@ private:
                                           io::Existing existing) {
         std::vector<std::string> names;
         for (auto const& [measure, name] : {std::pair{d8, "area_d8.tif"},
+                                            {d8, "area_d8.qml"},
                                             {dinf, "area_dinf.tif"},
+                                            {dinf, "area_dinf.qml"},
                                             {directions, "direction_d8.tif"},
                                             {directions, "direction_dinf.tif"},
                                             {outlines, "catchments.gpkg"}}) {
@@ -160,6 +163,12 @@ MeasuredCatchments write_catchments(NetworkFile const& file, flow::FlowField con
             rivers.outside,
             rivers.nowhere,
             catchments.without};
+}
+
+/// QML beside a raster of areas.
+std::string style_of_areas(Grid const& grid, double greatest_m2) {
+    double const cell_m2 = grid.cell_m * grid.cell_m;
+    return io::qml(io::area_style(cell_m2, std::max(cell_m2, greatest_m2)));
 }
 
 std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments const& c) {
@@ -215,6 +224,7 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
         Raster<double> const areas = areas_m2(drainage);
         made.d8_m2 = greatest(areas);
         io::write_field(areas, out.path("area_d8.tif"), run);
+        io::write_text(out.path("area_d8.qml"), style_of_areas(dem.grid(), made.d8_m2.value_or(0.0)));
     }
     if (wanted.contains(directions)) {
         io::write_codes(d8_codes(drainage.direction), out.path("direction_d8.tif"), run);
@@ -225,6 +235,7 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
             Raster<double> const areas = areas_m2(parted.area_cells);
             made.dinf_m2 = greatest(areas);
             io::write_field(areas, out.path("area_dinf.tif"), run);
+            io::write_text(out.path("area_dinf.qml"), style_of_areas(dem.grid(), made.dinf_m2.value_or(0.0)));
         }
         if (wanted.contains(directions)) {
             io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);

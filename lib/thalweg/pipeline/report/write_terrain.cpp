@@ -27,6 +27,7 @@
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/internal/qgis_files.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -254,6 +255,7 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
         io::write_text(out.path("profile.svg"),
                        draw::profile(made.terrain.rivers.network, made.terrain.rivers.orders, profile).bytes);
     }
+    write_qgis_files(made, title, out);
     std::string const recipe_toml = write_recipe(recipe);
     io::write_text(out.path("recipe.toml"), recipe_toml);
     io::write_text(out.path("report.html"), page(made, page_params_of(made, recipe_toml), run));

@@ -1,0 +1,16 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/make/make.hpp>
+
+namespace thalweg::pipeline {
+
+/// Writes project.qgz, which shows the files of a folder in QGIS, and the styles of its rasters and meshes (dem.qml
+/// ...). \param out holds every other layer already \throws IoError
+void write_qgis_files(Made const& made, std::string const& title, io::OutputFolder const& out);
+
+} // namespace thalweg::pipeline
