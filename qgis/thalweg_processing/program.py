@@ -19,7 +19,7 @@ from qgis.core import QgsProcessingException, QgsProcessingFeedback, QgsSettings
 
 SETTING = "THALWEG_PROGRAM"
 CHECK_FAILED = 3  # exit status
-ASKED_WITHIN = 10  # [s] that the program has to say what it can do
+ASKED_WITHIN = 5  # [s] that the program has to say what it can do
 ENDS_WITHIN = 5  # [s] from SIGINT to SIGKILL
 WHERE = "Settings > Options > Processing > Providers > thalweg"
 NO_WINDOW = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows, which opens a console for each program
