@@ -8,7 +8,7 @@ from typing import Any
 from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputBoolean,
                        QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber, QgsProcessingOutputVectorLayer,
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
-                       QgsProcessingParameterVectorDestination)
+                       QgsProcessingParameterVectorDestination, QgsProject)
 
 from .algorithm import NODATA, warn_of_failed
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
@@ -90,8 +90,8 @@ class Check(NetworkAlgorithm):
         found: dict[str, Any] = {"OK": finished.passed, "FINDINGS_COUNT": len(report["findings"])}
         if self.findings:
             found["FINDINGS"] = self.findings
-            if opens(parameters, "FINDINGS"):
-                open_after(context, self.findings, "Findings", "FINDINGS", "vector")
+            if project := project_of(parameters, "FINDINGS"):
+                open_after(context, self.findings, "Findings", "FINDINGS", "vector", project=project)
         if self.fix:
             if not any(path.startswith(self.fix.rpartition(".")[0]) for path in report["written"]):
                 feedback.pushWarning("Faults remain: no repaired network was written")
@@ -100,12 +100,12 @@ class Check(NetworkAlgorithm):
             for name, kind, title in (("FIX", "arcs", "Repaired arcs"), ("FIXED_NODES", "nodes", "Repaired nodes")):
                 if kind in layers:
                     found[name] = layers[kind]
-                    if opens(parameters, "FIX"):
-                        open_after(context, layers[kind], title, name, "vector")
+                    if project := project_of(parameters, "FIX"):
+                        open_after(context, layers[kind], title, name, "vector", project=project)
         return found
 
 
-def opens(parameters: dict[str, Any], name: str) -> bool:
-    """Return whether the user wants QGIS to open a destination."""
+def project_of(parameters: dict[str, Any], name: str) -> QgsProject | None:
+    """Return the project that the user wants to have a destination in."""
     value = parameters.get(name)
-    return isinstance(value, QgsProcessingOutputLayerDefinition) and value.destinationProject is not None
+    return value.destinationProject if isinstance(value, QgsProcessingOutputLayerDefinition) else None

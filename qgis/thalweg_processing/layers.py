@@ -12,7 +12,8 @@ from osgeo import gdal, ogr
 from qgis.core import (QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsMapLayer,
                        QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSource,
                        QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback, QgsProcessingLayerPostProcessorInterface,
-                       QgsProcessingUtils, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer)
+                       QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer)
+from qgis.PyQt import sip
 
 ITS_OWN_ID = "thalweg_fid"  # of an exported feature: a field fid of the layer stays a field
 
@@ -238,22 +239,24 @@ class _AsMade(QgsProcessingLayerPostProcessorInterface):
         layer.triggerRepaint()
 
 
-_kept: dict[str, _AsMade] = {}  # QGIS does not keep them
+_kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QGIS holds no reference to them
 
 
-def _as_made(crs: str) -> _AsMade:
-    if crs not in _kept:
-        its = QgsCoordinateReferenceSystem()
+def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str) -> None:
+    its = QgsCoordinateReferenceSystem()
+    if crs:
         its.createFromUserInput(crs)
-        _kept[crs] = _AsMade(its)
-    return _kept[crs]
+    processor = _AsMade(its)
+    details.setPostProcessor(processor)
+    _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
 
 
 HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingUtils.LayerHint.Vector,
          "mesh": QgsProcessingUtils.LayerHint.Mesh}
 
 
-def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "") -> None:
+def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "",
+               project: QgsProject | None = None) -> None:
     """Let QGIS open a layer when the algorithm has ended.
 
     Parameters
@@ -268,19 +271,22 @@ def open_after(context: QgsProcessingContext, source: str, title: str, output: s
         raster, vector or mesh.
     crs : str
         Of a file that names none.
+    project : QgsProject or None
+        Where it is opened; None: in that of the run.
     """
-    if context.project() is None:
+    project = project or context.project()
+    if project is None:
         return
-    details = QgsProcessingContext.LayerDetails(title, context.project(), output, HINTS[kind])
+    details = QgsProcessingContext.LayerDetails(title, project, output, HINTS[kind])
     details.forceName = True
-    details.setPostProcessor(_as_made(crs))
+    _show_as_made(details, crs)
     context.addLayerToLoadOnCompletion(source, details)
 
 
 def style_after(context: QgsProcessingContext, source: str) -> None:
     """Let a layer that QGIS opens anyway have its style."""
     if context.willLoadLayerOnCompletion(source):
-        context.layerToLoadOnCompletionDetails(source).setPostProcessor(_as_made(""))
+        _show_as_made(context.layerToLoadOnCompletionDetails(source), "")
 
 
 KINDS = {ogr.wkbLineString: "arcs", ogr.wkbMultiLineString: "arcs", ogr.wkbPoint: "nodes"}
