@@ -70,7 +70,7 @@ class Algorithm(QgsProcessingAlgorithm):
         return self.TEXT.split("\n", 1)[0]
 
     def shortHelpString(self) -> str:
-        paragraphs = "".join(f"<p>{part}</p>" for part in self.TEXT.split("\n"))
+        paragraphs = self.TEXT.replace("\n", "</p><p>")  # QGIS writes the outer ones
         return QgsProcessingUtils.formatHelpMapAsHtml({"ALG_DESC": paragraphs, **self.said}, self)
 
     def helpUrl(self) -> str:
@@ -121,7 +121,7 @@ class Algorithm(QgsProcessingAlgorithm):
         return self.parameterAsString(parameters, name, context).strip()
 
     def options(self, parameters: dict[str, Any], context: QgsProcessingContext, **flags: str) -> list[str]:
-        """Return the options of parameters that are set, given as NAME="--option"."""
+        """Return the options of parameters that are set, given as NAME=option."""
         found = []
         for name, flag in flags.items():
             if word := self.word(parameters, name, context):

@@ -18,10 +18,10 @@ class NetworkAlgorithm(Algorithm):
     """A command that reads a network."""
 
     def add_network(self, optional: bool = False) -> None:
-        """Declare NETWORK, NODES, FROM and FIELDS."""
+        """Declare NETWORK, NETWORK_NODES, FROM and FIELDS."""
         self.add(QgsProcessingParameterFeatureSource("NETWORK", "River network", [QgsProcessing.TypeVectorLine], optional=optional),
                  "Lines of the rivers, in any schema that thalweg knows.")
-        self.add(QgsProcessingParameterFeatureSource("NODES", "Nodes of the network", [QgsProcessing.TypeVectorPoint], optional=True),
+        self.add(QgsProcessingParameterFeatureSource("NETWORK_NODES", "Nodes of the network", [QgsProcessing.TypeVectorPoint], optional=True),
                  "Points of the network's nodes. Default: those in the file of the network.", advanced=True)
         self.add(QgsProcessingParameterEnum("FROM", "Schema of the network", SCHEMAS, optional=True, usesStaticStrings=True),
                  "Field names, units and line directions of the network. Default: recognised by its fields.", advanced=True)
@@ -35,17 +35,17 @@ class NetworkAlgorithm(Algorithm):
             quantity, equals, name = option.removeprefix("--field=").partition("=")
             if not (quantity and equals and name):
                 return f"FIELDS: write QUANTITY=NAME, such as ds_arc=NEXT_DOWN, not '{option.removeprefix('--field=')}'"
-        if self.is_set(parameters, "NODES") and not self.is_set(parameters, "NETWORK"):
-            return "NODES: give the network that these nodes belong to"
+        if self.is_set(parameters, "NETWORK_NODES") and not self.is_set(parameters, "NETWORK"):
+            return "NETWORK_NODES: give the network that these nodes belong to"
         return ""
 
     def take_network(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | None]:
-        """Return NETWORK and NODES."""
+        """Return NETWORK and NETWORK_NODES."""
         return {name: vector_input(self, parameters, name, context, takes_layer_name=True, takes_source_crs=True)
-                for name in ("NETWORK", "NODES")}
+                for name in ("NETWORK", "NETWORK_NODES")}
 
     def written(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> dict[str, File]:
-        network, nodes = self.inputs.get("NETWORK"), self.inputs.get("NODES")
+        network, nodes = self.inputs.get("NETWORK"), self.inputs.get("NETWORK_NODES")
         if not isinstance(network, VectorInput) or not isinstance(nodes, VectorInput):
             return super().written(folder, context, feedback)
         if network.file is not None and nodes.file is not None and network.file.path == nodes.file.path:
@@ -54,13 +54,13 @@ class NetworkAlgorithm(Algorithm):
         network.written(path, "arcs", context, feedback)
         nodes.written(path, "nodes", context, feedback)
         rest = {name: taken.as_file(folder, context, feedback) for name, taken in self.inputs.items()
-                if taken is not None and name not in ("NETWORK", "NODES")}
-        return {"NETWORK": File(path, "arcs"), "NODES": File(path, "nodes"), **rest}
+                if taken is not None and name not in ("NETWORK", "NETWORK_NODES")}
+        return {"NETWORK": File(path, "arcs"), "NETWORK_NODES": File(path, "nodes"), **rest}
 
     def network_options(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File],
                         schema_option: str = "--from") -> list[str]:
         """Return the options that tell how to read the network."""
-        network, nodes = files.get("NETWORK"), files.get("NODES")
+        network, nodes = files.get("NETWORK"), files.get("NETWORK_NODES")
         if network is None:
             return []
         options = self.options(parameters, context, FROM=schema_option) + self.fields(parameters, context)

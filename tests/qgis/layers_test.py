@@ -168,15 +168,15 @@ class Layers(Case):
                                  "network.forest.outlet_spacing=0").returncode, 0)
         source = self.folder / "made/network.gpkg"
         arcs, nodes = (QgsVectorLayer(f"{source}|layername={name}", name, "ogr") for name in ("arcs", "nodes"))
-        results = processing.run("thalweg:check", {"NETWORK": arcs, "NODES": nodes})
+        results = processing.run("thalweg:check", {"NETWORK": arcs, "NETWORK_NODES": nodes})
         self.assertTrue(results["OK"])
         nodes.selectAll()
         copy = nodes.materialize(QgsFeatureRequest())
-        results = processing.run("thalweg:check", {"NETWORK": arcs, "NODES": copy})
+        results = processing.run("thalweg:check", {"NETWORK": arcs, "NETWORK_NODES": copy})
         self.assertTrue(results["OK"])
         fewer = nodes.materialize(QgsFeatureRequest().setLimit(3))
         said = Said()
-        results = processing.run("thalweg:check", {"NETWORK": arcs, "NODES": fewer}, feedback=said)
+        results = processing.run("thalweg:check", {"NETWORK": arcs, "NETWORK_NODES": fewer}, feedback=said)
         self.assertFalse(results["OK"])
         self.assertRegex(said.warnings[0], "These checks failed: .*missing_node")
 
