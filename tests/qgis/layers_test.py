@@ -13,12 +13,12 @@ application, plugin = start()
 
 import processing  # noqa: E402
 from osgeo import gdal  # noqa: E402
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRequest, QgsGeometry, QgsPoint,
-                       # noqa: E402
-                       QgsProcessing, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSourceDefinition,
-                       QgsProcessingFeedback, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm,
-                       QgsProcessingModelChildParameterSource, QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition,
-                       QgsProcessingUtils, QgsProject, QgsRasterLayer, QgsRasterRange, QgsRectangle, QgsVectorLayer)
+from qgis.core import (  # noqa: E402
+    QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRequest, QgsGeometry, QgsProcessing,
+    QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
+    QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProcessingModelChildParameterSource,
+    QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer,
+    QgsRasterRange, QgsRectangle, QgsVectorLayer)
 from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
 
 GRID = {"GRID_WIDTH": 96, "GRID_HEIGHT": 96, "CELL": 30}
