@@ -82,8 +82,10 @@ def parameter_of(key: Key, label: str | None = None) -> QgsProcessingParameterDe
         least, greatest = bounds(key)
         whole = kind == "integer"
         limits: dict[str, float] = {} if least is None else {"minValue": least}
-        if greatest is not None or whole:
-            limits["maxValue"] = min(greatest if greatest is not None else LARGEST, LARGEST) if whole else greatest
+        if whole:
+            limits["maxValue"] = LARGEST if greatest is None else min(greatest, LARGEST)
+        elif greatest is not None:
+            limits["maxValue"] = greatest
         number = QgsProcessingParameterNumber(name, label, QgsProcessingParameterNumber.Integer if whole else
                                               QgsProcessingParameterNumber.Double, optional=True, **limits)
         if not whole:

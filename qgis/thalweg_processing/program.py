@@ -238,10 +238,12 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
                                    stderr=subprocess.PIPE, creationflags=NO_WINDOW)
     except OSError as why:
         raise QgsProcessingException(f"{program.path} does not start: {why.strerror}. {WHERE} names the program.") from why
+    out, err = process.stdout, process.stderr
+    assert out is not None and err is not None
     lines: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
     printed: list[bytes] = []
-    readers = [threading.Thread(target=_read_lines, args=(process.stderr, lines), daemon=True),
-               threading.Thread(target=lambda: printed.append(process.stdout.read()), daemon=True)]
+    readers = [threading.Thread(target=_read_lines, args=(err, lines), daemon=True),
+               threading.Thread(target=lambda: printed.append(out.read()), daemon=True)]
     for reader in readers:
         reader.start()
     listener = _Listener(arguments[0], feedback)
@@ -266,8 +268,8 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
             _stop(process)
         for reader in readers:
             reader.join(ENDS_WITHIN)
-        for stream in (process.stdout, process.stderr):
-            stream.close()
+        out.close()
+        err.close()
     return _finished(process.returncode, b"".join(printed), listener.error)
 
 
