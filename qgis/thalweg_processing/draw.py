@@ -16,7 +16,7 @@ from .algorithm import NODATA, Algorithm
 from .layers import File, RasterInput, VectorInput, raster_input, vector_input
 from .program import Finished
 
-WHAT = {"map": "Map", "profile": "Long profiles of the rivers", "curve": "Hypsometric curve", "sections": "Sections",
+WHAT = {"map": "Map", "profile": "Long profiles of the rivers", "hypsometry": "Hypsometric curve", "sections": "Sections",
         "wireframe": "Wireframe", "page": "Report page for a browser"}
 FORMATS = ["png", "svg", "pdf"]
 

@@ -158,6 +158,10 @@ def _read_lines(stream: Any, lines: queue.SimpleQueue[bytes | None]) -> None:
     lines.put(None)
 
 
+def _read_all(stream: Any, printed: list[bytes]) -> None:
+    printed.append(stream.read())
+
+
 class _Listener:
     """Passes on what the program writes to stderr."""
 
@@ -243,7 +247,7 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
     lines: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
     printed: list[bytes] = []
     readers = [threading.Thread(target=_read_lines, args=(err, lines), daemon=True),
-               threading.Thread(target=lambda: printed.append(out.read()), daemon=True)]
+               threading.Thread(target=_read_all, args=(out, printed), daemon=True)]
     for reader in readers:
         reader.start()
     listener = _Listener(arguments[0], feedback)

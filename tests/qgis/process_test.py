@@ -55,9 +55,13 @@ class InTheProcessingExecutable(Case):
         self.assert_layers(results, ["ARCS"])
         self.assertEqual(program("check", self.folder / "streams.shp", "--schema", "taudem").returncode, 0)
 
-        results = run("draw", DEM=dem, NETWORK=arcs, OUTPUT=self.folder / "pictures")
+        results = run("draw", DEM=dem, NETWORK=arcs, WHAT="0,1,2,5", FORMAT="png,svg", OUTPUT=self.folder / "pictures")
         self.assert_made(results)
-        self.assertIn("profile.png", pathlib.Path(results["PICTURES"]).read_text())
+        page = pathlib.Path(results["PICTURES"]).read_text()
+        for name in ("map.png", "map.svg", "profile.png", "hypsometry.svg"):
+            self.assertIn(f'src="{name}"', page)
+            self.assertTrue((self.folder / "pictures" / name).exists())
+        self.assertIn("<html", pathlib.Path(results["PAGE"]).read_text())
 
     def test_make_from_a_dem_and_from_a_recipe_and_from_nothing(self):
         results = run("make", DEM=JACKSBORO, OUTPUT=self.folder / "dem", SURFACE_DRAIN="carve")
