@@ -87,7 +87,7 @@ TEST(Measure, CatchmentsOfAFolderAreThoseThatMakeLeft) {
     expect_run(place, small + "land --set output.accumulation=true", 0);
     Outcome const o = expect_run(place, "measure land -o out", 0);
     EXPECT_EQ(o.out, "out/area_d8.tif\nout/area_dinf.tif\nout/catchments.gpkg\n");
-    for (std::string const name : {"area_d8.tif", "area_dinf.tif", "catchments.gpkg"}) {
+    for (std::string const name : {"area_d8.tif", "area_dinf.tif", "area_d8.qml", "area_dinf.qml", "catchments.gpkg"}) {
         EXPECT_TRUE(file_bytes(place / ("land/" + name)) == file_bytes(place / ("out/" + name))) << name;
     }
     std::map<int, double> ds_area;

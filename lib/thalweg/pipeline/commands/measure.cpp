@@ -115,6 +115,8 @@ public:
         names_.push_back(name);
         return out_.path(name);
     }
+    /// A file that goes with one of these, and is not listed.
+    std::string beside(std::string const& name) const { return out_.path(name); }
     std::vector<std::string> commit() {
         out_.commit();
         std::vector<std::string> files;
@@ -224,7 +226,7 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
         Raster<double> const areas = areas_m2(drainage);
         made.d8_m2 = greatest(areas);
         io::write_field(areas, out.path("area_d8.tif"), run);
-        io::write_text(out.path("area_d8.qml"), style_of_areas(dem.grid(), made.d8_m2.value_or(0.0)));
+        io::write_text(out.beside("area_d8.qml"), style_of_areas(dem.grid(), made.d8_m2.value_or(0.0)));
     }
     if (wanted.contains(directions)) {
         io::write_codes(d8_codes(drainage.direction), out.path("direction_d8.tif"), run);
@@ -235,7 +237,7 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
             Raster<double> const areas = areas_m2(parted.area_cells);
             made.dinf_m2 = greatest(areas);
             io::write_field(areas, out.path("area_dinf.tif"), run);
-            io::write_text(out.path("area_dinf.qml"), style_of_areas(dem.grid(), made.dinf_m2.value_or(0.0)));
+            io::write_text(out.beside("area_dinf.qml"), style_of_areas(dem.grid(), made.dinf_m2.value_or(0.0)));
         }
         if (wanted.contains(directions)) {
             io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);
