@@ -1,0 +1,192 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""What the algorithms have in common."""
+from __future__ import annotations
+
+import configparser
+import os
+import tempfile
+from typing import Any
+
+from processing.core.ProcessingConfig import ProcessingConfig
+from qgis.core import (QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,
+                       QgsProcessingOutputDefinition, QgsProcessingParameterDefinition, QgsProcessingUtils)
+from qgis.PyQt.QtCore import QUrl
+from qgis.PyQt.QtGui import QIcon
+
+from . import program
+from .layers import File, RasterInput, VectorInput
+
+HERE = os.path.dirname(os.path.abspath(__file__))
+MANUAL = "/usr/share/doc/thalweg-doc/docs/qgis.md"  # of Debian's package
+NODATA = ("Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every value as a height. "
+          "Default: refuse values that look like undeclared no-data.")
+
+
+def names(text: str) -> list[str]:
+    """Return the words of a list with commas or spaces."""
+    return text.replace(",", " ").split()
+
+
+class Algorithm(QgsProcessingAlgorithm):
+    """One command of the program."""
+
+    COMMAND = ""
+    TITLE = ""
+    GROUP = ""
+    TEXT = ""
+    TAGS: tuple[str, ...] = ()
+
+    def __init__(self) -> None:
+        super().__init__()
+        self.said: dict[str, str] = {}  # help of parameters and outputs
+        self.inputs: dict[str, VectorInput | RasterInput | None] = {}
+
+    def createInstance(self) -> Algorithm:
+        return type(self)()
+
+    def name(self) -> str:
+        return self.COMMAND
+
+    def displayName(self) -> str:
+        return self.TITLE
+
+    def group(self) -> str:
+        return self.GROUP
+
+    def groupId(self) -> str:
+        return self.GROUP.lower()
+
+    def tags(self) -> list[str]:
+        return ["thalweg", self.COMMAND, *self.TAGS]
+
+    def icon(self) -> QIcon:
+        return QIcon(os.path.join(HERE, "icon.svg"))
+
+    def svgIconPath(self) -> str:
+        return os.path.join(HERE, "icon.svg")
+
+    def shortDescription(self) -> str:
+        return self.TEXT.split("\n", 1)[0]
+
+    def shortHelpString(self) -> str:
+        paragraphs = self.TEXT.replace("\n", "</p><p>")  # QGIS writes the outer ones
+        return QgsProcessingUtils.formatHelpMapAsHtml({"ALG_DESC": paragraphs, **self.said}, self)
+
+    def helpUrl(self) -> str:
+        """Return where docs/qgis.md of the sources can be read, where anybody knows."""
+        metadata = configparser.ConfigParser(interpolation=None)
+        metadata.read(os.path.join(HERE, "metadata.txt"), encoding="utf-8")
+        home = metadata.get("general", "homepage", fallback="")
+        if home:
+            return home
+        return QUrl.fromLocalFile(MANUAL).toString() if os.path.exists(MANUAL) else ""
+
+    def canExecute(self) -> tuple[bool, str]:
+        try:
+            program.find()
+        except program.ProgramError as why:
+            return False, str(why)
+        return True, ""
+
+    def add(self, parameter: QgsProcessingParameterDefinition, text: str, advanced: bool = False) -> None:
+        """Declare a parameter with its help."""
+        if advanced:
+            parameter.setFlags(parameter.flags() | QgsProcessingParameterDefinition.FlagAdvanced)
+        parameter.setHelp(text)
+        self.said[parameter.name()] = text
+        self.addParameter(parameter)
+
+    def give(self, output: QgsProcessingOutputDefinition, text: str) -> None:
+        """Declare an output with its help."""
+        self.said[output.name()] = text
+        self.addOutput(output)
+
+    def is_set(self, parameters: dict[str, Any], name: str) -> bool:
+        """Return whether the user gave a parameter."""
+        value = parameters.get(name)
+        return value is not None and value != "" and value != []
+
+    def word(self, parameters: dict[str, Any], name: str, context: QgsProcessingContext) -> str:
+        """Return a parameter as a word for the program, "" where it is not set."""
+        if not self.is_set(parameters, name):
+            return ""
+        definition = self.parameterDefinition(name)
+        if definition.type() == "number":
+            whole = definition.dataType() == definition.Integer
+            return str(self.parameterAsInt(parameters, name, context)) if whole else (
+                repr(self.parameterAsDouble(parameters, name, context)))
+        if definition.type() == "enum":
+            return self.parameterAsEnumString(parameters, name, context)
+        return self.parameterAsString(parameters, name, context).strip()
+
+    def options(self, parameters: dict[str, Any], context: QgsProcessingContext, **flags: str) -> list[str]:
+        """Return the options of parameters that are set, given as NAME=option."""
+        found = []
+        for name, flag in flags.items():
+            if word := self.word(parameters, name, context):
+                found.append(f"{flag}={word}")
+        return found
+
+    def fields(self, parameters: dict[str, Any], context: QgsProcessingContext) -> list[str]:
+        """Return --field options of the parameter FIELDS."""
+        return [f"--field={word}" for word in names(self.word(parameters, "FIELDS", context))]
+
+    def file(self, parameters: dict[str, Any], name: str, context: QgsProcessingContext) -> str:
+        """Return the absolute path of an output, "" where it is not wanted; makes the folder that it goes into."""
+        if not self.is_set(parameters, name):
+            return ""
+        path = self.parameterAsFileOutput(parameters, name, context)
+        if not path:
+            return ""
+        path = os.path.abspath(path)
+        os.makedirs(os.path.dirname(path), exist_ok=True)
+        return path
+
+    def prepareAlgorithm(self, parameters: dict[str, Any], context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> bool:
+        self.inputs = self.take(parameters, context)
+        return True
+
+    def processAlgorithm(self, parameters: dict[str, Any], context: QgsProcessingContext,
+                         feedback: QgsProcessingFeedback) -> dict[str, Any]:
+        try:
+            found = program.find()
+        except program.ProgramError as why:
+            raise QgsProcessingException(str(why)) from why
+        with tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(), ignore_cleanup_errors=True) as folder:
+            files = self.written(folder, context, feedback)
+            if feedback.isCanceled():
+                return {}
+            arguments = [self.COMMAND, *self.arguments(parameters, context, files), "--json", "--progress"]
+            threads = ProcessingConfig.getSetting(ProcessingConfig.MAX_THREADS)
+            if threads and int(threads) > 0:
+                arguments.append(f"--threads={int(threads)}")
+            finished = program.run(found, arguments, folder, feedback)
+            if finished is None:
+                return {}
+            return self.results(finished, parameters, context, feedback)
+
+    def written(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> dict[str, File]:
+        """Return the files of the inputs; those that must be written, in this folder."""
+        return {name: taken.as_file(folder, context, feedback) for name, taken in self.inputs.items() if taken is not None}
+
+    def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
+        """Return the layers of the parameters, in the thread that they live in."""
+        raise NotImplementedError
+
+    def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
+        """Return the command's arguments, without those that all commands have."""
+        raise NotImplementedError
+
+    def results(self, finished: program.Finished, parameters: dict[str, Any], context: QgsProcessingContext,
+                feedback: QgsProcessingFeedback) -> dict[str, Any]:
+        """Return the outputs, and let QGIS open what the user wants to see."""
+        raise NotImplementedError
+
+
+def warn_of_failed(report: dict[str, Any], feedback: QgsProcessingFeedback) -> None:
+    """Name the checks that failed in a warning."""
+    failed = [check for check in report.get("checks", []) if not check["ok"]]
+    if failed:
+        said = ", ".join(f"{check['name']} ({check['value']:g}, allowed {check['limit']:g})" for check in failed)
+        feedback.pushWarning(f"These checks failed: {said}")

@@ -1,0 +1,111 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""thalweg check."""
+from __future__ import annotations
+
+from typing import Any
+
+from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputBoolean,
+                       QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber, QgsProcessingOutputVectorLayer,
+                       QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
+                       QgsProcessingParameterVectorDestination, QgsProject)
+
+from .algorithm import NODATA, warn_of_failed
+from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
+from .network_input import NetworkAlgorithm
+from .program import Finished
+
+SHOWN = 20  # findings in the log
+
+
+class Check(NetworkAlgorithm):
+    """Check a network, and repair it."""
+
+    COMMAND = "check"
+    TITLE = "Check river network"
+    GROUP = "Networks"
+    TEXT = ("Check the topology of a river network, and its drainage on a DEM.\n"
+            "Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and has the right "
+            "orders and downstream arc. A network in another schema is checked for what it contains. A fault is reported once, "
+            "without its consequences. The network itself is never changed.\n"
+            "With a DEM these also fail: depressions, rivers along the border of the DEM, sources whose water does not reach "
+            "their outlet, and rivers that flow paths do not follow.")
+    TAGS = ("topology", "validate", "repair", "fix", "rivers", "streams")
+
+    def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
+        self.add_network()
+        self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True),
+                 "Also check that this DEM drains, and by these rivers; the repair finds the flow direction of lines by it. It must "
+                 "have the network's CRS.")
+        self.add(QgsProcessingParameterNumber("NEAR", "Distance of near line ends [m]", QgsProcessingParameterNumber.Double,
+                                              optional=True, minValue=0),
+                 "Report line ends closer than this to a line that they do not meet; the repair joins those that meet no other "
+                 "line. Default: a millionth of the network's extent.")
+        self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
+        self.add(QgsProcessingParameterVectorDestination("FIX", "Repaired network", QgsProcessing.TypeVectorLine, optional=True,
+                                                         createByDefault=False),
+                 "A repaired copy in the native schema: arcs, and nodes in a second layer. Nothing is written if faults remain. The "
+                 "network may then be any lines.")
+        self.add(QgsProcessingParameterVectorDestination("FINDINGS", "Findings", QgsProcessing.TypeVectorPoint, optional=True,
+                                                         createByDefault=False),
+                 "The findings as points (GeoPackage).")
+        self.give(QgsProcessingOutputBoolean("OK", "Every check passed"), "Whether every check passed.")
+        self.give(QgsProcessingOutputNumber("FINDINGS_COUNT", "Number of findings"), "Number of findings.")
+        self.give(QgsProcessingOutputVectorLayer("FIXED_NODES", "Nodes of the repaired network", QgsProcessing.TypeVectorPoint),
+                  "Nodes of the repaired network.")
+
+    def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:
+        if wrong := self.check_fields(parameters, context):
+            return False, wrong
+        if self.is_set(parameters, "FINDINGS"):
+            value = parameters["FINDINGS"]
+            said = value.sink.staticValue() if isinstance(value, QgsProcessingOutputLayerDefinition) else value
+            if said != QgsProcessing.TEMPORARY_OUTPUT and not str(said).lower().endswith(".gpkg"):
+                return False, "FINDINGS: thalweg writes findings to a GeoPackage (.gpkg)"
+        return super().checkParameterValues(parameters, context)
+
+    def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
+        return {**self.take_network(parameters, context), "DEM": raster_input(self, parameters, "DEM", context)}
+
+    def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
+        self.fix = self.file(parameters, "FIX", context)
+        self.findings = self.file(parameters, "FINDINGS", context)
+        options = self.network_options(parameters, context, files)
+        options += self.options(parameters, context, NEAR="--near", NODATA="--nodata")
+        options += [f"--dem={files['DEM'].path}"] if "DEM" in files else []
+        options += [f"--fix={self.fix}"] if self.fix else []
+        options += [f"--findings={self.findings}"] if self.findings else []
+        return [files["NETWORK"].path, *options, "--overwrite"]
+
+    def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
+                feedback: QgsProcessingFeedback) -> dict[str, Any]:
+        report = finished.report
+        warn_of_failed(report, feedback)
+        for finding in report["findings"][:SHOWN]:
+            feedback.pushInfo(finding["text"])
+        if len(report["findings"]) > SHOWN:
+            feedback.pushInfo(f"and {len(report['findings']) - SHOWN} more")
+        for mended in report["mended"][:SHOWN]:
+            feedback.pushInfo(f"repaired: {mended['text']}")
+        found: dict[str, Any] = {"OK": finished.passed, "FINDINGS_COUNT": len(report["findings"])}
+        if self.findings:
+            found["FINDINGS"] = self.findings
+            if project := project_of(parameters, "FINDINGS"):
+                open_after(context, self.findings, "Findings", "FINDINGS", "vector", project=project)
+        if self.fix:
+            if not any(path.startswith(self.fix.rpartition(".")[0]) for path in report["written"]):
+                feedback.pushWarning("Faults remain: no repaired network was written")
+                return found
+            layers = network_layers(report["written"])
+            for name, kind, title in (("FIX", "arcs", "Repaired arcs"), ("FIXED_NODES", "nodes", "Repaired nodes")):
+                if kind in layers:
+                    found[name] = layers[kind]
+                    if project := project_of(parameters, "FIX"):
+                        open_after(context, layers[kind], title, name, "vector", project=project)
+        return found
+
+
+def project_of(parameters: dict[str, Any], name: str) -> QgsProject | None:
+    """Return the project that the user wants to have a destination in."""
+    value = parameters.get(name)
+    return value.destinationProject if isinstance(value, QgsProcessingOutputLayerDefinition) else None

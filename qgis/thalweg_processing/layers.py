@@ -1,0 +1,307 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Layers for the program, as the user sees them in QGIS, and layers of what it wrote."""
+from __future__ import annotations
+
+import os
+import re
+from dataclasses import dataclass
+from typing import Any
+
+from osgeo import gdal, ogr
+from qgis.core import (QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsMapLayer,
+                       QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSource,
+                       QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback, QgsProcessingLayerPostProcessorInterface,
+                       QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer)
+from qgis.PyQt import sip
+
+ITS_OWN_ID = "thalweg_fid"  # of an exported feature: a field fid of the layer stays a field
+
+
+def crs_text(crs: QgsCoordinateReferenceSystem) -> str:
+    """Return a CRS as the program takes it: EPSG:N, or WKT."""
+    name = crs.authid()
+    return name if name.startswith("EPSG:") else crs.toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED)
+
+
+def file_name(layer_name: str) -> str:
+    """Return a layer's name as the name of a file."""
+    return re.sub(r'[/\\:*?"<>|\0-\x1f]', "_", layer_name).strip(" .")[:80] or "layer"
+
+
+@dataclass
+class File:
+    """A file for the program."""
+
+    path: str
+    layer: str = ""  # "": it has one layer, or the program chooses
+    source_crs: str = ""  # of a file that has no CRS; "": it has one, or nobody knows
+
+
+@dataclass
+class VectorInput:
+    """A vector layer: its file where that holds what the user sees, else features to be written to a file."""
+
+    layer_name: str
+    file: File | None
+    source: QgsProcessingFeatureSource | None
+
+    def written(self, path: str, layer_name: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
+        """Add the features to a GeoPackage as a layer of this name."""
+        options = QgsVectorFileWriter.SaveVectorOptions()
+        options.driverName = "GPKG"
+        options.layerName = layer_name
+        options.layerOptions = [f"FID={ITS_OWN_ID}"]
+        if os.path.exists(path):
+            options.actionOnExistingFile = QgsVectorFileWriter.CreateOrOverwriteLayer
+        source = self.source
+        assert source is not None
+        writer = QgsVectorFileWriter.create(path, source.fields(), source.wkbType(), source.sourceCrs(),
+                                            context.transformContext(), options)
+        if writer.hasError() != QgsVectorFileWriter.NoError:
+            raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
+        features = source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks)
+        for feature in features:
+            if feedback.isCanceled():
+                break
+            if not writer.addFeature(feature, QgsFeatureSink.FastInsert):
+                raise QgsProcessingException(f"cannot write feature {feature.id()} of {self.layer_name}: {writer.errorMessage()}")
+        if not writer.flushBuffer():
+            raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
+        del writer
+
+    def as_file(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> File:
+        """Return the file; where it must be written, in this folder."""
+        if self.file is not None:
+            return self.file
+        path = free_path(folder, file_name(self.layer_name), ".gpkg")
+        self.written(path, self.layer_name, context, feedback)
+        return File(path)
+
+
+@dataclass
+class RasterInput:
+    """A raster layer: its file, and what QGIS says of it that the file does not."""
+
+    layer_name: str
+    path: str
+    crs: str = ""  # WKT; "": as in the file
+    nodata: float | None = None  # beside what the file declares; None: nothing
+
+    def as_file(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> File:
+        """Return the file; where it must be described again, in this folder."""
+        if not self.crs and self.nodata is None:
+            return File(self.path)
+        path = free_path(folder, file_name(self.layer_name), ".vrt")
+        try:
+            made = gdal.Translate(path, self.path, format="VRT", outputSRS=self.crs or None, noData=self.nodata)
+        except RuntimeError:  # where the user's GDAL raises
+            made = None
+        if made is None:
+            raise QgsProcessingException(f"cannot read {self.path}: {gdal.GetLastErrorMsg()}")
+        made = None
+        return File(path)
+
+
+def free_path(folder: str, stem: str, ending: str) -> str:
+    """Return the path of a new file in a folder."""
+    path, number = os.path.join(folder, stem + ending), 2
+    while os.path.exists(path):
+        path, number = os.path.join(folder, f"{stem}_{number}{ending}"), number + 1
+    return path
+
+
+def opened_vector(path: str) -> Any:
+    """Return a file of vector layers, or None where GDAL cannot read it."""
+    try:
+        return gdal.OpenEx(path, gdal.OF_VECTOR)
+    except RuntimeError:  # where the user's GDAL raises
+        return None
+
+
+def _is_part(definition: Any) -> bool:
+    """Whether a parameter takes a part of a layer's features."""
+    if not isinstance(definition, QgsProcessingFeatureSourceDefinition):
+        return False
+    return (definition.selectedFeaturesOnly or definition.featureLimit != -1 or bool(getattr(definition, "filterExpression", "")))
+
+
+def _file_of(layer: QgsVectorLayer, takes_layer_name: bool) -> File | None:
+    """The file that holds what a layer shows; None where no file does."""
+    provider = layer.dataProvider()
+    if layer.providerType() != "ogr" or layer.isModified() or layer.subsetString():
+        return None
+    if layer.fields().count() != provider.fields().count():  # joined and virtual fields
+        return None
+    parts = QgsProviderRegistry.instance().decodeUri("ogr", layer.source())
+    path = str(parts.get("path") or "")
+    if not os.path.exists(path) or parts.get("openOptions") or "|geometrytype=" in layer.source().lower():
+        return None
+    path = os.path.abspath(path)
+    name = str(parts.get("layerName") or "")
+    if not takes_layer_name:
+        opened = opened_vector(path)
+        if opened is None or opened.GetLayerCount() != 1:
+            return None
+        name = ""
+    elif not name and parts.get("layerId"):
+        return None
+    theirs = provider.crs()
+    if theirs.isValid() and theirs != layer.crs():
+        return None
+    return File(path, name, crs_text(layer.crs()) if layer.crs().isValid() and not theirs.isValid() else "")
+
+
+def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str, context: QgsProcessingContext,
+                 takes_layer_name: bool = False, takes_source_crs: bool = False) -> VectorInput | None:
+    """Return the vector layer of a parameter, in the thread that the layer lives in.
+
+    Parameters
+    ----------
+    algorithm, parameters, name, context
+        As QGIS gives them.
+    takes_layer_name : bool
+        Whether the program can be given the name of a layer of this file.
+    takes_source_crs : bool
+        Whether it can be given the CRS of a file without one.
+    """
+    if parameters.get(name) in (None, ""):
+        return None
+    layer = algorithm.parameterAsVectorLayer(parameters, name, context)
+    source = algorithm.parameterAsSource(parameters, name, context)
+    if source is None:
+        raise QgsProcessingException(algorithm.invalidSourceError(parameters, name))
+    file = _file_of(layer, takes_layer_name) if layer is not None and not _is_part(parameters[name]) else None
+    if file is not None and file.source_crs and not takes_source_crs:
+        file = None
+    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source)
+
+
+def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str,
+                    context: QgsProcessingContext) -> VectorInput | RasterInput | None:
+    """Return the vector or raster layer of a parameter."""
+    if parameters.get(name) in (None, ""):
+        return None
+    layer = algorithm.parameterAsLayer(parameters, name, context)
+    if isinstance(layer, QgsRasterLayer):
+        return _raster_of(layer)
+    if isinstance(layer, QgsVectorLayer):
+        file = _file_of(layer, takes_layer_name=False)
+        if file is not None and file.source_crs:
+            file = None
+        return VectorInput(layer.name(), file, algorithm.parameterAsSource(parameters, name, context))
+    raise QgsProcessingException(f"{name}: {parameters[name]} is neither a vector nor a raster layer that QGIS can read")
+
+
+def raster_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str,
+                 context: QgsProcessingContext) -> RasterInput | None:
+    """Return the raster layer of a parameter.
+
+    Raises
+    ------
+    QgsProcessingException
+        When QGIS cannot read it, or it does not come from a file that GDAL reads.
+    """
+    if parameters.get(name) in (None, ""):
+        return None
+    layer = algorithm.parameterAsRasterLayer(parameters, name, context)
+    if layer is None or not layer.isValid():
+        raise QgsProcessingException(algorithm.invalidRasterError(parameters, name))
+    return _raster_of(layer)
+
+
+def _raster_of(layer: QgsRasterLayer) -> RasterInput:
+    if layer.providerType() != "gdal":
+        raise QgsProcessingException(f"{layer.name()} does not come from a file: save it as a GeoTIFF and take that")
+    provider = layer.dataProvider()
+    path = str(QgsProviderRegistry.instance().decodeUri("gdal", layer.source()).get("path") or "")
+    path = os.path.abspath(path) if os.path.exists(path) and "|" not in layer.source() and ":" not in os.path.basename(path) else (
+        layer.source().split("|", 1)[0])
+    crs = layer.crs().toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED) if (
+        layer.crs().isValid() and layer.crs() != provider.crs()) else ""
+    ranges = provider.userNoDataValues(1)
+    if len(ranges) > 1 or any(part.min() != part.max() for part in ranges):
+        raise QgsProcessingException(f"{layer.name()} has several no-data values of its own in QGIS: save it as a GeoTIFF and take that")
+    return RasterInput(layer.name(), path, crs, ranges[0].min() if ranges else None)
+
+
+class _AsMade(QgsProcessingLayerPostProcessorInterface):
+    """Gives a new layer the style that lies in or beside its file, and a CRS that its format has no place for."""
+
+    def __init__(self, crs: QgsCoordinateReferenceSystem) -> None:
+        super().__init__()
+        self.crs = crs
+
+    def postProcessLayer(self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
+        if self.crs.isValid() and not layer.crs().isValid():
+            layer.setCrs(self.crs)
+        layer.loadDefaultStyle()
+        layer.triggerRepaint()
+
+
+_kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QGIS holds no reference to them
+
+
+def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str) -> None:
+    its = QgsCoordinateReferenceSystem()
+    if crs:
+        its.createFromUserInput(crs)
+    processor = _AsMade(its)
+    details.setPostProcessor(processor)
+    _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
+
+
+HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingUtils.LayerHint.Vector,
+         "mesh": QgsProcessingUtils.LayerHint.Mesh}
+
+
+def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "",
+               project: QgsProject | None = None) -> None:
+    """Let QGIS open a layer when the algorithm has ended.
+
+    Parameters
+    ----------
+    context : QgsProcessingContext
+        The run's.
+    source : str
+        The layer's file, with |layername= where it has several.
+    title, output : str
+        The layer's name for the user, and that of the output.
+    kind : str
+        raster, vector or mesh.
+    crs : str
+        Of a file that names none.
+    project : QgsProject or None
+        Where it is opened; None: in that of the run.
+    """
+    project = project or context.project()
+    if project is None:
+        return
+    details = QgsProcessingContext.LayerDetails(title, project, output, HINTS[kind])
+    details.forceName = True
+    _show_as_made(details, crs)
+    context.addLayerToLoadOnCompletion(source, details)
+
+
+def style_after(context: QgsProcessingContext, source: str) -> None:
+    """Let a layer that QGIS opens anyway have its style."""
+    if context.willLoadLayerOnCompletion(source):
+        _show_as_made(context.layerToLoadOnCompletionDetails(source), "")
+
+
+KINDS = {ogr.wkbLineString: "arcs", ogr.wkbMultiLineString: "arcs", ogr.wkbPoint: "nodes"}
+
+
+def network_layers(written: list[str]) -> dict[str, str]:
+    """Return the sources of the layers with arcs and with nodes in what the program wrote, by "arcs" and "nodes"."""
+    found: dict[str, str] = {}
+    for path in written:
+        if not path.lower().endswith((".gpkg", ".shp", ".fgb", ".geojson")):
+            continue
+        opened = opened_vector(path)
+        for number in range(opened.GetLayerCount() if opened is not None else 0):
+            layer = opened.GetLayer(number)
+            kind = KINDS.get(ogr.GT_Flatten(layer.GetGeomType()), "")
+            if kind and kind not in found:
+                found[kind] = f"{path}|layername={layer.GetName()}" if path.lower().endswith(".gpkg") else path
+    return found

@@ -1,0 +1,91 @@
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""thalweg measure."""
+from __future__ import annotations
+
+import os
+from typing import Any
+
+from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputRasterLayer,
+                       QgsProcessingOutputVectorLayer, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
+                       QgsProcessingParameterFolderDestination, QgsProcessingParameterRasterLayer, QgsProcessingParameterString)
+
+from .algorithm import NODATA
+from .layers import File, RasterInput, VectorInput, open_after, raster_input
+from .network_input import NetworkAlgorithm
+from .program import Finished
+
+WHAT = {"d8": "Contributing area, D8", "dinf": "Contributing area, D-infinity", "directions": "Flow directions of both",
+        "catchments": "Catchments and basins of the rivers"}
+RASTERS = {"AREA_D8": ("area_d8.tif", "Contributing area (D8)"), "AREA_DINF": ("area_dinf.tif", "Contributing area (D-infinity)"),
+           "DIRECTION_D8": ("direction_d8.tif", "Flow direction (D8)"),
+           "DIRECTION_DINF": ("direction_dinf.tif", "Flow direction (D-infinity)")}
+
+
+class Measure(NetworkAlgorithm):
+    """Measure what drains where on a DEM."""
+
+    COMMAND = "measure"
+    TITLE = "Measure drainage of DEM"
+    GROUP = "Terrain"
+    TEXT = ("Write contributing areas, flow directions and catchments of a DEM.\n"
+            "Contributing areas are in m2. D8 directions are 1 to 128 clockwise from east, 0 at outlets; D-infinity directions are "
+            "radians counterclockwise from east, -1 at outlets. Flow is routed through depressions and flats; the DEM is not "
+            "changed. A catchment holds the cells whose flow reaches a river first at its arc; the catchments tile all cells that "
+            "drain to a river.")
+    TAGS = ("flow accumulation", "flow direction", "d8", "d-infinity", "catchment", "watershed", "basin", "hydrology")
+
+    def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
+        self.add(QgsProcessingParameterRasterLayer("DEM", "DEM"), "Heights.")
+        self.add_network(optional=True)
+        self.add(QgsProcessingParameterEnum("WHAT", "What to measure", list(WHAT.values()), allowMultiple=True, optional=True),
+                 "Default: contributing areas and, with rivers, catchments.")
+        self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
+        self.add(QgsProcessingParameterBoolean("LOAD", "Open the layers after running", defaultValue=True),
+                 "Open what was written.")
+        self.add(QgsProcessingParameterFolderDestination("OUTPUT", "Folder"),
+                 "Files of the same names in it are replaced; other files are kept.")
+        for name, (_, title) in RASTERS.items():
+            self.give(QgsProcessingOutputRasterLayer(name, title), f"{title}, if wanted.")
+        for name in ("CATCHMENTS", "BASINS"):
+            self.give(QgsProcessingOutputVectorLayer(name, name.capitalize(), QgsProcessing.TypeVectorPolygon),
+                      "One polygon per arc, with rivers." if name == "CATCHMENTS" else "One polygon per outlet, with rivers.")
+
+    def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:
+        if wrong := self.check_fields(parameters, context):
+            return False, wrong
+        if "catchments" in self.what(parameters, context) and not self.is_set(parameters, "NETWORK"):
+            return False, "NETWORK: catchments need rivers"
+        return super().checkParameterValues(parameters, context)
+
+    def what(self, parameters: dict[str, Any], context: QgsProcessingContext) -> list[str]:
+        """Return the words of WHAT for the program."""
+        chosen = self.parameterAsEnums(parameters, "WHAT", context) if self.is_set(parameters, "WHAT") else []
+        return [list(WHAT)[number] for number in chosen]
+
+    def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
+        return {"DEM": raster_input(self, parameters, "DEM", context), **self.take_network(parameters, context)}
+
+    def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
+        self.output = self.file(parameters, "OUTPUT", context)
+        what = self.what(parameters, context)
+        paths = [files[name].path for name in ("DEM", "NETWORK") if name in files]
+        options = self.network_options(parameters, context, files) + self.options(parameters, context, NODATA="--nodata")
+        return [*paths, f"--output={self.output}", *options, *([f"--what={','.join(what)}"] if what else []), "--overwrite"]
+
+    def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
+                feedback: QgsProcessingFeedback) -> dict[str, Any]:
+        files = {os.path.basename(path): path for path in finished.report["files"]}
+        opens = self.parameterAsBool(parameters, "LOAD", context)
+        found: dict[str, Any] = {"OUTPUT": self.output}
+        for name, (file, title) in RASTERS.items():
+            if file in files:
+                found[name] = files[file]
+                if opens:
+                    open_after(context, files[file], title, name, "raster")
+        if "catchments.gpkg" in files:
+            for name in ("CATCHMENTS", "BASINS"):
+                found[name] = f"{files['catchments.gpkg']}|layername={name.lower()}"
+                if opens:
+                    open_after(context, found[name], name.capitalize(), name, "vector")
+        return found

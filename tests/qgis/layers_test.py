@@ -1,0 +1,289 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Layers of every sort become what thalweg is given, as QGIS shows them; and what it writes becomes layers."""
+import json
+import os
+import pathlib
+import tomllib
+
+from support import COAST, JACKSBORO, Case, main, program, start
+
+application, plugin = start()
+
+import processing  # noqa: E402
+from osgeo import gdal  # noqa: E402
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRequest, QgsGeometry, QgsPoint,  # noqa: E402
+                       QgsProcessing, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSourceDefinition,
+                       QgsProcessingFeedback, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm,
+                       QgsProcessingModelChildParameterSource, QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition,
+                       QgsProcessingUtils, QgsProject, QgsRasterLayer, QgsRasterRange, QgsVectorLayer)
+from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
+
+GRID = {"GRID_WIDTH": 96, "GRID_HEIGHT": 96, "CELL": 30}
+LINES = ["LineString (501500 5002900 300, 501500 5001500 200)", "LineString (500600 5002600 280, 501500 5001500 200)",
+         "LineString (501500 5001500 200, 501400 5000200 100)"]
+
+
+class Said(QgsProcessingFeedback):
+    """What an algorithm said."""
+
+    def __init__(self):
+        super().__init__()
+        self.commands, self.warnings, self.lines, self.errors, self.shares = [], [], [], [], []
+        self.progressChanged.connect(self.shares.append)
+
+    def pushCommandInfo(self, text):
+        self.commands.append(text)
+
+    def pushWarning(self, text):
+        self.warnings.append(text)
+
+    def reportError(self, text, fatalError=False):
+        self.errors.append(text)
+
+    def pushInfo(self, text):
+        self.lines.append(text)
+
+
+def lines_layer(crs="EPSG:32631", name="lines", fields="field=fid:integer&field=name:string"):
+    layer = QgsVectorLayer(f"LineStringZ?crs={crs}&{fields}", name, "memory")
+    for number, text in enumerate(LINES):
+        feature = QgsFeature(layer.fields())
+        feature.setAttributes([7, f"river {number}"])  # ids that repeat
+        feature.setGeometry(QgsGeometry.fromWkt(text))
+        assert layer.dataProvider().addFeature(feature)
+    return layer
+
+
+class Layers(Case):
+    def checked(self, network, **parameters):
+        """The report of check on a layer."""
+        said = Said()
+        results = processing.run("thalweg:check", {"NETWORK": network, "FIX": str(self.folder / "fixed.gpkg"), **parameters}, feedback=said)
+        self.assertEqual(self.leftovers(), [])
+        return results, said
+
+    def leftovers(self):
+        folder = QgsProcessingUtils.tempFolder()
+        return [name for name in os.listdir(folder) if name.startswith("thalweg-")]
+
+    def fixed_lines(self):
+        layer = QgsVectorLayer(f"{self.folder / 'fixed.gpkg'}|layername=arcs", "arcs", "ogr")
+        return layer.featureCount(), layer.crs().authid()
+
+    def test_memory_layer_with_its_fields(self):
+        self.checked(lines_layer())
+        self.assertEqual(self.fixed_lines(), (3, "EPSG:32631"))
+
+    def test_selected_features_only(self):
+        layer = lines_layer()
+        layer.selectByIds([feature.id() for feature in layer.getFeatures()][1:])
+        self.checked(QgsProcessingFeatureSourceDefinition(layer.id(), selectedFeaturesOnly=True)
+                     if QgsProject.instance().addMapLayer(layer) else None)
+        count, _ = self.fixed_lines()
+        QgsProject.instance().clear()
+        self.assertLess(count, 3)
+
+    def saved(self, layer, name="rivers 'of Ü'.gpkg", layer_name='lines "a" é'):
+        path = self.folder / name
+        from qgis.core import QgsVectorFileWriter
+        options = QgsVectorFileWriter.SaveVectorOptions()
+        options.driverName, options.layerName = "GPKG", layer_name
+        options.layerOptions = ["FID=own_id"]
+        assert QgsVectorFileWriter.writeAsVectorFormatV3(layer, str(path), QgsProject.instance().transformContext(), options)[0] == 0
+        return path
+
+    def test_layer_of_a_geopackage_with_quotes_in_its_names(self):
+        path = self.saved(lines_layer())
+        options = gdal.VectorTranslateOptions(options=["-update", "-nln", "other"])
+        gdal.VectorTranslate(str(path), str(COAST), options=options)
+        _, said = self.checked(f'{path}|layername=lines "a" é')
+        self.assertIn("--layer", said.commands[0])
+        self.assertIn(path.name.split("'")[0], said.commands[0])  # no copy
+        self.assertEqual(self.fixed_lines()[0], 3)
+
+    def test_subset_filter(self):
+        path = self.saved(lines_layer())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        self.assertTrue(layer.setSubsetString("\"name\" <> 'river 0'"))
+        self.checked(layer)
+        self.assertLess(self.fixed_lines()[0], 3)
+
+    def test_edits_that_are_not_saved(self):
+        path = self.saved(lines_layer())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        layer.startEditing()
+        layer.deleteFeature(next(layer.getFeatures(QgsFeatureRequest().setFilterExpression("\"name\" = 'river 0'"))).id())
+        self.checked(layer)
+        self.assertLess(self.fixed_lines()[0], 3)
+        layer.rollBack()
+        self.assertEqual(layer.featureCount(), 3)
+
+    def test_crs_that_only_qgis_knows(self):
+        path = self.folder / "no crs.shp"
+        gdal.VectorTranslate(str(path), str(self.saved(lines_layer())))
+        path.with_suffix(".prj").unlink()
+        layer = QgsVectorLayer(str(path), "lines", "ogr")
+        self.assertFalse(layer.dataProvider().crs().isValid())
+        layer.setCrs(QgsCoordinateReferenceSystem("EPSG:32632"))
+        _, said = self.checked(layer)
+        self.assertIn("--source-crs=EPSG:32632", said.commands[0])
+        self.assertEqual(self.fixed_lines(), (3, "EPSG:32632"))
+        said = Said()
+        processing.run("thalweg:make", {"RIVERS": layer, "OUTPUT": str(self.folder / "out"), **GRID}, feedback=said)
+        self.assertIn("network.lines.source_crs=EPSG:32632", said.commands[0])
+        self.assertEqual(QgsRasterLayer(str(self.folder / "out/dem.tif")).crs().authid(), "EPSG:32632")
+
+    def test_crs_that_the_user_corrected(self):
+        path = self.saved(lines_layer())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        layer.setCrs(QgsCoordinateReferenceSystem("EPSG:32633"))
+        self.checked(layer)
+        self.assertEqual(self.fixed_lines(), (3, "EPSG:32633"))
+
+    def test_raster_whose_crs_and_no_data_only_qgis_knows(self):
+        path = self.folder / "höhen.tif"
+        gdal.Translate(str(path), str(JACKSBORO), noData="none", creationOptions=["PROFILE=BASELINE", "TFW=YES"])
+        for beside in self.folder.glob("*.aux.xml"):
+            beside.unlink()
+        layer = QgsRasterLayer(str(path))
+        self.assertFalse(layer.dataProvider().crs().isValid())
+        layer.setCrs(QgsCoordinateReferenceSystem("EPSG:32616"))
+        layer.dataProvider().setUserNoDataValue(1, [QgsRasterRange(-9999, -9999)])
+        results = processing.run("thalweg:measure", {"DEM": layer, "WHAT": [0], "OUTPUT": str(self.folder / "out")})
+        self.assertEqual(QgsRasterLayer(results["AREA_D8"]).crs().authid(), "EPSG:32616")
+        self.assertEqual(self.leftovers(), [])
+
+    def test_raster_that_comes_from_no_file_is_refused(self):
+        layer = QgsRasterLayer("type=xyz&url=file:///nowhere/{x}/{y}/{z}.png&zmax=1&zmin=0", "tiles", "wms")
+        self.assertTrue(layer.isValid())
+        said = Said()
+        with self.assertRaises(QgsProcessingException):
+            processing.run("thalweg:measure", {"DEM": layer, "OUTPUT": str(self.folder / "out")}, feedback=said)
+        self.assertRegex(said.errors[0], "tiles does not come from a file: save it as a GeoTIFF")
+
+    def test_nodes_of_another_layer(self):
+        self.assertEqual(program("make", "-o", self.folder / "made", "--set", "grid.width=128", "--set", "grid.height=128", "--set",
+                                 "network.forest.outlet_spacing=0").returncode, 0)
+        source = self.folder / "made/network.gpkg"
+        arcs, nodes = (QgsVectorLayer(f"{source}|layername={name}", name, "ogr") for name in ("arcs", "nodes"))
+        results = processing.run("thalweg:check", {"NETWORK": arcs, "NETWORK_NODES": nodes})
+        self.assertTrue(results["OK"])
+        nodes.selectAll()
+        copy = nodes.materialize(QgsFeatureRequest())
+        results = processing.run("thalweg:check", {"NETWORK": arcs, "NETWORK_NODES": copy})
+        self.assertTrue(results["OK"])
+        fewer = nodes.materialize(QgsFeatureRequest().setLimit(3))
+        said = Said()
+        results = processing.run("thalweg:check", {"NETWORK": arcs, "NETWORK_NODES": fewer}, feedback=said)
+        self.assertFalse(results["OK"])
+        self.assertRegex(said.warnings[0], "These checks failed: .*missing_node")
+
+    def test_make_takes_layers_for_keys(self):
+        region = QgsVectorLayer("Polygon?crs=EPSG:32631", "region", "memory")
+        feature = QgsFeature()
+        feature.setGeometry(QgsGeometry.fromWkt("Polygon ((500300 4999700, 502500 4999700, 502500 4997400, 500300 4997400, 500300 4999700))"))
+        region.dataProvider().addFeature(feature)
+        said = Said()
+        results = processing.run("thalweg:make", {
+            "NETWORK_SOURCE": "forest", "NETWORK_FOREST_REGION": region, "CRS": QgsCoordinateReferenceSystem("EPSG:32631"),
+            "OUTPUT": str(self.folder / "out"), "GRID_ORIGIN": "500000, 5000000", "NETWORK_MEANDER": 0.25, "OUTPUT_CATCHMENTS": "false",
+            "NETWORK_FOREST_OUTLET_SPACING": 0, "TITLE": 'a "title" é', **GRID}, feedback=said)
+        recipe = tomllib.loads((self.folder / "out/recipe.toml").read_text())
+
+
+        self.assertEqual(recipe["network"]["forest"]["region"].split("/")[0], "inputs")
+        self.assertEqual(recipe["grid"]["origin"], [500000.0, 5000000.0])
+        self.assertEqual((recipe["network"]["meander"], recipe["output"]["catchments"], recipe["output"]["title"]),
+                         (0.25, False, 'a "title" é'))
+        self.assertNotIn("CATCHMENTS", results)
+        self.assertEqual(said.shares, sorted(said.shares))
+        self.assertGreater(len(said.shares), 5)
+
+    def test_extent_in_another_crs(self):
+        said = Said()
+        processing.run("thalweg:make", {"EXTENT": "3.00,3.05,45.00,45.04 [EPSG:4326]", "CRS": "EPSG:32631", "CELL": 40,
+                                        "NETWORK_FOREST_OUTLET_SPACING": 0, "OUTPUT": str(self.folder / "out")}, feedback=said)
+        grid = json.loads((self.folder / "out/report.json").read_text())["recipe"]["grid"]
+        self.assertEqual([x % 40 for x in grid["origin"]], [0, 0])
+        self.assertLessEqual(grid["origin"][0], 500000)
+        self.assertTrue(99 <= grid["width"] <= 101 and 111 <= grid["height"] <= 114, grid)
+
+    def test_runs_in_a_model(self):
+        model = QgsProcessingModelAlgorithm("terrain and its TIN")
+        make = QgsProcessingModelChildAlgorithm("thalweg:make")
+        make.setChildId("make")
+        static = QgsProcessingModelChildParameterSource.fromStaticValue
+        for name, value in {"NETWORK_FOREST_OUTLET_SPACING": 0, "LOAD": [], **GRID}.items():
+            make.addParameterSources(name, [static(value)])
+        tin = QgsProcessingModelChildAlgorithm("thalweg:tin")
+        tin.setChildId("tin")
+        tin.addParameterSources("DEM", [QgsProcessingModelChildParameterSource.fromChildOutput("make", "DEM")])
+        tin.addParameterSources("ERROR", [static(5)])
+        output = QgsProcessingModelOutput("mesh")
+        output.setChildOutputName("OUTPUT")
+        tin.setModelOutputs({"mesh": output})
+        model.addChildAlgorithm(make)
+        model.addChildAlgorithm(tin)
+        results, done = model.run({"tin:mesh": str(self.folder / "mesh.2dm")}, QgsProcessingContext(), QgsProcessingFeedback())
+        self.assertTrue(done)
+        self.assertTrue(pathlib.Path(results["tin:mesh"]).read_text().startswith("MESH2D"))
+
+
+class Opened(Case):
+    """What QGIS opens when an algorithm has ended."""
+
+    kept = []  # QGIS 3.22 crashes where a second project goes before the end
+
+    def opened(self, algorithm, parameters):
+        project = QgsProject()
+        self.kept.append(project)
+        parameters = {name: QgsProcessingOutputLayerDefinition(value[1:], project) if str(value)[:1] == ">" else value
+                      for name, value in parameters.items()}  # ">": to be opened
+        context = QgsProcessingContext()
+        context.setProject(project)
+        instance = QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{algorithm}")
+        self.assertTrue(instance.checkParameterValues(parameters, context)[0])
+        results, done = instance.run(parameters, context, QgsProcessingFeedback())
+        self.assertTrue(done)
+        self.assertTrue(handleAlgorithmResults(instance, context, QgsProcessingFeedback(), parameters=parameters))
+        layers = {layer.name(): layer for layer in project.mapLayers().values()}
+        self.assertTrue(all(layer.isValid() and layer.crs().isValid() for layer in layers.values()))
+        self.kept.append(layers)
+        return results, layers
+
+    def test_make_opens_what_is_wanted_with_its_styles(self):
+        results, layers = self.opened("make", {
+            "OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 3, 5], "NETWORK_FOREST_OUTLET_SPACING": 0, "SURFACE_METHOD": "tin",
+            "SKELETON_TIN": "true", **GRID})
+        self.assertEqual(set(layers), {"DEM", "Rivers", "Catchments", "TIN"})
+        self.assertEqual(layers["TIN"].crs().authid(), "EPSG:32631")
+        self.assertNotEqual(layers["DEM"].renderer().type(), "singlebandgray")
+        bare = QgsVectorLayer(results["ARCS"], "bare", "ogr", QgsVectorLayer.LayerOptions(loadDefaultStyle=False))
+        self.assertNotEqual(layers["Rivers"].renderer().dump(), bare.renderer().dump())
+        read = QgsProject()
+        self.assertTrue(read.read(results["PROJECT"]))
+        self.assertTrue(read.mapLayers() and all(layer.isValid() for layer in read.mapLayers().values()))
+
+    def test_tin_has_the_crs_that_2dm_has_no_place_for(self):
+        _, layers = self.opened("tin", {"DEM": str(JACKSBORO), "ERROR": 30, "OUTPUT": str(self.folder / "t.2dm")})
+        self.assertEqual(layers["TIN"].crs().authid(), QgsRasterLayer(str(JACKSBORO)).crs().authid())
+
+    def test_check_measure_convert_and_blend(self):
+        wanted = ">" + QgsProcessing.TEMPORARY_OUTPUT
+        results, layers = self.opened("check", {"NETWORK": str(COAST), "FIX": wanted, "FINDINGS": wanted})
+        self.assertEqual(set(layers), {"Repaired arcs", "Repaired nodes", "Findings"})
+        fixed = results["FIX"]
+        _, layers = self.opened("convert", {"NETWORK": fixed, "SCHEMA": "native", "OUTPUT": str(self.folder / "n.geojson")})
+        self.assertEqual(set(layers), {"Arcs", "Nodes"})
+        _, layers = self.opened("measure", {"DEM": str(JACKSBORO), "OUTPUT": QgsProcessing.TEMPORARY_OUTPUT})
+        self.assertEqual(set(layers), {"Contributing area (D8)", "Contributing area (D-infinity)"})
+        _, layers = self.opened("blend", {
+            "TARGET": str(JACKSBORO), "SOURCE": str(JACKSBORO), "WINDOW": "5,5,50,50", "GAIN": 2,
+            "OUTPUT": f">{self.folder / 'b.tif'}"})
+        self.assertEqual(len(layers), 1)
+
+
+if __name__ == "__main__":
+    main()

@@ -1,0 +1,211 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Cancelling ends the program and leaves nothing; what is wrong with a program is said in words."""
+import os
+import signal
+import subprocess
+import threading
+import time
+
+from support import COAST, PROGRAM, Case, main, start
+
+application, plugin = start()
+
+from qgis.core import (QgsApplication, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,  # noqa: E402
+                       QgsProcessingUtils, QgsSettings)
+from thalweg_processing import program  # noqa: E402
+
+LONG = {"GRID_WIDTH": 3000, "GRID_HEIGHT": 3000}
+REPORT = '{"findings": [], "mended": [], "written": [], "checks": [{"name": "spike", "value": 2, "limit": 0, "ok": false}]}'
+
+
+class Said(QgsProcessingFeedback):
+    def __init__(self):
+        super().__init__()
+        self.warnings, self.lines, self.commands = [], [], []
+
+    def pushWarning(self, text):
+        self.warnings.append(text)
+
+    def pushInfo(self, text):
+        self.lines.append(text)
+
+    def pushCommandInfo(self, text):
+        self.commands.append(text)
+
+
+def children():
+    """The processes that this one started and that have not ended."""
+    said = subprocess.run(["ps", "-o", "pid=,comm=", "--ppid", str(os.getpid())], capture_output=True, text=True).stdout
+    return [line for line in said.splitlines() if line.split()[1] != "ps"]
+
+
+def run(name, parameters, feedback):
+    """As processing.run(), which does not tell the words of what failed before the algorithm itself ran."""
+    algorithm = QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{name}")
+    return algorithm.run(parameters, QgsProcessingContext(), feedback, {}, False)[0]
+
+
+class WithSetting(Case):
+    def use(self, path):
+        QgsSettings().setValue(f"Processing/Configuration/{program.SETTING}", str(path))
+        self.addCleanup(QgsSettings().remove, f"Processing/Configuration/{program.SETTING}")
+
+    def fake(self, script, asked=True):
+        """A program that answers as thalweg does to what the plugin asks, and else does as the script says."""
+        path = self.folder / "fake"
+        answers = f'case "$*" in "make --help" | "recipe --json" | --version) exec {PROGRAM} "$@" ;; esac\n' if asked else ""
+        path.write_text(f"#!/bin/sh\n{answers}{script}\n")
+        path.chmod(0o755)
+        self.use(path)
+        return path
+
+
+class Cancel(WithSetting):
+    def cancelled(self, name, parameters, after, words=""):
+        """Seconds from the cancelling to the end."""
+        said = Said()
+        at = []
+
+        def cancel():
+            at.append(time.monotonic())
+            said.cancel()
+
+        timer = threading.Timer(after, cancel)
+        timer.start()
+        results = run(name, parameters, said)
+        timer.join()
+        self.assertEqual(results, {})
+        self.assertEqual(children(), [])
+        self.assertEqual([name for name in os.listdir(QgsProcessingUtils.tempFolder()) if name.startswith("thalweg-")], [])
+        return time.monotonic() - at[0]
+
+    def test_a_long_make_ends_and_leaves_nothing(self):
+        QgsProcessingUtils.tempFolder()
+        temporary = set(os.listdir(os.environ["TMPDIR"]))
+        for after in (0.05, 0.6, 2.5):
+            self.assertLess(self.cancelled("make", {"OUTPUT": str(self.folder / "out"), **LONG}, after), 2.0)
+            self.assertEqual(os.listdir(self.folder), [])
+        self.assertEqual(set(os.listdir(os.environ["TMPDIR"])), temporary)
+
+    def test_a_program_that_does_not_listen_is_killed(self):
+        self.fake("trap '' INT\necho '{\"stage\": \"fill\", \"share\": 0.5}' >&2\nexec sleep 60")
+        seconds = self.cancelled("check", {"NETWORK": str(COAST)}, 2)
+        self.assertTrue(program.ENDS_WITHIN - 0.5 < seconds < program.ENDS_WITHIN + 2, seconds)
+
+    def test_cancelled_before_it_runs(self):
+        said = Said()
+        said.cancel()
+        self.assertEqual(run("check", {"NETWORK": str(COAST)}, said), {})
+        self.assertEqual(said.commands, [])
+
+
+class Wrong(WithSetting):
+    def refused(self, words):
+        """Every algorithm stays and says so, before it runs and when it is run."""
+        for algorithm in QgsApplication.processingRegistry().providerById("thalweg").algorithms():
+            can, why = algorithm.canExecute()
+            self.assertFalse(can)
+            self.assertRegex(why, words)
+            self.assertIsNotNone(algorithm.create())
+        with self.assertRaisesRegex(QgsProcessingException, words):
+            run("make", {"OUTPUT": str(self.folder / "out")}, Said())
+        self.assertFalse((self.folder / "out").exists())
+        self.assertEqual(len(QgsApplication.processingRegistry().providerById("thalweg").algorithms()), 7)
+
+    def test_not_in_path(self):
+        path = os.environ["PATH"]
+        self.addCleanup(os.environ.__setitem__, "PATH", path)
+        os.environ["PATH"] = str(self.folder)
+        self.refused("not in PATH. Install it .*Options > Processing > Providers > thalweg")
+
+    def test_missing(self):
+        self.use(self.folder / "none")
+        self.refused("there is no program .*/none. Correct its name in Settings")
+
+    def test_a_folder(self):
+        self.use(self.folder)
+        self.refused("is a folder. Name the program")
+
+    def test_not_executable(self):
+        self.fake("true").chmod(0o644)
+        self.refused("fake is not executable")
+
+    def test_too_old(self):
+        self.fake("echo Usage: thalweg make", asked=False)
+        self.refused("older than this plugin needs: it has no option --progress")
+
+    def test_another_program(self):
+        self.use("/bin/false")
+        self.refused("/bin/false make --help: it ended with exit status 1")
+
+    def test_no_program_at_all(self):
+        path = self.folder / "text"
+        path.write_bytes(b"\x7fELF nothing")
+        path.chmod(0o755)
+        self.use(path)
+        self.refused("text does not start: ")
+
+    def test_does_not_answer(self):
+        self.addCleanup(setattr, program, "ASKED_WITHIN", program.ASKED_WITHIN)
+        program.ASKED_WITHIN = 0.5
+        self.fake("exec sleep 60", asked=False)
+        began = time.monotonic()
+        self.refused("does not answer within 0.5 s")
+        self.assertLess(time.monotonic() - began, 3)  # it is asked once
+
+    def test_a_program_mended_later_is_asked_again(self):
+        path = self.fake("echo Usage", asked=False)
+        with self.assertRaises(program.ProgramError):
+            program.find()
+        self.fake("true")
+        os.utime(path, (1, 1))
+        self.assertEqual(program.find().path, str(path))
+        self.assertTrue(program.find().version)
+
+    def fails(self, script, words):
+        self.fake(script)
+        with self.assertRaisesRegex(QgsProcessingException, words):
+            run("check", {"NETWORK": str(COAST)}, Said())
+        self.assertEqual(children(), [])
+
+    def test_crash(self):
+        self.fails("kill -SEGV $$", "thalweg failed: it was ended by SIGSEGV")
+
+    def test_killed(self):
+        self.fails("kill -KILL $$", "thalweg failed: it was ended by SIGKILL")
+
+    def test_its_own_words(self):
+        self.fails("echo 'warning: w' >&2; echo 'error: first line' >&2; echo '  second line' >&2; exit 1", "^first line\n  second line$")
+
+    def test_wrong_option(self):
+        self.fails("exit 2", "it ended with exit status 2")
+
+    def test_no_json(self):
+        self.fails("echo done", "printed no JSON")
+
+    def test_checks_that_fail_are_a_result(self):
+        self.fake(f"echo '{REPORT}'; exit 3")
+        said = Said()
+        self.assertFalse(run("check", {"NETWORK": str(COAST)}, said)["OK"])
+        self.assertEqual(said.warnings, ["These checks failed: spike (2, allowed 0)"])
+
+    def test_full_pipes(self):
+        self.fake("head -c 3000000 /dev/zero | tr '\\0' x | fold -w 1000 >&2\n"
+                  "printf '{\"a\": \"'; head -c 3000000 /dev/zero | tr '\\0' y; printf '\", \"findings\": [], \"mended\": []}'")
+        said = Said()
+        self.assertTrue(run("check", {"NETWORK": str(COAST)}, said)["OK"])
+        self.assertEqual(len(said.lines), 3000)
+
+    def test_lines_that_are_almost_progress(self):
+        self.fake(f"printf '{{\"stage\": 1}}\\n{{broken\\n\\377\\n{{\"stage\": \"check\", \"share\": 7}}\\n' >&2; echo '{REPORT}'")
+        said = Said()
+        self.assertTrue(run("check", {"NETWORK": str(COAST)}, said)["OK"])
+        self.assertEqual(said.lines[:3], ['{"stage": 1}', "{broken", "\ufffd"])
+        self.assertLessEqual(said.progress(), 100)
+
+
+if __name__ == "__main__":
+    signal.alarm(600)
+    main()
