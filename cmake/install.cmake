@@ -1,7 +1,8 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 # What `cmake --install` leaves, by component. program: bin/thalweg, the program it starts, its manual and completions. library: the
-# library, its headers, and what find_package(thalweg) and pkg-config need. python: see python/CMakeLists.txt.
+# library, its headers, and what find_package(thalweg) and pkg-config need. python: see python/CMakeLists.txt. qgis: the plugin of QGIS,
+# where all users of a machine have theirs.
 include(CMakePackageConfigHelpers)
 set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/thalweg)
 
@@ -45,3 +46,9 @@ Cflags: -I${includedir}
 Libs: -L${libdir} -lthalweg @LIBRARIES@ -pthread
 ]])
 install(FILES ${PROJECT_BINARY_DIR}/thalweg.pc DESTINATION ${CMAKE_INSTALL_LIBDIR}/pkgconfig COMPONENT library)
+
+set(PLUGINS ${CMAKE_INSTALL_DATADIR}/qgis/python/plugins)
+configure_file(qgis/thalweg_processing/metadata.txt ${PROJECT_BINARY_DIR}/qgis/metadata.txt @ONLY)
+install(DIRECTORY qgis/thalweg_processing DESTINATION ${PLUGINS} COMPONENT qgis EXCLUDE_FROM_ALL
+  FILES_MATCHING PATTERN "*.py" PATTERN "*.svg" PATTERN __pycache__ EXCLUDE)
+install(FILES ${PROJECT_BINARY_DIR}/qgis/metadata.txt DESTINATION ${PLUGINS}/thalweg_processing COMPONENT qgis EXCLUDE_FROM_ALL)

@@ -74,6 +74,28 @@ macro(debian_package COMPONENT NAME SECTION DESCRIPTION)
     DESTINATION ${CMAKE_INSTALL_DATADIR}/doc/${NAME} COMPONENT ${COMPONENT} EXCLUDE_FROM_ALL)
 endmacro()
 
+# compiled_by_python(COMPONENT NAME [FOLDER]): what Python compiles of a package, in a folder that is not Python's own, is no file
+# of the package, and goes with it.
+macro(compiled_by_python COMPONENT NAME)
+  set(SCRIPTS ${PROJECT_BINARY_DIR}/debian/${NAME})
+  string(TOUPPER ${COMPONENT} FIELD)
+  file(CONFIGURE OUTPUT ${SCRIPTS}/postinst CONTENT "\
+#!/bin/sh
+set -e
+if [ \"$1\" = configure ] && command -v py3compile >/dev/null; then
+    py3compile -p ${NAME} ${ARGN}
+fi
+" @ONLY)
+  file(CONFIGURE OUTPUT ${SCRIPTS}/prerm CONTENT "\
+#!/bin/sh
+set -e
+if command -v py3clean >/dev/null; then
+    py3clean -p ${NAME} ${ARGN}
+fi
+" @ONLY)
+  set(CPACK_DEBIAN_${FIELD}_PACKAGE_CONTROL_EXTRA ${SCRIPTS}/postinst ${SCRIPTS}/prerm)
+endmacro()
+
 unset(CPACK_COMPONENTS_ALL)
 depends_on(FONTS fonts)
 debian_package(program thalweg science "\
@@ -119,23 +141,22 @@ and networks can be handed to GeoPandas and NetworkX.")
   set(CPACK_DEBIAN_PYTHON_PACKAGE_DEPENDS "python3 (>= 3.${MINOR}), python3 (<< 3.${NEXT}), ${NUMPY}")
   depends_on(CPACK_DEBIAN_PYTHON_PACKAGE_RECOMMENDS views)
   set(CPACK_DEBIAN_PYTHON_PACKAGE_SUGGESTS "thalweg-doc")
-  # What Python compiles is no file of the package, and goes with it.
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/postinst CONTENT "\
-#!/bin/sh
-set -e
-if [ \"$1\" = configure ] && command -v py3compile >/dev/null; then
-    py3compile -p python3-thalweg
-fi
-" @ONLY)
-  file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/debian/prerm CONTENT "\
-#!/bin/sh
-set -e
-if command -v py3clean >/dev/null; then
-    py3clean -p python3-thalweg
-fi
-" @ONLY)
-  set(CPACK_DEBIAN_PYTHON_PACKAGE_CONTROL_EXTRA ${PROJECT_BINARY_DIR}/debian/postinst ${PROJECT_BINARY_DIR}/debian/prerm)
+  compiled_by_python(python python3-thalweg)
 endif()
+
+debian_package(qgis qgis-plugin-thalweg science "\
+terrain from its rivers outward - QGIS plugin
+thalweg reads river networks from files, or grows them, and makes the terrain
+around them.
+
+This package contains algorithms for the Processing toolbox of QGIS: make
+terrain, check, repair and convert river networks, measure drainage, make TINs,
+blend DEMs and draw pictures.")
+set(CPACK_DEBIAN_QGIS_PACKAGE_ARCHITECTURE all)
+depends_on(PLUGIN plugin)
+set(CPACK_DEBIAN_QGIS_PACKAGE_DEPENDS "thalweg, python3, ${PLUGIN}")
+set(CPACK_DEBIAN_QGIS_PACKAGE_SUGGESTS "thalweg-doc")
+compiled_by_python(qgis qgis-plugin-thalweg /usr/share/qgis/python/plugins/thalweg_processing)
 
 debian_package(documentation thalweg-doc doc "\
 terrain from its rivers outward - documentation

@@ -15,7 +15,7 @@ class InTheProcessingExecutable(Case):
     @classmethod
     def setUpClass(cls):
         assert qgis_process("plugins", "enable", "thalweg_processing").returncode == 0
-        start()
+        cls.qgis = start()
 
     def assert_made(self, results):
         self.assertFalse(results["error"], results["error"])
