@@ -1,8 +1,8 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# What `cmake --install` leaves, by component. program: bin/thalweg, the program it starts, its manual and completions. library: the
-# library, its headers, and what find_package(thalweg) and pkg-config need. python: see python/CMakeLists.txt. qgis: the plugin of QGIS,
-# where all users of a machine have theirs.
+# What `cmake --install` leaves, by component. program: bin/thalweg, the program it starts, its manual and completions. library:
+# the library, its headers, and what find_package(thalweg) and pkg-config need. python: see python/CMakeLists.txt. qgis: the plugin
+# of QGIS.
 include(CMakePackageConfigHelpers)
 set(PACKAGE_DIR ${CMAKE_INSTALL_LIBDIR}/cmake/thalweg)
 

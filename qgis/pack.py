@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Packs the QGIS plugin for "Install from ZIP", for scripts/package. The same sources and SOURCE_DATE_EPOCH give the same bytes.
-Usage: pack.py OUTPUT_DIR; prints the name of the file."""
+"""Packs the QGIS plugin for "Install from ZIP", for scripts/package. The same sources and SOURCE_DATE_EPOCH give the same
+bytes. Usage: pack.py OUTPUT_DIR; prints the name of the file."""
 import calendar
 import os
 import pathlib

@@ -15,12 +15,12 @@ from qgis.PyQt.QtCore import QUrl
 from qgis.PyQt.QtGui import QIcon
 
 from . import program
-from .layers import File, RasterInput, VectorInput
+from .layers import File, RasterInput, VectorInput, is_given
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MANUAL = "/usr/share/doc/thalweg-doc/docs/qgis.md"  # of Debian's package
-NODATA = ("Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every value as a height. "
-          "Default: refuse values that look like undeclared no-data.")
+NODATA = ("Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every value as a "
+          "height. Default: refuse values that look like undeclared no-data.")
 
 
 def names(text: str) -> list[str]:
@@ -104,8 +104,7 @@ class Algorithm(QgsProcessingAlgorithm):
 
     def is_set(self, parameters: dict[str, Any], name: str) -> bool:
         """Return whether the user gave a parameter."""
-        value = parameters.get(name)
-        return value is not None and value != "" and value != []
+        return is_given(parameters.get(name))
 
     def word(self, parameters: dict[str, Any], name: str, context: QgsProcessingContext) -> str:
         """Return a parameter as a word for the program, "" where it is not set."""
@@ -143,7 +142,8 @@ class Algorithm(QgsProcessingAlgorithm):
         os.makedirs(os.path.dirname(path), exist_ok=True)
         return path
 
-    def prepareAlgorithm(self, parameters: dict[str, Any], context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> bool:
+    def prepareAlgorithm(self, parameters: dict[str, Any], context: QgsProcessingContext,
+                         feedback: QgsProcessingFeedback) -> bool:
         self.inputs = self.take(parameters, context)
         return True
 
@@ -153,7 +153,8 @@ class Algorithm(QgsProcessingAlgorithm):
             found = program.find()
         except program.ProgramError as why:
             raise QgsProcessingException(str(why)) from why
-        with tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(), ignore_cleanup_errors=True) as folder:
+        with tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(),
+                                         ignore_cleanup_errors=True) as folder:
             files = self.written(folder, context, feedback)
             if feedback.isCanceled():
                 return {}

@@ -23,8 +23,8 @@ class Blend(Algorithm):
     TITLE = "Blend DEM into another"
     GROUP = "Terrain"
     TEXT = ("Paste a part of one DEM into another without a seam.\n"
-            "Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so that there is no "
-            "step. Outside the patch the target's heights do not change by a single bit.")
+            "Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so that there "
+            "is no step. Outside the patch the target's heights do not change by a single bit.")
     TAGS = ("poisson", "paste", "patch", "mosaic", "merge", "seamless")
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
@@ -32,22 +32,25 @@ class Blend(Algorithm):
         self.add(QgsProcessingParameterRasterLayer("TARGET", "Target"), "The DEM to paste into.")
         self.add(QgsProcessingParameterRasterLayer("SOURCE", "Source of the patch"),
                  "The DEM to take the patch from. It is warped (bilinear) if its CRS or cells differ.")
-        self.add(QgsProcessingParameterFeatureSource("MASK", "Mask: polygons", [QgsProcessing.TypeVectorPolygon], optional=True),
+        self.add(QgsProcessingParameterFeatureSource("MASK", "Mask: polygons", [QgsProcessing.TypeVectorPolygon],
+                                                     optional=True),
                  "Replace only cells in these polygons.")
         self.add(QgsProcessingParameterRasterLayer("MASK_RASTER", "Mask: raster", optional=True),
                  "Replace only these cells: a raster on the target's grid (neither 0 nor no-data).", advanced=True)
         self.add(QgsProcessingParameterPoint("AT", "Centre of the patch", optional=True),
-                 "Place the centre of the patch here. Default: at the patch's own coordinates, or in the centre of the target if they "
-                 "lie outside it.")
+                 "Place the centre of the patch here. Default: at the patch's own coordinates, or in the centre of the target "
+                 "if they lie outside it.")
         self.add(number("ROTATE", "Rotation [degrees]", number.Double, optional=True), "Rotate the patch counterclockwise.")
-        self.add(number("SCALE", "Scale in plan", number.Double, optional=True, minValue=0), "Scale the patch in plan by this factor.")
+        self.add(number("SCALE", "Scale in plan", number.Double, optional=True, minValue=0),
+                 "Scale the patch in plan by this factor.")
         self.add(number("GAIN", "Scale of heights", number.Double, optional=True), "Multiply heights by this factor.")
         self.add(QgsProcessingParameterString("WINDOW", "Window of the source", optional=True),
-                 "Take only this part of the source: column and row of its north-western cell, number of columns and rows, separated "
-                 "by commas.", advanced=True)
+                 "Take only this part of the source: column and row of its north-western cell, number of columns and rows, "
+                 "separated by commas.", advanced=True)
         self.add(number("FEATHER", "Feather [cells]", number.Double, optional=True, minValue=0),
                  "Blend the target's relief into the patch's over this many cells inside the edge.")
-        self.add(QgsProcessingParameterFeatureSource("KEEP", "Keep heights: lines", [QgsProcessing.TypeVectorLine], optional=True),
+        self.add(QgsProcessingParameterFeatureSource("KEEP", "Keep heights: lines", [QgsProcessing.TypeVectorLine],
+                                                     optional=True),
                  "Keep the heights of cells under these lines, such as rivers.")
         self.add(QgsProcessingParameterRasterLayer("KEEP_RASTER", "Keep heights: raster", optional=True),
                  "Keep the heights of these cells: a raster on the target's grid (neither 0 nor no-data).", advanced=True)
@@ -76,11 +79,13 @@ class Blend(Algorithm):
         if self.is_set(parameters, "AT") and target is not None:
             point = self.parameterAsPoint(parameters, "AT", context, target.crs())
             self.at = f"--at={point.x()!r},{point.y()!r}"
-        rasters = {name: raster_input(self, parameters, name, context) for name in ("TARGET", "SOURCE", "MASK_RASTER", "KEEP_RASTER")}
+        rasters = {name: raster_input(self, parameters, name, context)
+                   for name in ("TARGET", "SOURCE", "MASK_RASTER", "KEEP_RASTER")}
         return {**rasters, **{name: vector_input(self, parameters, name, context) for name in ("MASK", "KEEP")}}
 
     def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
-        self.output = self.file({**parameters, "OUTPUT": self.parameterAsOutputLayer(parameters, "OUTPUT", context)}, "OUTPUT", context)
+        output = self.parameterAsOutputLayer(parameters, "OUTPUT", context)
+        self.output = self.file({**parameters, "OUTPUT": output}, "OUTPUT", context)
         options = [self.at] if self.at else []
         options += self.options(parameters, context, ROTATE="--rotate", SCALE="--scale", GAIN="--gain", FEATHER="--feather",
                                 NODATA="--nodata")

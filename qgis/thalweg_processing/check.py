@@ -25,9 +25,9 @@ class Check(NetworkAlgorithm):
     TITLE = "Check river network"
     GROUP = "Networks"
     TEXT = ("Check the topology of a river network, and its drainage on a DEM.\n"
-            "Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and has the right "
-            "orders and downstream arc. A network in another schema is checked for what it contains. A fault is reported once, "
-            "without its consequences. The network itself is never changed.\n"
+            "Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and has the "
+            "right orders and downstream arc. A network in another schema is checked for what it contains. A fault is "
+            "reported once, without its consequences. The network itself is never changed.\n"
             "With a DEM these also fail: depressions, rivers along the border of the DEM, sources whose water does not reach "
             "their outlet, and rivers that flow paths do not follow.")
     TAGS = ("topology", "validate", "repair", "fix", "rivers", "streams")
@@ -35,8 +35,8 @@ class Check(NetworkAlgorithm):
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         self.add_network()
         self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True),
-                 "Also check that this DEM drains, and by these rivers; the repair finds the flow direction of lines by it. It must "
-                 "have the network's CRS.")
+                 "Also check that this DEM drains, and by these rivers; the repair finds the flow direction of lines by it. "
+                 "It must have the network's CRS.")
         self.add(QgsProcessingParameterNumber("NEAR", "Distance of near line ends [m]", QgsProcessingParameterNumber.Double,
                                               optional=True, minValue=0),
                  "Report line ends closer than this to a line that they do not meet; the repair joins those that meet no other "
@@ -44,8 +44,8 @@ class Check(NetworkAlgorithm):
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
         self.add(QgsProcessingParameterVectorDestination("FIX", "Repaired network", QgsProcessing.TypeVectorLine, optional=True,
                                                          createByDefault=False),
-                 "A repaired copy in the native schema: arcs, and nodes in a second layer. Nothing is written if faults remain. The "
-                 "network may then be any lines.")
+                 "A repaired copy in the native schema: arcs, and nodes in a second layer. Nothing is written if faults "
+                 "remain. The network may then be any lines.")
         self.add(QgsProcessingParameterVectorDestination("FINDINGS", "Findings", QgsProcessing.TypeVectorPoint, optional=True,
                                                          createByDefault=False),
                  "The findings as points (GeoPackage).")

@@ -54,8 +54,10 @@ class Convert(NetworkAlgorithm):
                  "Open the layers of the output that QGIS reads.")
         self.add(QgsProcessingParameterFileDestination("OUTPUT", "Converted network", FILTER),
                  "The file to write; an existing one is replaced.")
-        self.give(QgsProcessingOutputVectorLayer("ARCS", "Arcs", QgsProcessing.TypeVectorLine), "Arcs, in formats that have layers.")
-        self.give(QgsProcessingOutputVectorLayer("NODES", "Nodes", QgsProcessing.TypeVectorPoint), "Nodes, in schemas that have them.")
+        self.give(QgsProcessingOutputVectorLayer("ARCS", "Arcs", QgsProcessing.TypeVectorLine),
+                  "Arcs, in formats that have layers.")
+        self.give(QgsProcessingOutputVectorLayer("NODES", "Nodes", QgsProcessing.TypeVectorPoint),
+                  "Nodes, in schemas that have them.")
         self.give(QgsProcessingOutputRasterLayer("RASTER", "River cells"), "River cells, of a raster output.")
 
     def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:

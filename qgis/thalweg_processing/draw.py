@@ -16,7 +16,7 @@ from .algorithm import NODATA, Algorithm
 from .layers import File, RasterInput, VectorInput, raster_input, vector_input
 from .program import Finished
 
-WHAT = {"map": "Map", "profile": "Long profiles of the rivers", "curve": "Hypsometric curve", "sections": "Sections",
+WHAT = {"map": "Map", "profile": "Long profiles of the rivers", "hypsometry": "Hypsometric curve", "sections": "Sections",
         "wireframe": "Wireframe", "page": "Report page for a browser"}
 FORMATS = ["png", "svg", "pdf"]
 
@@ -28,8 +28,8 @@ class Draw(Algorithm):
     TITLE = "Draw pictures of terrain"
     GROUP = "Pictures"
     TEXT = ("Draw a map, hypsometric curve, sections and a wireframe of a DEM and, with rivers, their long profiles.\n"
-            "A raster larger than 4000 cells a side is averaged; a geographic one is reprojected to its UTM zone. The log reports "
-            "such changes. The results viewer shows the pictures.")
+            "A raster larger than 4000 cells a side is averaged; a geographic one is reprojected to its UTM zone. The log "
+            "reports such changes. The results viewer shows the pictures.")
     TAGS = ("map", "profile", "hypsometry", "wireframe", "section", "picture", "report")
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
@@ -56,7 +56,8 @@ class Draw(Algorithm):
         self.give(QgsProcessingOutputHtml("PAGE", "Report page"), "The report page, if wanted.")
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
-        return {"DEM": raster_input(self, parameters, "DEM", context), "NETWORK": vector_input(self, parameters, "NETWORK", context)}
+        return {"DEM": raster_input(self, parameters, "DEM", context),
+                "NETWORK": vector_input(self, parameters, "NETWORK", context)}
 
     def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
         self.output = self.file(parameters, "OUTPUT", context)
@@ -64,7 +65,8 @@ class Draw(Algorithm):
         formats = self.parameterAsEnumStrings(parameters, "FORMAT", context)
         options = [f"--what={','.join(list(WHAT)[number] for number in chosen)}"] if chosen else []
         options += [f"--format={','.join(formats)}"] if formats else []
-        options += self.options(parameters, context, TITLE="--title", WIDTH="--width", AZIMUTH="--azimuth", ELEVATION="--elevation",
+        options += self.options(parameters, context, TITLE="--title", WIDTH="--width", AZIMUTH="--azimuth",
+                                ELEVATION="--elevation",
                                 EXAGGERATION="--exaggeration", NODATA="--nodata")
         options += [f"--network={files['NETWORK'].path}"] if "NETWORK" in files else []
         return [files["DEM"].path, f"--output={self.output}", *options, "--overwrite"]

@@ -9,13 +9,18 @@ from dataclasses import dataclass
 from typing import Any
 
 from osgeo import gdal, ogr
-from qgis.core import (QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsMapLayer,
+from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsMapLayer,
                        QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSource,
                        QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback, QgsProcessingLayerPostProcessorInterface,
                        QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer)
 from qgis.PyQt import sip
 
 ITS_OWN_ID = "thalweg_fid"  # of an exported feature: a field fid of the layer stays a field
+
+
+def is_given(value: Any) -> bool:
+    """Return whether a parameter has a value; dialogs leave it out as "", None or QGIS's NULL."""
+    return value is not None and value != NULL and value != "" and value != []
 
 
 def crs_text(crs: QgsCoordinateReferenceSystem) -> str:
@@ -65,7 +70,8 @@ class VectorInput:
             if feedback.isCanceled():
                 break
             if not writer.addFeature(feature, QgsFeatureSink.FastInsert):
-                raise QgsProcessingException(f"cannot write feature {feature.id()} of {self.layer_name}: {writer.errorMessage()}")
+                raise QgsProcessingException(f"cannot write feature {feature.id()} of {self.layer_name}: "
+                                             f"{writer.errorMessage()}")
         if not writer.flushBuffer():
             raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
         del writer
@@ -123,7 +129,8 @@ def _is_part(definition: Any) -> bool:
     """Whether a parameter takes a part of a layer's features."""
     if not isinstance(definition, QgsProcessingFeatureSourceDefinition):
         return False
-    return (definition.selectedFeaturesOnly or definition.featureLimit != -1 or bool(getattr(definition, "filterExpression", "")))
+    has_filter = bool(getattr(definition, "filterExpression", ""))  # since QGIS 3.32
+    return definition.selectedFeaturesOnly or definition.featureLimit != -1 or has_filter
 
 
 def _file_of(layer: QgsVectorLayer, takes_layer_name: bool) -> File | None:
@@ -165,7 +172,7 @@ def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
     takes_source_crs : bool
         Whether it can be given the CRS of a file without one.
     """
-    if parameters.get(name) in (None, ""):
+    if not is_given(parameters.get(name)):
         return None
     layer = algorithm.parameterAsVectorLayer(parameters, name, context)
     source = algorithm.parameterAsSource(parameters, name, context)
@@ -180,7 +187,7 @@ def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
 def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str,
                     context: QgsProcessingContext) -> VectorInput | RasterInput | None:
     """Return the vector or raster layer of a parameter."""
-    if parameters.get(name) in (None, ""):
+    if not is_given(parameters.get(name)):
         return None
     layer = algorithm.parameterAsLayer(parameters, name, context)
     if isinstance(layer, QgsRasterLayer):
@@ -202,7 +209,7 @@ def raster_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
     QgsProcessingException
         When QGIS cannot read it, or it does not come from a file that GDAL reads.
     """
-    if parameters.get(name) in (None, ""):
+    if not is_given(parameters.get(name)):
         return None
     layer = algorithm.parameterAsRasterLayer(parameters, name, context)
     if layer is None or not layer.isValid():
@@ -215,13 +222,14 @@ def _raster_of(layer: QgsRasterLayer) -> RasterInput:
         raise QgsProcessingException(f"{layer.name()} does not come from a file: save it as a GeoTIFF and take that")
     provider = layer.dataProvider()
     path = str(QgsProviderRegistry.instance().decodeUri("gdal", layer.source()).get("path") or "")
-    path = os.path.abspath(path) if os.path.exists(path) and "|" not in layer.source() and ":" not in os.path.basename(path) else (
-        layer.source().split("|", 1)[0])
+    is_file = os.path.exists(path) and path == layer.source()  # not a table of a GeoPackage or a part of another file
+    path = os.path.abspath(path) if is_file else layer.source().split("|", 1)[0]
     crs = layer.crs().toWkt(QgsCoordinateReferenceSystem.WKT_PREFERRED) if (
         layer.crs().isValid() and layer.crs() != provider.crs()) else ""
     ranges = provider.userNoDataValues(1)
     if len(ranges) > 1 or any(part.min() != part.max() for part in ranges):
-        raise QgsProcessingException(f"{layer.name()} has several no-data values of its own in QGIS: save it as a GeoTIFF and take that")
+        raise QgsProcessingException(f"{layer.name()} has several no-data values of its own in QGIS: save it as a GeoTIFF and "
+                                     "take that")
     return RasterInput(layer.name(), path, crs, ranges[0].min() if ranges else None)
 
 

@@ -15,7 +15,8 @@ from qgis.core import (QgsCoordinateReferenceSystem, QgsProcessing, QgsProcessin
                        QgsProcessingParameterCrs, QgsProcessingParameterDefinition, QgsProcessingParameterEnum,
                        QgsProcessingParameterExtent, QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
                        QgsProcessingParameterFile, QgsProcessingParameterFolderDestination, QgsProcessingParameterMapLayer,
-                       QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString, QgsUnitTypes)
+                       QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
+                       QgsUnitTypes)
 
 from . import program
 from .algorithm import Algorithm, warn_of_failed
@@ -31,7 +32,8 @@ LEFT_OUT = {"network.lines.path": "the layer RIVERS is that file", "network.line
 FIELDS = ("network.lines.type_field", "network.lines.rank_field", "network.lines.id_field", "network.lines.down_field")
 TEXT_FILES = ("skeleton.points",)  # that QGIS does not open as a layer without being told how
 LARGEST = 2**31 - 1  # whole number of QGIS
-DEM_TEXT = "As an input: take this DEM as the terrain, cell by cell. As an output: the heights of the terrain."  # QGIS keeps one help a name
+# QGIS keeps one help a name.
+DEM_TEXT = "As an input: take this DEM as the terrain, cell by cell. As an output: the heights of the terrain."
 COUNTS = {"two numbers": 2, "three numbers": 3, "four numbers": 4}
 SOURCES = ("RIVERS", "DEM", "RECIPE")
 WITHOUT_INPUT_CELL = 30.0  # [m] of a recipe without CELL
@@ -80,15 +82,16 @@ def parameter_of(key: Key, label: str | None = None) -> QgsProcessingParameterDe
         least, greatest = bounds(key)
         whole = kind == "integer"
         limits: dict[str, float] = {} if least is None else {"minValue": least}
-        if greatest is not None or whole:
-            limits["maxValue"] = min(greatest if greatest is not None else LARGEST, LARGEST) if whole else greatest
+        if whole:
+            limits["maxValue"] = LARGEST if greatest is None else min(greatest, LARGEST)
+        elif greatest is not None:
+            limits["maxValue"] = greatest
         number = QgsProcessingParameterNumber(name, label, QgsProcessingParameterNumber.Integer if whole else
                                               QgsProcessingParameterNumber.Double, optional=True, **limits)
         if not whole:
             number.setMetadata({"widget_wrapper": {"decimals": 12}})
         return number
-    # An expression is more than its choices.
-    if key["choices"] and all(re.fullmatch(r"[\w+-]+", choice) for choice in key["choices"]):
+    if key["choices"] and key["range"] == " | ".join(key["choices"]):  # else it may be an expression, too
         return QgsProcessingParameterEnum(name, label, list(key["choices"]), optional=True, usesStaticStrings=True)
     if key["key"] in FIELDS:
         return QgsProcessingParameterField(name, label, parentLayerParameterName="RIVERS", optional=True)
@@ -105,12 +108,14 @@ class Make(Algorithm):
     COMMAND = "make"
     TITLE = "Make terrain from rivers"
     GROUP = "Terrain"
-    TEXT = ("Make terrain and a river network: around rivers of a layer, from a DEM, from a recipe, or with rivers that thalweg grows.\n"
-            "Rivers get heights, and the terrain is shaped around them. thalweg chooses the grid and its cell size from the rivers. A "
-            "DEM is taken as the terrain, cell by cell. The recipe in the folder holds everything that decides the result: the same "
-            "recipe gives the same bytes on any machine. The folder is written completely or not at all.\n"
+    TEXT = ("Make terrain and a river network: around rivers of a layer, from a DEM, from a recipe, or with rivers that "
+            "thalweg grows.\n"
+            "Rivers get heights, and the terrain is shaped around them. thalweg chooses the grid and its cell size from the "
+            "rivers. A DEM is taken as the terrain, cell by cell. The recipe in the folder holds everything that decides the "
+            "result: the same recipe gives the same bytes on any machine. The folder is written completely or not at all.\n"
             "Each advanced parameter is a key of the recipe; one that is left empty keeps its value.")
-    TAGS = ("terrain", "dem", "rivers", "synthetic", "landscape evolution", "catchments", "contours", "recipe", "dla", "tokunaga")
+    TAGS = ("terrain", "dem", "rivers", "synthetic", "landscape evolution", "catchments", "contours", "recipe", "dla",
+            "tokunaga")
 
     def __init__(self) -> None:
         super().__init__()
@@ -130,8 +135,8 @@ class Make(Algorithm):
             if name in by_name:
                 self.add(parameter_of(by_name[name], label), help_of(by_name[name]))
         self.add(QgsProcessingParameterExtent("EXTENT", "Extent of the grid", optional=True),
-                 "The grid covers this extent, in whole cells. Its CRS is that of the terrain, else that of the rivers or the DEM, else "
-                 "the extent's own. Default: that of the rivers and a margin of 5 %.")
+                 "The grid covers this extent, in whole cells. Its CRS is that of the terrain, else that of the rivers or the "
+                 "DEM, else the extent's own. Default: that of the rivers and a margin of 5 %.")
         self.add(QgsProcessingParameterCrs("CRS", "CRS of the terrain", optional=True),
                  "A projected CRS in metres. Default: that of the rivers or the DEM, or its UTM zone.")
         for name, label in (("output.units", "Unit of heights"), ("output.title", "Title")):
@@ -141,7 +146,8 @@ class Make(Algorithm):
             if key["key"] not in PLAIN and key["key"] not in LEFT_OUT:
                 self.add(parameter_of(key), help_of(key), advanced=True)
         titles = [title for _, _, title, _ in LAYERS.values()]
-        self.add(QgsProcessingParameterEnum("LOAD", "Open after running", titles, allowMultiple=True, optional=True, defaultValue=[0, 1]),
+        self.add(QgsProcessingParameterEnum("LOAD", "Open after running", titles, allowMultiple=True, optional=True,
+                                            defaultValue=[0, 1]),
                  "Layers that QGIS opens. project.qgz in the folder is a project with all of them.")
         self.add(QgsProcessingParameterFolderDestination("OUTPUT", "Folder"),
                  "Files that an earlier run wrote to it are replaced; other files are kept.")
@@ -187,14 +193,16 @@ class Make(Algorithm):
         if given.isValid():
             return given
         source = self.parameterAsVectorLayer(parameters, "RIVERS", context) if self.is_set(parameters, "RIVERS") else None
-        return source.crs() if source is not None and source.crs().isValid() else self.parameterAsExtentCrs(parameters, "EXTENT", context)
+        if source is not None and source.crs().isValid():
+            return source.crs()
+        return self.parameterAsExtentCrs(parameters, "EXTENT", context)
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
         self.grid: dict[str, str] = {}
         if self.is_set(parameters, "EXTENT"):
             crs = self.grid_crs(parameters, context)
             extent = self.parameterAsExtent(parameters, "EXTENT", context, crs)
-            cell = self.parameterAsDouble(parameters, "CELL", context) if self.is_set(parameters, "CELL") else WITHOUT_INPUT_CELL
+            cell = float(self.word(parameters, "CELL", context) or WITHOUT_INPUT_CELL)
             self.grid = grid_of(extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum(), cell)
             self.grid["grid.crs"] = crs_text(crs)
         elif self.is_set(parameters, "CRS"):
@@ -282,4 +290,5 @@ def grid_of(west: float, south: float, east: float, north: float, cell: float) -
     """Return the keys of the smallest grid of cells that covers a box; its corners are multiples of the cell size."""
     column, row = math.floor(west / cell), math.ceil(north / cell)
     width, height = math.ceil(east / cell) - column, row - math.floor(south / cell)
-    return {"grid.width": str(max(width, 1)), "grid.height": str(max(height, 1)), "grid.origin": f"[{column * cell!r}, {row * cell!r}]"}
+    return {"grid.width": str(max(width, 1)), "grid.height": str(max(height, 1)),
+            "grid.origin": f"[{column * cell!r}, {row * cell!r}]"}

@@ -17,7 +17,8 @@ from .program import Finished
 
 WHAT = {"d8": "Contributing area, D8", "dinf": "Contributing area, D-infinity", "directions": "Flow directions of both",
         "catchments": "Catchments and basins of the rivers"}
-RASTERS = {"AREA_D8": ("area_d8.tif", "Contributing area (D8)"), "AREA_DINF": ("area_dinf.tif", "Contributing area (D-infinity)"),
+RASTERS = {"AREA_D8": ("area_d8.tif", "Contributing area (D8)"),
+           "AREA_DINF": ("area_dinf.tif", "Contributing area (D-infinity)"),
            "DIRECTION_D8": ("direction_d8.tif", "Flow direction (D8)"),
            "DIRECTION_DINF": ("direction_dinf.tif", "Flow direction (D-infinity)")}
 
@@ -29,10 +30,10 @@ class Measure(NetworkAlgorithm):
     TITLE = "Measure drainage of DEM"
     GROUP = "Terrain"
     TEXT = ("Write contributing areas, flow directions and catchments of a DEM.\n"
-            "Contributing areas are in m2. D8 directions are 1 to 128 clockwise from east, 0 at outlets; D-infinity directions are "
-            "radians counterclockwise from east, -1 at outlets. Flow is routed through depressions and flats; the DEM is not "
-            "changed. A catchment holds the cells whose flow reaches a river first at its arc; the catchments tile all cells that "
-            "drain to a river.")
+            "Contributing areas are in m2. D8 directions are 1 to 128 clockwise from east, 0 at outlets; D-infinity "
+            "directions are radians counterclockwise from east, -1 at outlets. Flow is routed through depressions and flats; "
+            "the DEM is not changed. A catchment holds the cells whose flow reaches a river first at its arc; the catchments "
+            "tile all cells that drain to a river.")
     TAGS = ("flow accumulation", "flow direction", "d8", "d-infinity", "catchment", "watershed", "basin", "hydrology")
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:

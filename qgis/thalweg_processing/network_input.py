@@ -19,9 +19,11 @@ class NetworkAlgorithm(Algorithm):
 
     def add_network(self, optional: bool = False) -> None:
         """Declare NETWORK, NETWORK_NODES, FROM and FIELDS."""
-        self.add(QgsProcessingParameterFeatureSource("NETWORK", "River network", [QgsProcessing.TypeVectorLine], optional=optional),
+        self.add(QgsProcessingParameterFeatureSource("NETWORK", "River network", [QgsProcessing.TypeVectorLine],
+                                                     optional=optional),
                  "Lines of the rivers, in any schema that thalweg knows.")
-        self.add(QgsProcessingParameterFeatureSource("NETWORK_NODES", "Nodes of the network", [QgsProcessing.TypeVectorPoint], optional=True),
+        self.add(QgsProcessingParameterFeatureSource("NETWORK_NODES", "Nodes of the network", [QgsProcessing.TypeVectorPoint],
+                                                     optional=True),
                  "Points of the network's nodes. Default: those in the file of the network.", advanced=True)
         self.add(QgsProcessingParameterEnum("FROM", "Schema of the network", SCHEMAS, optional=True, usesStaticStrings=True),
                  "Field names, units and line directions of the network. Default: recognised by its fields.", advanced=True)

@@ -28,7 +28,8 @@ NO_WINDOW = getattr(subprocess, "CREATE_NO_WINDOW", 0)  # of Windows, which open
 STAGES: dict[str, dict[str, tuple[int, int]]] = {
     "make": {"shape": (0, 1), "read": (0, 3), "raster": (0, 3), "grow": (3, 14), "thin": (14, 15), "trace": (15, 16),
              "embed": (14, 16), "adopt": (14, 16), "sea": (16, 17), "prune": (17, 18), "meander": (18, 20), "raise": (20, 21),
-             "channels": (20, 21), "ridge": (21, 22), "scatter": (21, 22), "tin": (21, 25), "valleys": (25, 48), "fill": (22, 50),
+             "channels": (20, 21), "ridge": (21, 22), "scatter": (21, 22), "tin": (21, 25), "valleys": (25, 48),
+             "fill": (22, 50),
              "land": (5, 48), "project": (48, 50), "detail": (50, 52), "blend": (50, 54), "carve": (54, 55), "drain": (55, 57),
              "measure": (57, 60), "catchments": (60, 61), "certify": (61, 63), "ridges": (63, 64), "areas": (64, 65),
              "laws": (65, 66), "relief": (66, 75), "check": (75, 76), "contours": (80, 85), "outline": (90, 92)},
@@ -80,7 +81,8 @@ def _located() -> str:
     if os.path.isdir(path):
         raise ProgramError(f"{path} is a folder. Name the program thalweg itself in {WHERE}.")
     if not os.path.exists(path):
-        raise ProgramError(f"there is no program {path}. Correct its name in {WHERE}, or leave it empty to take thalweg from PATH.")
+        raise ProgramError(f"there is no program {path}. Correct its name in {WHERE}, or leave it empty to take thalweg from "
+                           "PATH.")
     if not os.access(path, os.X_OK):
         raise ProgramError(f"{path} is not executable. Make it so, or name another program in {WHERE}.")
     return path
@@ -92,20 +94,21 @@ def _said(path: str, *arguments: str) -> str:
         done = subprocess.run([path, *arguments], stdin=subprocess.DEVNULL, capture_output=True, timeout=ASKED_WITHIN,
                               creationflags=NO_WINDOW)
     except subprocess.TimeoutExpired:
-        raise ProgramError(f"{path} does not answer within {ASKED_WITHIN} s. Is it thalweg? {WHERE} names the program.") from None
+        words = f"{path} does not answer within {ASKED_WITHIN} s. Is it thalweg? {WHERE} names the program."
+        raise ProgramError(words) from None
     except OSError as why:
         raise ProgramError(f"{path} does not start: {why.strerror}. {WHERE} names the program.") from why
     if done.returncode != 0:
         words = done.stderr.decode("utf-8", "replace").strip()
-        raise ProgramError(f"{path} {' '.join(arguments)}: {_ended(done.returncode)}. {words[:400]}\nIs it thalweg? {WHERE} names "
-                           "the program.")
+        raise ProgramError(f"{path} {' '.join(arguments)}: {_ended(done.returncode)}. {words[:400]}\n"
+                           f"Is it thalweg? {WHERE} names the program.")
     return done.stdout.decode("utf-8", "replace")
 
 
 def _asked(path: str) -> Program:
     if "--progress" not in _said(path, "make", "--help"):
-        raise ProgramError(f"{path} is older than this plugin needs: it has no option --progress. Install a newer thalweg, or name "
-                           f"another program in {WHERE}.")
+        raise ProgramError(f"{path} is older than this plugin needs: it has no option --progress. Install a newer thalweg, or "
+                           f"name another program in {WHERE}.")
     try:
         keys = tuple(json.loads(_said(path, "recipe", "--json"))["keys"])
     except (ValueError, KeyError, TypeError):
@@ -153,6 +156,10 @@ def _read_lines(stream: Any, lines: queue.SimpleQueue[bytes | None]) -> None:
     for line in stream:
         lines.put(line)
     lines.put(None)
+
+
+def _read_all(stream: Any, printed: list[bytes]) -> None:
+    printed.append(stream.read())
 
 
 class _Listener:
@@ -231,14 +238,16 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
     command = [program.path, *arguments]
     feedback.pushCommandInfo(shlex.join(command))
     try:
-        process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
-                                   creationflags=NO_WINDOW)
+        process = subprocess.Popen(command, cwd=folder, stdin=subprocess.DEVNULL, stdout=subprocess.PIPE,
+                                   stderr=subprocess.PIPE, creationflags=NO_WINDOW)
     except OSError as why:
         raise QgsProcessingException(f"{program.path} does not start: {why.strerror}. {WHERE} names the program.") from why
+    out, err = process.stdout, process.stderr
+    assert out is not None and err is not None
     lines: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
     printed: list[bytes] = []
-    readers = [threading.Thread(target=_read_lines, args=(process.stderr, lines), daemon=True),
-               threading.Thread(target=lambda: printed.append(process.stdout.read()), daemon=True)]
+    readers = [threading.Thread(target=_read_lines, args=(err, lines), daemon=True),
+               threading.Thread(target=_read_all, args=(out, printed), daemon=True)]
     for reader in readers:
         reader.start()
     listener = _Listener(arguments[0], feedback)
@@ -263,8 +272,8 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
             _stop(process)
         for reader in readers:
             reader.join(ENDS_WITHIN)
-        for stream in (process.stdout, process.stderr):
-            stream.close()
+        out.close()
+        err.close()
     return _finished(process.returncode, b"".join(printed), listener.error)
 
 

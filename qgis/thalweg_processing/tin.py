@@ -16,8 +16,8 @@ from .layers import File, RasterInput, VectorInput, crs_text, open_after, raster
 from .program import Finished
 
 FORMATS = ["2dm", "ply", "gpkg", "obj", "off", "landxml", "las", "xyz", "ply-points"]
-FILTER = ("2DM mesh (*.2dm);;PLY mesh (*.ply);;GeoPackage, a polygon per triangle (*.gpkg);;Wavefront OBJ (*.obj);;OFF (*.off);;"
-          "LandXML (*.xml);;Points: LAS (*.las);;Points: text (*.xyz)")
+FILTER = ("2DM mesh (*.2dm);;PLY mesh (*.ply);;GeoPackage, a polygon per triangle (*.gpkg);;Wavefront OBJ (*.obj);;OFF "
+          "(*.off);;LandXML (*.xml);;Points: LAS (*.las);;Points: text (*.xyz)")
 SOURCES = ("DEM", "POINTS", "TEXT", "LINES")
 KINDS = {".2dm": "mesh", ".ply": "mesh", ".gpkg": "vector"}
 
@@ -34,15 +34,19 @@ class Tin(Algorithm):
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True), "Heights of a grid.")
-        self.add(QgsProcessingParameterFeatureSource("POINTS", "Points with heights", [QgsProcessing.TypeVectorPoint], optional=True),
+        self.add(QgsProcessingParameterFeatureSource("POINTS", "Points with heights", [QgsProcessing.TypeVectorPoint],
+                                                     optional=True),
                  "Points with Z.")
-        self.add(QgsProcessingParameterFile("TEXT", "Points as text", optional=True, fileFilter="Text (*.csv *.xyz *.txt);;All files (*)"),
+        self.add(QgsProcessingParameterFile("TEXT", "Points as text", optional=True,
+                                            fileFilter="Text (*.csv *.xyz *.txt);;All files (*)"),
                  "A file of lines with x, y and z (CSV or XYZ).")
-        self.add(QgsProcessingParameterFeatureSource("LINES", "Lines with heights", [QgsProcessing.TypeVectorLine], optional=True),
+        self.add(QgsProcessingParameterFeatureSource("LINES", "Lines with heights", [QgsProcessing.TypeVectorLine],
+                                                     optional=True),
                  "Lines with Z, as edges: rivers, ridges, contours.")
         self.add(QgsProcessingParameterFeatureSource("BREAKLINES", "Breaklines", [QgsProcessing.TypeVectorLine], optional=True),
                  "Use these lines with Z as edges, in addition to points.")
-        self.add(QgsProcessingParameterNumber("ERROR", "Largest vertical error of a DEM's TIN [m]", QgsProcessingParameterNumber.Double,
+        self.add(QgsProcessingParameterNumber("ERROR", "Largest vertical error of a DEM's TIN [m]",
+                                              QgsProcessingParameterNumber.Double,
                                               optional=True, minValue=0),
                  "Default: 1.")
         self.add(QgsProcessingParameterCrs("CRS", "CRS of the TIN", optional=True),
@@ -50,9 +54,11 @@ class Tin(Algorithm):
         self.add(QgsProcessingParameterCrs("SOURCE_CRS", "CRS of points as text", optional=True),
                  "Read points as text in this CRS; the TIN is then in the CRS above.", advanced=True)
         self.add(QgsProcessingParameterString("COLUMNS", "Columns of points as text", optional=True),
-                 "Names of the first line or numbers from 1, such as 3,2,4; or pnezd (number, northing, easting, height, description).",
+                 "Names of the first line or numbers from 1, such as 3,2,4; or pnezd (number, northing, easting, height, "
+                 "description).",
                  advanced=True)
-        self.add(QgsProcessingParameterEnum("DUPLICATES", "Points at one place but unequal heights", ["mean", "error"], optional=True,
+        self.add(QgsProcessingParameterEnum("DUPLICATES", "Points at one place but unequal heights", ["mean", "error"],
+                                            optional=True,
                                             usesStaticStrings=True),
                  "Merge them into their mean (the default), or refuse the file.", advanced=True)
         self.add(QgsProcessingParameterEnum("FORMAT", "Format", FORMATS, optional=True, usesStaticStrings=True),
@@ -60,7 +66,8 @@ class Tin(Algorithm):
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
         self.add(QgsProcessingParameterBoolean("LOAD", "Open the TIN after running", defaultValue=True),
                  "Open a 2DM or PLY as a mesh layer, a GeoPackage as polygons. A 2DM names no CRS: the layer gets it.")
-        self.add(QgsProcessingParameterFileDestination("OUTPUT", "TIN", FILTER), "The file to write; an existing one is replaced.")
+        self.add(QgsProcessingParameterFileDestination("OUTPUT", "TIN", FILTER),
+                 "The file to write; an existing one is replaced.")
         self.give(QgsProcessingOutputMapLayer("TIN", "TIN"), "The TIN as a layer, in formats that QGIS reads.")
         self.give(QgsProcessingOutputNumber("VERTICES", "Number of vertices"), "Number of vertices.")
         self.give(QgsProcessingOutputNumber("TRIANGLES", "Number of triangles"), "Number of triangles.")
@@ -81,7 +88,8 @@ class Tin(Algorithm):
 
     def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
         self.output = self.file(parameters, "OUTPUT", context)
-        source = next((files[name].path for name in SOURCES if name in files), None) or self.parameterAsFile(parameters, "TEXT", context)
+        source = next((files[name].path for name in SOURCES if name in files), None) or self.parameterAsFile(parameters, "TEXT",
+                                                                                                             context)
         options = self.options(parameters, context, ERROR="--error", COLUMNS="--columns", DUPLICATES="--duplicates",
                                FORMAT="--format", NODATA="--nodata")
         for name, flag in (("CRS", "--crs"), ("SOURCE_CRS", "--source-crs")):

@@ -13,6 +13,7 @@ application, plugin = start()
 
 from qgis.core import (QgsApplication, QgsProcessingContext, QgsProcessingParameterNumber,  # noqa: E402
                        QgsProcessingParameterDefinition)
+from processing.gui.AlgorithmDialog import AlgorithmDialog  # noqa: E402
 from thalweg_processing import make, program as runner  # noqa: E402
 
 KEYS = json.loads(program("recipe", "--json").stdout)["keys"]
@@ -29,7 +30,8 @@ class WhatTheProgramTakes(Case):
         for command in runner.STAGES:
             said = program("help", command).stdout
             files = [command, *shared] + (["network_input"] if command in ("check", "convert", "measure") else [])
-            options = {found for file in files for found in re.findall(r"(?<![\w-])--[a-z][a-z-]+", SOURCES[file])} - {"--help", "--version"}
+            options = {found for file in files for found in re.findall(r"(?<![\w-])--[a-z][a-z-]+", SOURCES[file])}
+            options -= {"--help", "--version"}
             if command not in ("check", "convert", "measure"):
                 options.discard("--field")
             self.assertGreater(len(options), 5)
@@ -48,7 +50,8 @@ class WhatTheProgramTakes(Case):
                 self.assertIn(f'"{option}', sources.replace("f\"", "\"").replace("[\"", "\""), f"{command} {option}")
 
     def test_every_word_of_a_choice_is_taken(self):
-        for command, option, words in (("tin", "--format", "FORMATS"), ("convert", "--format", "FORMATS"), ("draw", "--what", "WHAT"),
+        for command, option, words in (("tin", "--format", "FORMATS"), ("convert", "--format", "FORMATS"),
+                                       ("draw", "--what", "WHAT"),
                                        ("measure", "--what", "WHAT"), ("check", "--schema", "SCHEMAS")):
             module = __import__(f"thalweg_processing.{command if words != 'SCHEMAS' else 'network_input'}", fromlist=[words])
             said = re.search(rf"{option}.*?(?=\n +-|\n\n)", program("help", command).stdout, re.DOTALL)[0]
@@ -59,8 +62,10 @@ class WhatTheProgramTakes(Case):
         instance = algorithm("make")
         names = [definition.name() for definition in instance.parameterDefinitions()]
         self.assertEqual(len(names), len({name.lower() for name in names}))
-        kinds = {"integer": {"number"}, "number": {"number"}, "yes/no": {"enum"}, "text": {"string", "enum", "layer", "file", "field", "crs"},
-                 "integer or text": {"enum"}, "two numbers": {"string"}, "three numbers": {"string"}, "four numbers": {"string"}}
+        kinds = {"integer": {"number"}, "number": {"number"}, "yes/no": {"enum"},
+                 "text": {"string", "enum", "layer", "file", "field", "crs"},
+                 "integer or text": {"enum"}, "two numbers": {"string"}, "three numbers": {"string"},
+                 "four numbers": {"string"}}
         for key in KEYS:
             if key["key"] in make.LEFT_OUT:
                 self.assertTrue(make.LEFT_OUT[key["key"]])
@@ -74,7 +79,8 @@ class WhatTheProgramTakes(Case):
                 self.assertTrue(definition.flags() & QgsProcessingParameterDefinition.FlagAdvanced, key["key"])
                 self.assertTrue(definition.description().startswith(key["key"].rpartition(".")[0] + ": "))
             if definition.type() == "number":
-                self.assertEqual(definition.dataType() == QgsProcessingParameterNumber.Integer, key["type"] == "integer", key["key"])
+                self.assertEqual(definition.dataType() == QgsProcessingParameterNumber.Integer, key["type"] == "integer",
+                                 key["key"])
                 self.assertLess(definition.minimum(), definition.maximum())
                 numbers = re.findall(r"[-\d.e+]+", key["range"])
                 self.assertEqual(definition.minimum(), float(numbers[0]), key["key"])
@@ -88,10 +94,21 @@ class WhatTheProgramTakes(Case):
         for key in [*make.PLAIN, *make.LEFT_OUT, *make.FIELDS, *make.TEXT_FILES]:
             self.assertIn(key, [known["key"] for known in KEYS])
 
-    def test_a_key_left_empty_is_not_passed(self):
-        instance = algorithm("make")
-        instance.grid = {}
-        self.assertEqual(instance.settings({"OUTPUT": str(self.folder / "x")}, QgsProcessingContext(), {}), {})
+    def test_a_dialog_as_it_opens_sets_nothing(self):
+        for command in ("make", "tin"):  # the others want a layer
+            instance = algorithm(command)
+            dialog = AlgorithmDialog(algorithm(command))  # which owns that one
+            parameters = dialog.createProcessingParameters()
+            self.assertLessEqual({"OUTPUT", "LOAD"}, set(parameters))
+            context = QgsProcessingContext()
+            if command == "make":
+                self.assertEqual(instance.checkParameterValues(parameters, context), (True, ""))
+                instance.inputs = instance.take(parameters, context)
+                self.assertEqual(instance.settings(parameters, context, {}), {})
+                self.assertEqual([word.split("=")[0] for word in instance.arguments(parameters, context, {})],
+                                 ["--output", "--overwrite"])
+            else:
+                self.assertIn("not none", instance.checkParameterValues(parameters, context)[1])
 
     def test_every_value_is_read_as_it_was_given(self):
         """A dry run takes one value of each key; what it refuses is not how the value is written."""
@@ -103,13 +120,17 @@ class WhatTheProgramTakes(Case):
             instance.grid = {}
             name = make.parameter_name(key["key"])
             least, greatest = make.bounds(key)
-            value = {"integer": lambda: int(greatest or 5) if (greatest or 5) < 99 else int((least or 0) + 9),
-                     "number": lambda: ((least or 0) + min(greatest if greatest is not None else 1, (least or 0) + 1)) / 2}.get(
-                         key["type"], lambda: key["choices"][-1] if key["choices"] else numbers.get(key["type"], "x"))()
+            if key["type"] == "integer":
+                value = int(greatest) if greatest is not None and greatest < 99 else int((least or 0) + 9)
+            elif key["type"] == "number":
+                value = ((least or 0) + min(greatest if greatest is not None else 1, (least or 0) + 1)) / 2
+            else:
+                value = key["choices"][-1] if key["choices"] else numbers.get(key["type"], "x")
             settings = instance.settings({name: value}, QgsProcessingContext(), {})
             self.assertEqual(list(settings), [key["key"]])
             done = program("make", "--dry-run", "--set", f"{key['key']}={settings[key['key']]}", "-o", self.folder / "x")
-            self.assertNotRegex(done.stderr, "is required|must be one of|unknown key|cannot read the value", f"{key['key']} {value}")
+            self.assertNotRegex(done.stderr, "is required|must be one of|unknown key|cannot read the value",
+                                f"{key['key']} {value}")
 
     def test_help_is_complete(self):
         for command in runner.STAGES:
@@ -132,11 +153,13 @@ class WhatTheProgramTakes(Case):
     def test_shared_checks_come_before_the_program(self):
         context = QgsProcessingContext()
         for command, parameters, words in (
-                ("blend", {"TARGET": str(JACKSBORO), "SOURCE": str(JACKSBORO), "MASK": str(COAST), "MASK_RASTER": str(JACKSBORO)},
+                ("blend",
+                 {"TARGET": str(JACKSBORO), "SOURCE": str(JACKSBORO), "MASK": str(COAST), "MASK_RASTER": str(JACKSBORO)},
                  "Give MASK or MASK_RASTER, not both"),
                 ("check", {"NETWORK": str(COAST), "FINDINGS": str(self.folder / "x.shp")}, "GeoPackage"),
                 ("make", {"EXTENT": "0,1,0,1 [EPSG:4326]", "OUTPUT": "x"}, "CRS: give a projected CRS in metres"),
-                ("make", {"EXTENT": "0,900,0,900 [EPSG:32631]", "GRID_ORIGIN": "1,2", "OUTPUT": "x"}, "Give EXTENT or GRID_ORIGIN, not both"),
+                ("make", {"EXTENT": "0,900,0,900 [EPSG:32631]", "GRID_ORIGIN": "1,2", "OUTPUT": "x"},
+                 "Give EXTENT or GRID_ORIGIN, not both"),
                 ("make", {"DEM": str(JACKSBORO), "SURFACE_SOURCE": str(JACKSBORO), "OUTPUT": "x"}, "SURFACE_SOURCE"),
                 ("tin", {"OUTPUT": "x.2dm"}, "not none"),
                 ("tin", {"DEM": str(JACKSBORO), "BREAKLINES": str(COAST), "OUTPUT": "x.2dm"}, "takes no breaklines")):

@@ -13,11 +13,12 @@ application, plugin = start()
 
 import processing  # noqa: E402
 from osgeo import gdal  # noqa: E402
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRequest, QgsGeometry, QgsPoint,  # noqa: E402
-                       QgsProcessing, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSourceDefinition,
-                       QgsProcessingFeedback, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm,
-                       QgsProcessingModelChildParameterSource, QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition,
-                       QgsProcessingUtils, QgsProject, QgsRasterLayer, QgsRasterRange, QgsVectorLayer)
+from qgis.core import (  # noqa: E402
+    QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRequest, QgsGeometry, QgsProcessing,
+    QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
+    QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProcessingModelChildParameterSource,
+    QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer,
+    QgsRasterRange, QgsRectangle, QgsVectorLayer)
 from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
 
 GRID = {"GRID_WIDTH": 96, "GRID_HEIGHT": 96, "CELL": 30}
@@ -60,7 +61,8 @@ class Layers(Case):
     def checked(self, network, **parameters):
         """The report of check on a layer."""
         said = Said()
-        results = processing.run("thalweg:check", {"NETWORK": network, "FIX": str(self.folder / "fixed.gpkg"), **parameters}, feedback=said)
+        results = processing.run("thalweg:check", {"NETWORK": network, "FIX": str(self.folder / "fixed.gpkg"), **parameters},
+                                 feedback=said)
         self.assertEqual(self.leftovers(), [])
         return results, said
 
@@ -91,7 +93,8 @@ class Layers(Case):
         options = QgsVectorFileWriter.SaveVectorOptions()
         options.driverName, options.layerName = "GPKG", layer_name
         options.layerOptions = ["FID=own_id"]
-        assert QgsVectorFileWriter.writeAsVectorFormatV3(layer, str(path), QgsProject.instance().transformContext(), options)[0] == 0
+        assert QgsVectorFileWriter.writeAsVectorFormatV3(layer, str(path), QgsProject.instance().transformContext(),
+                                                         options)[0] == 0
         return path
 
     def test_layer_of_a_geopackage_with_quotes_in_its_names(self):
@@ -164,7 +167,8 @@ class Layers(Case):
         self.assertRegex(said.errors[0], "tiles does not come from a file: save it as a GeoTIFF")
 
     def test_nodes_of_another_layer(self):
-        self.assertEqual(program("make", "-o", self.folder / "made", "--set", "grid.width=128", "--set", "grid.height=128", "--set",
+        self.assertEqual(program("make", "-o", self.folder / "made", "--set", "grid.width=128", "--set", "grid.height=128",
+                                 "--set",
                                  "network.forest.outlet_spacing=0").returncode, 0)
         source = self.folder / "made/network.gpkg"
         arcs, nodes = (QgsVectorLayer(f"{source}|layername={name}", name, "ogr") for name in ("arcs", "nodes"))
@@ -183,12 +187,13 @@ class Layers(Case):
     def test_make_takes_layers_for_keys(self):
         region = QgsVectorLayer("Polygon?crs=EPSG:32631", "region", "memory")
         feature = QgsFeature()
-        feature.setGeometry(QgsGeometry.fromWkt("Polygon ((500300 4999700, 502500 4999700, 502500 4997400, 500300 4997400, 500300 4999700))"))
+        feature.setGeometry(QgsGeometry.fromRect(QgsRectangle(500300, 4997400, 502500, 4999700)))
         region.dataProvider().addFeature(feature)
         said = Said()
         results = processing.run("thalweg:make", {
             "NETWORK_SOURCE": "forest", "NETWORK_FOREST_REGION": region, "CRS": QgsCoordinateReferenceSystem("EPSG:32631"),
-            "OUTPUT": str(self.folder / "out"), "GRID_ORIGIN": "500000, 5000000", "NETWORK_MEANDER": 0.25, "OUTPUT_CATCHMENTS": "false",
+            "OUTPUT": str(self.folder / "out"), "GRID_ORIGIN": "500000, 5000000", "NETWORK_MEANDER": 0.25,
+                                                  "OUTPUT_CATCHMENTS": "false",
             "NETWORK_FOREST_OUTLET_SPACING": 0, "TITLE": 'a "title" é', **GRID}, feedback=said)
         recipe = tomllib.loads((self.folder / "out/recipe.toml").read_text())
 
@@ -255,7 +260,8 @@ class Opened(Case):
 
     def test_make_opens_what_is_wanted_with_its_styles(self):
         results, layers = self.opened("make", {
-            "OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 3, 5], "NETWORK_FOREST_OUTLET_SPACING": 0, "SURFACE_METHOD": "tin",
+            "OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 3, 5], "NETWORK_FOREST_OUTLET_SPACING": 0,
+                                               "SURFACE_METHOD": "tin",
             "SKELETON_TIN": "true", **GRID})
         self.assertEqual(set(layers), {"DEM", "Rivers", "Catchments", "TIN"})
         self.assertEqual(layers["TIN"].crs().authid(), "EPSG:32631")

@@ -32,14 +32,16 @@ class Package(Case):
             names = packed.namelist()
             self.assertEqual(names, sorted(names))
             self.assertEqual({name.split("/")[0] for name in names}, {"thalweg_processing"})
-            self.assertLessEqual({f"thalweg_processing/{name}" for name in ("metadata.txt", "__init__.py", "icon.svg", "LICENSE")}, set(names))
+            self.assertLessEqual({f"thalweg_processing/{name}"
+                                  for name in ("metadata.txt", "__init__.py", "icon.svg", "LICENSE")}, set(names))
             self.assertEqual({info.date_time for info in packed.infolist()}, {(2023, 11, 14, 22, 13, 20)})
             metadata = configparser.ConfigParser(interpolation=None)
             metadata.read_string(packed.read("thalweg_processing/metadata.txt").decode())
         version = re.search(r"^project\(thalweg VERSION (\S+)", (ROOT / "CMakeLists.txt").read_text(), re.MULTILINE)[1]
         self.assertEqual(metadata["general"]["version"], version)
         self.assertIn(version, one.name)
-        self.assertEqual((metadata["general"]["qgisMinimumVersion"], metadata["general"]["hasProcessingProvider"]), ("3.22", "yes"))
+        self.assertEqual((metadata["general"]["qgisMinimumVersion"], metadata["general"]["hasProcessingProvider"]),
+                         ("3.22", "yes"))
 
     def test_installed_into_an_empty_profile(self):
         home = self.folder / "home"
@@ -47,7 +49,8 @@ class Package(Case):
         plugins.mkdir(parents=True)
         with zipfile.ZipFile(self.packed("one")) as packed:
             packed.extractall(plugins)
-        environment = {name: value for name, value in ENVIRONMENT.items() if name not in ("QGIS_PLUGINPATH", "QGIS_CUSTOM_CONFIG_PATH")}
+        environment = {name: value for name,
+                       value in ENVIRONMENT.items() if name not in ("QGIS_PLUGINPATH", "QGIS_CUSTOM_CONFIG_PATH")}
         environment["HOME"] = str(home)
         self.assertEqual(qgis_process("plugins", "enable", "thalweg_processing", environment=environment).returncode, 0)
         listed = json.loads(qgis_process("--json", "list", environment=environment).stdout)

@@ -34,7 +34,8 @@ class InTheProcessingExecutable(Case):
         self.assert_made(results)
         self.assertTrue(results["CHECKS_OK"])
         self.assertEqual(program("check", self.folder / "coast").returncode, 0)
-        self.assertEqual(program("make", COAST, "-o", self.folder / "alone", "--set", "seed=9", "--set", "grid.cell=150").returncode, 0)
+        self.assertEqual(program("make", COAST, "-o", self.folder / "alone", "--set", "seed=9", "--set",
+                                 "grid.cell=150").returncode, 0)
         same_files(self, self.folder / "coast", self.folder / "alone")
         self.assert_layers(results, ["ARCS", "NODES", "CATCHMENTS", "CONTOURS"], ["DEM"])
         dem, arcs = results["DEM"], results["ARCS"]
@@ -54,9 +55,13 @@ class InTheProcessingExecutable(Case):
         self.assert_layers(results, ["ARCS"])
         self.assertEqual(program("check", self.folder / "streams.shp", "--schema", "taudem").returncode, 0)
 
-        results = run("draw", DEM=dem, NETWORK=arcs, OUTPUT=self.folder / "pictures")
+        results = run("draw", DEM=dem, NETWORK=arcs, WHAT="0,1,2,5", FORMAT="png,svg", OUTPUT=self.folder / "pictures")
         self.assert_made(results)
-        self.assertIn("profile.png", pathlib.Path(results["PICTURES"]).read_text())
+        page = pathlib.Path(results["PICTURES"]).read_text()
+        for name in ("map.png", "map.svg", "profile.png", "hypsometry.svg"):
+            self.assertIn(f'src="{name}"', page)
+            self.assertTrue((self.folder / "pictures" / name).exists())
+        self.assertIn("<html", pathlib.Path(results["PAGE"]).read_text())
 
     def test_make_from_a_dem_and_from_a_recipe_and_from_nothing(self):
         results = run("make", DEM=JACKSBORO, OUTPUT=self.folder / "dem", SURFACE_DRAIN="carve")
@@ -66,7 +71,8 @@ class InTheProcessingExecutable(Case):
         self.assert_layers(results, ["CONTOURS"], ["DEM"])
         results = run("make", RECIPE=JACKSBORO.parent / "lines.toml", OUTPUT=self.folder / "lines", UNITS="ft")
         self.assert_made(results)
-        self.assertEqual(program("make", JACKSBORO.parent / "lines.toml", "-o", self.folder / "lines2", "--units", "ft").returncode, 0)
+        self.assertEqual(program("make", JACKSBORO.parent / "lines.toml", "-o", self.folder / "lines2", "--units",
+                                 "ft").returncode, 0)
         same_files(self, self.folder / "lines", self.folder / "lines2")
         results = run("make", OUTPUT=self.folder / "grown", EXTENT="500010,507000,5000010,5007000[EPSG:32632]",
                       NETWORK_FOREST_OUTLET_SPACING=0)
@@ -102,7 +108,8 @@ class InTheProcessingExecutable(Case):
                       OUTPUT=self.folder / "blended.tif")
         self.assert_made(results)
         self.assert_layers(results, [], ["OUTPUT"])
-        alone = program("blend", BIGTUJUNGA, JACKSBORO, "--window", "10,10,100,120", "--rotate", "30", "--feather", "4", "--mixed", "-o",
+        alone = program("blend", BIGTUJUNGA, JACKSBORO, "--window", "10,10,100,120", "--rotate", "30", "--feather", "4",
+                        "--mixed", "-o",
                         self.folder / "alone.tif", "--json")
         self.assertEqual(alone.returncode, 0, alone.stderr)
         self.assertEqual((self.folder / "blended.tif").read_bytes(), (self.folder / "alone.tif").read_bytes())
@@ -110,14 +117,18 @@ class InTheProcessingExecutable(Case):
 
     def test_words_of_refusals(self):
         for algorithm, parameters, words in (
-                ("make", {"RIVERS": COAST, "DEM": JACKSBORO, "OUTPUT": self.folder / "x"}, "Give one of RIVERS, DEM and RECIPE"),
-                ("make", {"GRID_CELL": 3, "STATISTICS_MAX": "1,2", "OUTPUT": self.folder / "x"}, "STATISTICS_MAX: write three numbers"),
+                ("make", {"RIVERS": COAST, "DEM": JACKSBORO, "OUTPUT": self.folder / "x"},
+                 "Give one of RIVERS, DEM and RECIPE"),
+                ("make", {"GRID_CELL": 3, "STATISTICS_MAX": "1,2", "OUTPUT": self.folder / "x"},
+                 "STATISTICS_MAX: write three numbers"),
                 ("make", {"RIVERS": COAST, "EXTENT": "0,1,0,1", "OUTPUT": self.folder / "x"}, "CELL: an extent with rivers"),
                 ("make", {"RECIPE": self.folder / "no.toml", "OUTPUT": self.folder / "x"}, "no.toml"),
-                ("tin", {"DEM": JACKSBORO, "LINES": COAST, "OUTPUT": self.folder / "x.2dm"}, "Give exactly one of DEM, POINTS, TEXT"),
+                ("tin", {"DEM": JACKSBORO, "LINES": COAST, "OUTPUT": self.folder / "x.2dm"},
+                 "Give exactly one of DEM, POINTS, TEXT"),
                 ("measure", {"DEM": JACKSBORO, "WHAT": 3, "OUTPUT": self.folder / "x"}, "catchments need rivers"),
                 ("check", {"NETWORK": COAST, "FIELDS": "arc_id", "OUTPUT": "x"}, "write QUANTITY=NAME"),
-                ("blend", {"TARGET": JACKSBORO, "SOURCE": JACKSBORO, "WINDOW": "1,2", "OUTPUT": self.folder / "x.tif"}, "WINDOW: write")):
+                ("blend", {"TARGET": JACKSBORO, "SOURCE": JACKSBORO, "WINDOW": "1,2", "OUTPUT": self.folder / "x.tif"},
+                 "WINDOW: write")):
             results = run(algorithm, **parameters)
             self.assertIn(words, results["error"], algorithm)
         self.assertEqual(os.listdir(self.folder), [])

@@ -177,7 +177,8 @@ class Wrong(WithSetting):
         self.fails("kill -KILL $$", "thalweg failed: it was ended by SIGKILL")
 
     def test_its_own_words(self):
-        self.fails("echo 'warning: w' >&2; echo 'error: first line' >&2; echo '  second line' >&2; exit 1", "^first line\n  second line$")
+        self.fails("echo 'warning: w' >&2; echo 'error: first line' >&2; echo '  second line' >&2; exit 1",
+                   "^first line\n  second line$")
 
     def test_wrong_option(self):
         self.fails("exit 2", "it ended with exit status 2")
@@ -199,7 +200,8 @@ class Wrong(WithSetting):
         self.assertEqual(len(said.lines), 3000)
 
     def test_lines_that_are_almost_progress(self):
-        self.fake(f"printf '{{\"stage\": 1}}\\n{{broken\\n\\377\\n{{\"stage\": \"check\", \"share\": 7}}\\n' >&2; echo '{REPORT}'")
+        self.fake("printf '{\"stage\": 1}\\n{broken\\n\\377\\n{\"stage\": \"check\", \"share\": 7}\\n' >&2\n"
+                  f"echo '{REPORT}'")
         said = Said()
         self.assertTrue(run("check", {"NETWORK": str(COAST)}, said)["OK"])
         self.assertEqual(said.lines[:3], ['{"stage": 1}', "{broken", "\ufffd"])

@@ -26,7 +26,8 @@ SMALL = {"GRID_WIDTH": 128, "GRID_HEIGHT": 128, "NETWORK_FOREST_OUTLET_SPACING":
 
 for name in ("home", "run", "temp"):
     (PROFILE / name).mkdir(mode=0o700)
-ENVIRONMENT = {**os.environ, "HOME": str(PROFILE / "home"), "XDG_RUNTIME_DIR": str(PROFILE / "run"), "TMPDIR": str(PROFILE / "temp"),
+ENVIRONMENT = {**os.environ, "HOME": str(PROFILE / "home"), "XDG_RUNTIME_DIR": str(PROFILE / "run"),
+               "TMPDIR": str(PROFILE / "temp"),
                "QT_QPA_PLATFORM": "offscreen", "QGIS_CUSTOM_CONFIG_PATH": str(PROFILE / "home"), "QGIS_PLUGINPATH": PLUGINS,
                "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8"}
 # Debian 12 has a wrapper that passes an option which QGIS does not know.
@@ -35,7 +36,8 @@ QGIS_PROCESS = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
 
 def program(*arguments):
     """Run the program by itself."""
-    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, env=ENVIRONMENT, stdin=subprocess.DEVNULL)
+    return subprocess.run([PROGRAM, *map(str, arguments)], capture_output=True, text=True, env=ENVIRONMENT,
+                          stdin=subprocess.DEVNULL)
 
 
 def qgis_process(*arguments, environment=None):
@@ -63,7 +65,8 @@ def run(algorithm, **parameters):
 
 def same_files(test, one, other, without=("report.html", "report.json")):
     """Two folders hold the same files."""
-    names = [sorted(p.relative_to(folder).as_posix() for p in pathlib.Path(folder).rglob("*") if p.is_file()) for folder in (one, other)]
+    names = [sorted(p.relative_to(folder).as_posix() for p in pathlib.Path(folder).rglob("*") if p.is_file())
+             for folder in (one, other)]
     names = [[name for name in some if name not in without] for some in names]
     test.assertEqual(*names)
     test.assertTrue(names[0])
