@@ -24,7 +24,7 @@ struct Session {
     bool verbose = false;
     bool json = false;
     bool progress = false; ///< as lines of JSON
-    Run run; ///< ready when the command is called
+    Run run;               ///< ready when the command is called
 };
 
 /// A command adds its options to the app and returns its action. help.hpp describes how help, manual and completion

@@ -36,8 +36,8 @@ std::string toned(Tone tone, std::string_view text, std::FILE* stream);
 void write_to_stderr(std::string_view text) noexcept;
 
 /// Output to stderr: finished lines, and on a terminal a bar with rate and time left below them. Stages shorter than
-/// 0.3 s show no bar. For other programs the progress is a line of JSON instead: at the beginning and end of each stage,
-/// and between them at most ten a second.
+/// 0.3 s show no bar. For other programs the progress is a line of JSON instead: at the beginning and end of each
+/// stage, and between them at most ten a second.
 class Terminal {
 public:
     enum class Manner { talk, quiet };

@@ -38,7 +38,7 @@ struct Table {
     std::function<std::vector<Vec3>(std::size_t row)>
         shape_at; ///< one position for a point; a closed ring for a polygon
     std::function<std::vector<Polygon>(std::size_t row)> parts_at =
-        {}; ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
+        {};                 ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
     std::string style = {}; ///< by which QGIS draws it (QgisStyle), a default of the GeoPackage; "": none
 };
 

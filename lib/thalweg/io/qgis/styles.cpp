@@ -113,6 +113,30 @@ std::string categorised(std::string const& field, std::vector<Category> const& c
                        xml_escaped(field), order.empty() ? 0 : 1, list, symbols_text(symbols), order);
 }
 
+struct KindRule {
+    std::string label;
+    NodeKind kind;
+    double from_scale; // the scale's denominator up to which nodes are drawn; 0: at any scale
+    Symbol symbol;
+};
+
+/// Rules by the field kind.
+std::string by_rules(std::vector<KindRule> const& rules) {
+    std::string list;
+    std::vector<Symbol> symbols;
+    for (KindRule const& rule : rules) {
+        std::string const scales =
+            rule.from_scale > 0.0 ? fmt::format(" scalemindenom=\"1\" scalemaxdenom=\"{}\"", rule.from_scale) : "";
+        list += fmt::format("<rule key=\"thalweg_{0}\" label=\"{1}\" symbol=\"{0}\" filter=\"{2}\"{3}/>",
+                            symbols.size(), xml_escaped(rule.label),
+                            xml_escaped(fmt::format("\"kind\" = '{}'", name_of(rule.kind))), scales);
+        symbols.push_back(rule.symbol);
+    }
+    return fmt::format("<renderer-v2 type=\"RuleRenderer\" symbollevels=\"0\" enableorderby=\"0\" forceraster=\"0\">"
+                       "<rules key=\"thalweg\">{}</rules>{}</renderer-v2>",
+                       list, symbols_text(symbols));
+}
+
 struct Rgb {
     double red, green, blue;
 };
@@ -227,13 +251,12 @@ QgisStyle river_style(std::string const& order_field, int highest, RiverWidths c
 
 QgisStyle node_style() {
     constexpr Rgb red{200, 40, 40};
-    return categorised(
-        "kind",
-        {{std::string(name_of(NodeKind::source)), "Source", marker("circle", 1.0, white, dark_river)},
-         {std::string(name_of(NodeKind::confluence)), "Confluence", marker("circle", 1.1, dark_river, white)},
-         {std::string(name_of(NodeKind::outlet)), "Outlet", marker("triangle", 2.2, red, white)},
-         {std::string(name_of(NodeKind::sink)), "Sink", marker("diamond", 2.4, red, white)},
-         {std::string(name_of(NodeKind::pseudo)), "Pseudo-node", marker("circle", 0.7, {150, 150, 150}, white)}});
+    constexpr double detailed = 200000.0; // at smaller scales they would hide the rivers
+    return by_rules({{"Outlet", NodeKind::outlet, 0.0, marker("triangle", 2.2, red, white)},
+                     {"Sink", NodeKind::sink, 0.0, marker("diamond", 2.4, red, white)},
+                     {"Confluence", NodeKind::confluence, detailed, marker("circle", 1.1, dark_river, white)},
+                     {"Source", NodeKind::source, detailed, marker("circle", 1.0, white, dark_river)},
+                     {"Pseudo-node", NodeKind::pseudo, detailed, marker("circle", 0.7, {150, 150, 150}, white)}});
 }
 
 QgisStyle ridge_style() {
