@@ -95,8 +95,9 @@ def toolbox_open():
 def begin():
     """An empty project with the rivers, as QGIS has them when their file is dropped into its window."""
     fresh()
-    rivers = iface.addVectorLayer(str(SAMPLES / "coastal_nhdplus.gpkg"), "coastal_nhdplus — coastal_example", "ogr")
-    rivers.renderer().symbol().setColor(QColor("#8a7a9a"))  # QGIS takes a random one
+    rivers = iface.addVectorLayer(str(SAMPLES / "coastal_nhdplus.gpkg"), "coastal_nhdplus", "ogr")
+    rivers.renderer().symbol().setColor(QColor("#7a7a7a"))  # QGIS takes a random one
+    iface.layerTreeView().refreshLayerSymbology(rivers.id())
     QgsProject.instance().setCrs(rivers.crs())
     iface.mapCanvas().setExtent(rivers.extent())
     return rivers
