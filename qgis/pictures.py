@@ -122,7 +122,8 @@ def ten_minutes():
     iface.setActiveLayer(layers["Findings"])
     iface.showAttributeTable(layers["Findings"])
     wait(1)
-    table = next(view for view in iface.mainWindow().findChildren(QTableView) if view.isVisible() and view.model().columnCount() > 3)
+    table = next(view for view in iface.mainWindow().findChildren(QTableView)
+                 if view.isVisible() and view.model().columnCount() > 3)
     for column, pixels in enumerate((0, 140, 80, 0, 740)):  # without fid and amount
         table.setColumnWidth(column, pixels)
     iface.mainWindow().resizeDocks([parent_dock(table)], [290], Qt.Vertical)

@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""What docs/qgis.md says: its Python prints what it says, its commands (blocks marked console) run, the ten minutes give its numbers,
-and its table holds what the algorithms and the program say."""
+"""Holds docs/qgis.md to what QGIS does: its Python prints what it says, its commands (blocks marked console) run, the ten minutes
+give its numbers, and its tables name the algorithms, their parameters and outputs, and the words of errors."""
 import contextlib
 import inspect
 import io
@@ -22,8 +22,9 @@ application, plugin = start()
 
 import processing  # noqa: E402
 from osgeo import gdal  # noqa: E402
-from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsProcessingException, QgsProcessingFeedback,  # noqa: E402
-                       QgsProject, QgsVectorLayer)
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsProcessing, QgsProcessingException,  # noqa: E402
+                       QgsProcessingFeedback, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProject,
+                       QgsVectorLayer)
 import thalweg_processing.program  # noqa: E402
 
 
@@ -74,10 +75,12 @@ class Page(Case):
         tools.mkdir()
         (tools / "qgis_process").symlink_to(QGIS_PROCESS)
         environment = {**ENVIRONMENT, "PATH": f"{tools}:{ENVIRONMENT['PATH']}"}
-        commands = [line[2:] for block in re.findall(r"^```console\n(.*?)^```", TEXT, re.S | re.M) for line in block.splitlines()]
+        blocks = re.findall(r"^```console\n(.*?)^```", TEXT, re.S | re.M)
+        commands = [line[2:] for block in blocks for line in block.splitlines()]
         self.assertGreater(len(commands), 1)
         for command in commands:
-            done = subprocess.run(["bash", "-c", command], env=environment, capture_output=True, text=True, stdin=subprocess.DEVNULL)
+            done = subprocess.run(["bash", "-c", command], env=environment, capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL)
             self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
 
     def test_ten_minutes(self):
@@ -130,6 +133,16 @@ class Page(Case):
         made, _ = run("make", RIVERS=lines, CELL=150, SKELETON_TIN="true", OUTPUT="with_tin")
         self.assertTrue(os.path.exists(made["TIN"]))
         project.clear()
+
+    def test_the_model(self):
+        model = QgsProcessingModelAlgorithm("terrain and its catchments")
+        for name in ("make", "measure"):
+            child = QgsProcessingModelChildAlgorithm(f"thalweg:{name}")
+            child.setChildId(name)
+            model.addChildAlgorithm(child)
+        for kind, shapes, output in (("outputRaster", [], "DEM"), ("outputVector", [QgsProcessing.TypeVectorLine], "ARCS")):
+            sources = model.availableSourcesForChild("measure", [], [kind], shapes)
+            self.assertIn(("make", output), {(source.outputChildId(), source.outputName()) for source in sources})
 
     def test_algorithms_are_those_of_the_table(self):
         rows = re.findall(r"^\| ([^|]+) \| `thalweg:(\w+)` \| (.*) \| (.*) \|$", TEXT, re.M)
