@@ -1,8 +1,8 @@
 #!/usr/bin/python3
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds docs/qgis.md to what QGIS does: its Python prints what it says, its commands (blocks marked console) run, the ten minutes
-give its numbers, and its tables name the algorithms, their parameters and outputs, and the words of errors."""
+"""Holds docs/qgis.md to what QGIS does: its Python prints what it says, its commands (blocks marked console) run, the ten
+minutes give its numbers, and its tables name the algorithms, their parameters and outputs, and the words of errors."""
 import contextlib
 import inspect
 import io
@@ -99,7 +99,8 @@ class Page(Case):
                  ("several_outflows", "duplicate_geometry", "ds_arc_mismatch")}
         self.assertEqual(sum(kinds.values()), checked["FINDINGS_COUNT"])
         self.assert_says("three checks that failed", f"{checked['FINDINGS_COUNT']} findings.", *kinds)
-        self.assert_says(f"{kinds['several_outflows']} findings are nodes", f"{kinds['duplicate_geometry']} is a line drawn twice",
+        self.assert_says(f"{kinds['several_outflows']} findings are nodes",
+                         f"{kinds['duplicate_geometry']} is a line drawn twice",
                          f"{kinds['ds_arc_mismatch']} names the wrong river")
         secondary = count("repaired.gpkg|layername=secondary")
         self.assert_says(f"repaired network has {count(checked['FIX'])} arcs", f"Minor channels, {secondary} lines")
@@ -110,7 +111,8 @@ class Page(Case):
             grid = json.load(file)["recipe"]["grid"]
         checks, outlets = re.search(r"check +(\d+) checks, (\d+) outlets", log).groups()
         sea = re.search(r"sea +(\d+) % of the grid", log)[1]
-        self.assert_says(f"{grid['width']} × {grid['height']} cells of {grid['cell']:g} m in {grid['crs']}", f"All {checks} checks pass",
+        self.assert_says(f"{grid['width']} × {grid['height']} cells of {grid['cell']:g} m in {grid['crs']}",
+                         f"All {checks} checks pass",
                          f"{count(made['ARCS'])} arcs reach {outlets} outlets, and {sea} % of the grid is sea")
         project = QgsProject.instance()
         self.assertTrue(project.read(made["PROJECT"]))
@@ -147,7 +149,8 @@ class Page(Case):
     def test_algorithms_are_those_of_the_table(self):
         rows = re.findall(r"^\| ([^|]+) \| `thalweg:(\w+)` \| (.*) \| (.*) \|$", TEXT, re.M)
         registry = QgsApplication.processingRegistry()
-        self.assertEqual({name for _, name, _, _ in rows}, {one.name() for one in registry.providerById("thalweg").algorithms()})
+        algorithms = registry.providerById("thalweg").algorithms()
+        self.assertEqual({name for _, name, _, _ in rows}, {one.name() for one in algorithms})
         for title, name, given, gives in rows:
             algorithm = registry.algorithmById(f"thalweg:{name}")
             self.assertEqual(algorithm.displayName(), title)
