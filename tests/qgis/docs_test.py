@@ -130,7 +130,7 @@ class Page(Case):
         drawn, _ = run("draw", DEM=heights, NETWORK=rivers, OUTPUT="pictures")
         self.assertEqual(sorted(name for name in os.listdir("pictures") if name.endswith(".png")),
                          ["hypsometry.png", "map.png", "profile.png", "sections.png", "wireframe.png"])
-        blended, _ = run("blend", TARGET=heights, SOURCE=str(BIGTUJUNGA), KEEP=rivers, FEATHER=8, OUTPUT="pasted.tif")
+        blended, _ = run("blend", TARGET=heights, SOURCE="samples/bigtujunga_srtm1_utm11.tif", KEEP=rivers, FEATHER=8, OUTPUT="pasted.tif")
         self.assert_says(f"replaces {blended['CELLS']} cells")
         made, _ = run("make", RIVERS=lines, CELL=150, SKELETON_TIN="true", OUTPUT="with_tin")
         self.assertTrue(os.path.exists(made["TIN"]))

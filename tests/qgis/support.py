@@ -29,7 +29,8 @@ for name in ("home", "run", "temp"):
 ENVIRONMENT = {**os.environ, "HOME": str(PROFILE / "home"), "XDG_RUNTIME_DIR": str(PROFILE / "run"),
                "TMPDIR": str(PROFILE / "temp"),
                "QT_QPA_PLATFORM": "offscreen", "QGIS_CUSTOM_CONFIG_PATH": str(PROFILE / "home"), "QGIS_PLUGINPATH": PLUGINS,
-               "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8"}
+               "PATH": f"{PROGRAM.parent}:{os.environ['PATH']}", "PYTHONDONTWRITEBYTECODE": "1", "LC_ALL": "C.UTF-8",
+               "GDAL_PAM_ENABLED": "NO"}  # statistics beside the samples
 # Debian 12 has a wrapper that passes an option which QGIS does not know.
 QGIS_PROCESS = shutil.which("qgis_process.bin") or shutil.which("qgis_process")
 

@@ -146,6 +146,13 @@ TEST(Samples, NoArgumentsMakeTheSampleValley) {
     same_bytes(place / "valley", place / "sample");
 }
 
+TEST(Samples, DefaultsYieldToTheKeysThatReplaceThem) {
+    Workplace const place;
+    std::string const small_forest = "make --set grid.width=96 --set grid.height=96 --set network.forest.seeds=3 ";
+    expect_run(place, small_forest + "--dry-run", 0);
+    expect_run(place, small_forest + "--set network.forest.outlet_spacing=40 --dry-run", 2);
+}
+
 TEST(Samples, EveryIncrementAndMetric) {
     Workplace const place;
     for (char const* increment : {"uniform", "decreasing", "rise_fall", "'3-0.01*x'"}) {

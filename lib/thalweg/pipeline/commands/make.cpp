@@ -30,7 +30,11 @@ Recipe recipe_without_file(std::vector<std::string> const& assignments) {
     for (std::string const& assignment : assignments) {
         set_key(asked, assignment);
     }
-    return default_recipe_on(asked.grid.width, asked.grid.height);
+    Recipe recipe = default_recipe_on(asked.grid.width, asked.grid.height);
+    if (asked.network && (asked.network->forest.seeds > 0 || !asked.network->forest.outlets.empty())) {
+        recipe.network->forest.outlet_spacing_cells = 0; // outlets are chosen otherwise
+    }
+    return recipe;
 }
 
 Recipe recipe_of(MakeParams const& params) {
