@@ -1,0 +1,185 @@
+#!/usr/bin/python3
+# SPDX-FileCopyrightText: the thalweg authors
+# SPDX-License-Identifier: GPL-3.0-or-later
+"""Holds docs/qgis.md to what QGIS does: its Python prints what it says, its commands (blocks marked console) run, the ten
+minutes give its numbers, and its tables name the algorithms, their parameters and outputs, and the words of errors."""
+import contextlib
+import inspect
+import io
+import json
+import os
+import re
+import shutil
+import subprocess
+
+from support import BIGTUJUNGA, COAST, ENVIRONMENT, QGIS_PROCESS, ROOT, SAMPLES, Case, main, start
+
+PAGE = ROOT / "docs/qgis.md"
+TEXT = PAGE.read_text(encoding="utf-8")
+WORDS = " ".join(TEXT.split())
+
+application, plugin = start()
+
+import processing  # noqa: E402
+from osgeo import gdal  # noqa: E402
+from qgis.core import (QgsApplication, QgsCoordinateReferenceSystem, QgsProcessing, QgsProcessingException,  # noqa: E402
+                       QgsProcessingFeedback, QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProject,
+                       QgsVectorLayer)
+import thalweg_processing.program  # noqa: E402
+
+
+class Said(QgsProcessingFeedback):
+    """The log of an algorithm."""
+
+    def __init__(self):
+        super().__init__()
+        self.lines = []
+
+    def pushInfo(self, text):
+        self.lines.append(text)
+
+    def pushWarning(self, text):
+        self.lines.append(text)
+
+
+def count(source, wanted=""):
+    """Features of a layer that an expression selects; without one, all."""
+    layer = QgsVectorLayer(source, "layer", "ogr")
+    layer.setSubsetString(wanted)
+    return layer.featureCount()
+
+
+class Page(Case):
+    def setUp(self):
+        super().setUp()
+        shutil.copytree(SAMPLES, self.folder / "samples")
+        self.enterContext(contextlib.chdir(self.folder))
+
+    def assert_says(self, *phrases):
+        for phrase in phrases:
+            self.assertIn(phrase, WORDS)
+
+    def test_python_prints_what_it_says(self):
+        space, blocks = {"__name__": "page"}, list(re.finditer(r"^```python\n(.*?)^```", TEXT, re.S | re.M))
+        self.assertGreater(len(blocks), 1)
+        for block in blocks:
+            said, lines = io.StringIO(), "\n" * TEXT.count("\n", 0, block.start(1))  # tracebacks name lines of the page
+            with contextlib.redirect_stdout(said):
+                exec(compile(lines + block[1], str(PAGE), "exec"), space)
+            self.assertEqual(said.getvalue().splitlines(), re.findall(r"^print\(.*\)  # (.*)$", block[1], re.M))
+        space.clear()
+        QgsProject.instance().clear()
+
+    def test_commands_run(self):
+        tools = self.folder / "bin"
+        tools.mkdir()
+        (tools / "qgis_process").symlink_to(QGIS_PROCESS)
+        environment = {**ENVIRONMENT, "PATH": f"{tools}:{ENVIRONMENT['PATH']}"}
+        blocks = re.findall(r"^```console\n(.*?)^```", TEXT, re.S | re.M)
+        commands = [line[2:] for block in blocks for line in block.splitlines()]
+        self.assertGreater(len(commands), 1)
+        for command in commands:
+            done = subprocess.run(["bash", "-c", command], env=environment, capture_output=True, text=True,
+                                  stdin=subprocess.DEVNULL)
+            self.assertEqual(done.returncode, 0, f"{command}\n{done.stdout}{done.stderr}")
+
+    def test_ten_minutes(self):
+        def run(name, **parameters):
+            said = Said()
+            results = processing.run(f"thalweg:{name}", parameters, feedback=said)
+            return results, "\n".join(said.lines)
+
+        lines = QgsVectorLayer("samples/coastal_nhdplus.gpkg", "rivers", "ogr")
+        self.assert_says(f"{lines.featureCount()} lines")
+        checked, log = run("check", NETWORK=lines, FIX="repaired.gpkg", FINDINGS="findings.gpkg")
+        self.assertFalse(checked["OK"])
+        failed, = re.findall("These checks failed: (.*)", log)
+        self.assertEqual(failed.count("allowed"), 3)
+        kinds = {kind: count(checked["FINDINGS"], f"kind = '{kind}'") for kind in
+                 ("several_outflows", "duplicate_geometry", "ds_arc_mismatch")}
+        self.assertEqual(sum(kinds.values()), checked["FINDINGS_COUNT"])
+        self.assert_says("three checks that failed", f"{checked['FINDINGS_COUNT']} findings.", *kinds)
+        self.assert_says(f"{kinds['several_outflows']} findings are nodes",
+                         f"{kinds['duplicate_geometry']} is a line drawn twice",
+                         f"{kinds['ds_arc_mismatch']} names the wrong river")
+        secondary = count("repaired.gpkg|layername=secondary")
+        self.assert_says(f"repaired network has {count(checked['FIX'])} arcs", f"Minor channels, {secondary} lines")
+
+        made, log = run("make", RIVERS=lines, OUTPUT="coast")
+        self.assertTrue(made["CHECKS_OK"])
+        with open("coast/report.json", encoding="utf-8") as file:
+            grid = json.load(file)["recipe"]["grid"]
+        checks, outlets = re.search(r"check +(\d+) checks, (\d+) outlets", log).groups()
+        sea = re.search(r"sea +(\d+) % of the grid", log)[1]
+        self.assert_says(f"{grid['width']} × {grid['height']} cells of {grid['cell']:g} m in {grid['crs']}",
+                         f"All {checks} checks pass",
+                         f"{count(made['ARCS'])} arcs reach {outlets} outlets, and {sea} % of the grid is sea")
+        project = QgsProject.instance()
+        self.assertTrue(project.read(made["PROJECT"]))
+        self.assertLessEqual({"Rivers", "Heights", "Hillshade"}, {layer.name() for layer in project.mapLayers().values()})
+        rivers, heights = (project.mapLayersByName(name)[0] for name in ("Rivers", "Heights"))
+
+        checked, _ = run("check", NETWORK=rivers, DEM=heights)
+        self.assertTrue(checked["OK"])
+        self.assert_says(f"The {checked['FINDINGS_COUNT']} findings are places")
+        measured, log = run("measure", DEM=heights, NETWORK=rivers, OUTPUT="measures")
+        self.assert_says(f"{count(measured['CATCHMENTS'])} catchments and {count(measured['BASINS'])} basins",
+                         f"{re.search('water of ([0-9]+) cells', log)[1]} cells drain")
+        tin, _ = run("tin", DEM=heights, ERROR=20, OUTPUT="coast.2dm")
+        self.assert_says(f"{tin['VERTICES']} vertices and {tin['TRIANGLES']} triangles")
+        drawn, _ = run("draw", DEM=heights, NETWORK=rivers, OUTPUT="pictures")
+        self.assertEqual(sorted(name for name in os.listdir("pictures") if name.endswith(".png")),
+                         ["hypsometry.png", "map.png", "profile.png", "sections.png", "wireframe.png"])
+        blended, _ = run("blend", TARGET=heights, SOURCE="samples/bigtujunga_srtm1_utm11.tif", KEEP=rivers, FEATHER=8, OUTPUT="pasted.tif")
+        self.assert_says(f"replaces {blended['CELLS']} cells")
+        made, _ = run("make", RIVERS=lines, CELL=150, SKELETON_TIN="true", OUTPUT="with_tin")
+        self.assertTrue(os.path.exists(made["TIN"]))
+        project.clear()
+
+    def test_the_model(self):
+        model = QgsProcessingModelAlgorithm("terrain and its catchments")
+        for name in ("make", "measure"):
+            child = QgsProcessingModelChildAlgorithm(f"thalweg:{name}")
+            child.setChildId(name)
+            model.addChildAlgorithm(child)
+        for kind, shapes, output in (("outputRaster", [], "DEM"), ("outputVector", [QgsProcessing.TypeVectorLine], "ARCS")):
+            sources = model.availableSourcesForChild("measure", [], [kind], shapes)
+            self.assertIn(("make", output), {(source.outputChildId(), source.outputName()) for source in sources})
+
+    def test_algorithms_are_those_of_the_table(self):
+        rows = re.findall(r"^\| ([^|]+) \| `thalweg:(\w+)` \| (.*) \| (.*) \|$", TEXT, re.M)
+        registry = QgsApplication.processingRegistry()
+        algorithms = registry.providerById("thalweg").algorithms()
+        self.assertEqual({name for _, name, _, _ in rows}, {one.name() for one in algorithms})
+        for title, name, given, gives in rows:
+            algorithm = registry.algorithmById(f"thalweg:{name}")
+            self.assertEqual(algorithm.displayName(), title)
+            parameters = {one.name() for one in algorithm.parameterDefinitions()}
+            outputs = {one.name() for one in algorithm.outputDefinitions()}
+            self.assertLessEqual(set(re.findall("`([A-Z_0-9]+)`", given)), parameters, name)
+            self.assertLessEqual(set(re.findall("`([A-Z_0-9]+)`", gives)), outputs, name)
+            if name != "convert":  # no step of the ten minutes
+                self.assert_says(f"{algorithm.group()} > {title}")
+
+    def test_what_is_wrong_is_said_so(self):
+        degrees = str(self.folder / "degrees.tif")
+        layer = QgsVectorLayer(str(COAST), "rivers", "ogr")
+        layer.setCrs(QgsCoordinateReferenceSystem())
+        gdal.Warp(degrees, str(BIGTUJUNGA), dstSRS="EPSG:4326")
+        for words, name, parameters in (
+                ("has no CRS", "make", {"RIVERS": layer, "OUTPUT": "x"}),
+                ("are geographic", "measure", {"DEM": degrees, "OUTPUT": "x"}),
+                ("2 arcs leave the node", "convert", {"NETWORK": str(COAST), "OUTPUT": "x.gpkg"}),
+                ("CELL: an extent with rivers or a recipe needs the cell size", "make",
+                 {"RIVERS": str(COAST), "EXTENT": "0,1,0,1", "OUTPUT": "x"})):
+            with self.assertRaises(QgsProcessingException) as refused:
+                processing.run(f"thalweg:{name}", parameters)
+            self.assertIn(words, str(refused.exception))
+            self.assert_says(words)
+        for words in ("the program thalweg is not in PATH", "is older than this plugin needs"):  # program_test.py hears them
+            self.assertIn(words, inspect.getsource(thalweg_processing.program))
+            self.assert_says(words)
+
+
+if __name__ == "__main__":
+    main()
