@@ -79,12 +79,19 @@ std::string map_layer(QgisLayer const& layer, std::string const& id, std::string
     return out + "\n" + layer.style + "\n</maplayer>\n";
 }
 
+std::string legend_of(QgisLayer const& layer) {
+    return layer.legend.empty() ? "<Option/>"
+                                : fmt::format("<Option type=\"Map\"><Option type=\"QString\" "
+                                              "name=\"legend/label-0\" value=\"{}\"/></Option>",
+                                              xml_escaped(layer.legend));
+}
+
 std::string tree_layer(QgisLayer const& layer, std::string const& id) {
     return fmt::format("<layer-tree-layer id=\"{}\" name=\"{}\" source=\"{}\" providerKey=\"{}\" checked=\"{}\" "
-                       "expanded=\"{}\" legend_exp=\"\"><customproperties><Option/></customproperties>"
+                       "expanded=\"{}\" legend_exp=\"\"><customproperties>{}</customproperties>"
                        "</layer-tree-layer>\n",
                        id, xml_escaped(layer.title), xml_escaped(source_of(layer)), layer_words[layer.kind].provider,
-                       layer.is_shown ? "Qt::Checked" : "Qt::Unchecked", layer.is_expanded ? 1 : 0);
+                       layer.is_shown ? "Qt::Checked" : "Qt::Unchecked", layer.is_expanded ? 1 : 0, legend_of(layer));
 }
 
 int byte_of(std::string const& colour, std::size_t at) {

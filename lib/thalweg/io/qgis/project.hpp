@@ -21,6 +21,7 @@ struct QgisLayer {
     QgisStyle style = {};
     bool is_shown = true;
     bool is_expanded = false; ///< its legend
+    std::string legend = {};  ///< what is said above the colours of a raster or mesh; "": as QGIS does
 };
 
 /// What a project shows.

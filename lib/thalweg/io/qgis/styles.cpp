@@ -245,7 +245,6 @@ QgisStyle river_style(std::string const& order_field, int highest, RiverWidths c
     if (order_field.empty()) {
         return single(orders.back().symbol);
     }
-    orders.push_back({"", "Other", line(dark_river, 0.3)});
     return categorised(order_field, orders, quoted(order_field));
 }
 
@@ -302,7 +301,6 @@ QgisStyle finding_style(std::vector<std::string> const& kinds) {
         categories.push_back(
             {kind, kind, marker("diamond", 3.0, colours.at(categories.size() % colours.size()), white)});
     }
-    categories.push_back({"", "other", marker("diamond", 3.0, {110, 110, 110}, white)});
     return categorised("kind", categories);
 }
 
@@ -416,7 +414,7 @@ QgisStyle mesh_style(Tints const& tints, std::string const& unit) {
         "<edge-settings stroke-width-unit=\"0\"><mesh-stroke-width fixed-width=\"0.2\" width-varying=\"0\" "
         "minimum-width=\"0.2\" maximum-width=\"3\" minimum-value=\"{0}\" maximum-value=\"{1}\" "
         "ignore-out-of-range=\"0\" use-absolute-value=\"0\"/></edge-settings></scalar-settings>"
-        "<mesh-settings-native enabled=\"1\" color=\"90,80,70,45\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
+        "<mesh-settings-native enabled=\"1\" color=\"90,80,70,80\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
         "<mesh-settings-edge enabled=\"0\" color=\"0,0,0,255\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
         "<mesh-settings-triangular enabled=\"0\" color=\"0,0,0,255\" line-width=\"0.1\" line-width-unit=\"MM\"/>"
         "</mesh-renderer-settings><mesh-simplify-settings enabled=\"0\" mesh-resolution=\"5\" reduction-factor=\"10\"/>"

@@ -68,14 +68,14 @@ public:
 
     /// A raster or a mesh, with its style in QML beside it.
     void styled(io::QgisLayer::Kind kind, std::string const& title, std::string const& file, io::QgisStyle const& style,
-                bool is_shown, bool is_expanded = false) {
+                bool is_shown, bool is_expanded = false, std::string const& legend = {}) {
         io::write_text(out_.path(fs::path(file).replace_extension(".qml").string()), io::qml(style));
-        add(kind, title, file, style, is_shown, is_expanded);
+        add(kind, title, file, style, is_shown, is_expanded, legend);
     }
 
     void add(io::QgisLayer::Kind kind, std::string const& title, std::string const& file, io::QgisStyle const& style,
-             bool is_shown, bool is_expanded = false) {
-        layers_.push_back({kind, title, file, "", style, is_shown, is_expanded});
+             bool is_shown, bool is_expanded = false, std::string const& legend = {}) {
+        layers_.push_back({kind, title, file, "", style, is_shown, is_expanded, legend});
     }
 
     std::vector<io::QgisLayer> take() { return std::move(layers_); }
@@ -107,7 +107,7 @@ void write_qgis_files(Made const& made, std::string const& title, io::OutputFold
     if (made.terrain.tin && made.recipe.skeleton && made.recipe.skeleton->tin) {
         Tin const tin = in_unit(*made.terrain.tin, unit);
         layers.styled(Kind::mesh, "TIN", "tin.2dm", io::mesh_style(tints_of(heights_of(tin)), unit_name),
-                      !made.terrain.surface);
+                      !made.terrain.surface, true, "Height");
     }
     if (made.assessment.water_areas) {
         double const cell_m2 = made.terrain.grid.cell_m * made.terrain.grid.cell_m;
@@ -115,8 +115,8 @@ void write_qgis_files(Made const& made, std::string const& title, io::OutputFold
         for (auto const& [name, file, areas] :
              {std::tuple{"Contributing area (D8)", "area_d8.tif", &areas_of.d8},
               std::tuple{"Contributing area (D-infinity)", "area_dinf.tif", &areas_of.dinf}}) {
-            layers.styled(Kind::raster, name, file, io::area_style(cell_m2, std::max(greatest(*areas), cell_m2)),
-                          false);
+            layers.styled(Kind::raster, name, file, io::area_style(cell_m2, std::max(greatest(*areas), cell_m2)), false,
+                          false, "Area drained");
         }
     }
     if (made.terrain.surface) {
@@ -127,7 +127,7 @@ void write_qgis_files(Made const& made, std::string const& title, io::OutputFold
             // Alone the DEM has the colour of the sea; in the project the background has it.
             io::Tints const tints = tints_of(*heights);
             io::write_text(out.path("dem.qml"), io::qml(io::tint_style(tints, unit_name, has_sea ? sea_colour : "")));
-            layers.add(Kind::raster, "Heights", "dem.tif", io::tint_style(tints, unit_name), true, true);
+            layers.add(Kind::raster, "Heights", "dem.tif", io::tint_style(tints, unit_name), true, true, "Height");
             layers.add(Kind::raster, "Hillshade", "dem.tif", io::hillshade_style(metres), true);
         }
     }
