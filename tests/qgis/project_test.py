@@ -6,7 +6,6 @@ The pictures stay in the folder QGIS_PICTURES, if set, each beside map.png of th
 import os
 import pathlib
 import shutil
-import sys
 
 from support import COAST, SAMPLES, Case, main, program, start
 
@@ -219,6 +218,4 @@ class Layers(Case):
 
 
 if __name__ == "__main__":
-    if len(sys.argv) > 2:
-        sys.exit(__doc__)
     main()
