@@ -27,9 +27,9 @@ void require_finite(LatticeMesh const& mesh, std::string const& what) {
 }
 
 /// Writes a large file part by part.
-class Parts {
+class MeshBytes {
 public:
-    Parts(std::string const& path, std::string const& who, Run const& run) : file_(path, who), run_(run) {}
+    MeshBytes(std::string const& path, std::string const& who, Run const& run) : file_(path, who), run_(run) {}
 
     std::string& bytes() { return bytes_; }
     void end_of_item(std::size_t item, std::size_t items) {
@@ -58,7 +58,7 @@ void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run)
     require_finite(mesh, what);
     refuse_if<BadInput>(mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max(),
                         "{}: {} triangles: STL holds at most 2^32 - 1", what, mesh.triangles.size());
-    Parts out(path, what, run);
+    MeshBytes out(path, what, run);
     std::string header = "thalweg, metres, Z up"; // must not begin with "solid": that would be text
     header.resize(80, ' ');
     out.bytes() += header;
@@ -89,7 +89,7 @@ void write_textured_obj(LatticeMesh const& mesh, std::string const& path, ObjNam
     std::string const what = "io.write_textured_obj: " + path;
     require_finite(mesh, what);
     refuse_if<BadInput>(mesh.places.size() != mesh.vertices.size(), "{}: the mesh has no places in a picture", what);
-    Parts out(path, what, run);
+    MeshBytes out(path, what, run);
     auto const text = [&]<class... Values>(fmt::format_string<Values...> words, Values&&... values) {
         fmt::format_to(std::back_inserter(out.bytes()), words, std::forward<Values>(values)...);
     };

@@ -35,11 +35,11 @@ bool is_mesh(ExportFormat format) {
     return format == ExportFormat::glb || format == ExportFormat::obj || format == ExportFormat::stl;
 }
 
-char const* name_of(ExportFormat format) {
+char const* export_name_of(ExportFormat format) {
     return export_formats()[static_cast<std::size_t>(format)].name;
 }
 
-ExportFormat format_of(ExportParams const& params) {
+ExportFormat export_format_of(ExportParams const& params) {
     std::vector<std::string> names;
     std::string ending = fs::path(params.output).extension().string();
     std::ranges::transform(ending, ending.begin(),
@@ -66,9 +66,10 @@ void require_options(ExportParams const& params, ExportFormat format) {
         params.exaggeration && !is_mesh(format),
         "pipeline.run_export: --exaggeration applies to meshes (glb, obj, stl), not to {}: a program "
         "that reads it scales heights itself",
-        name_of(format));
+        export_name_of(format));
     refuse_if<BadParameter>(params.base_m && format != ExportFormat::stl,
-                            "pipeline.run_export: --base applies to the solid of stl, not to {}", name_of(format));
+                            "pipeline.run_export: --base applies to the solid of stl, not to {}",
+                            export_name_of(format));
     refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
                             "pipeline.run_export: a size has a width and a height");
     for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base_m}}) {
@@ -85,13 +86,13 @@ void require_options(ExportParams const& params, ExportFormat format) {
     }
 }
 
-struct Size {
+struct ExportSize {
     std::int64_t width = 0;
     std::int64_t height = 0;
 };
 
 /// The size nearest to a DEM's shape whose longer side has this many samples.
-Size fitting(Grid const& grid, std::int64_t longer) {
+ExportSize fitting(Grid const& grid, std::int64_t longer) {
     std::int64_t const most = std::max(grid.width, grid.height) - 1;
     auto const side = [&](std::int64_t cells) {
         double const share = static_cast<double>(cells - 1) / static_cast<double>(most);
@@ -101,16 +102,16 @@ Size fitting(Grid const& grid, std::int64_t longer) {
     return {side(grid.width), side(grid.height)};
 }
 
-Size size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<std::string>& notes) {
+ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<std::string>& notes) {
     refuse_if<BadInput>(grid.width < 2 || grid.height < 2,
                         "pipeline.run_export: {} has {} x {} cells: at least 2 x 2 are needed", params.source,
                         grid.width, grid.height);
     if (params.width) {
-        Size const asked{*params.width, *params.height};
+        ExportSize const asked{*params.width, *params.height};
         double const across = static_cast<double>(grid.width - 1) / static_cast<double>(asked.width - 1);
         double const down = static_cast<double>(grid.height - 1) / static_cast<double>(asked.height - 1);
         if (std::fabs(across - down) > 0.01 * std::min(across, down)) {
-            Size const fit = fitting(grid, std::max(asked.width, asked.height));
+            ExportSize const fit = fitting(grid, std::max(asked.width, asked.height));
             throw BadInput(fmt::format("pipeline.run_export: {} x {} would stretch a DEM of {} x {} cells by {:.0f} %: "
                                        "use --size {}x{}, or cut the DEM to that shape first (gdal_translate -srcwin)",
                                        asked.width, asked.height, grid.width, grid.height,
@@ -123,13 +124,13 @@ Size size_of(ExportParams const& params, ExportFormat format, Grid const& grid, 
     if (std::max(grid.width, grid.height) <= most) {
         return {grid.width, grid.height};
     }
-    Size const fit = fitting(grid, most);
+    ExportSize const fit = fitting(grid, most);
     notes.push_back(fmt::format("{} x {} cells are reduced to {} x {} {} (--size sets another size)", grid.width,
                                 grid.height, fit.width, fit.height, is_mesh(format) ? "vertices" : "samples"));
     return fit;
 }
 
-std::int64_t fill(Raster<float>& heights, double level) {
+std::int64_t fill_holes(Raster<float>& heights, double level) {
     std::int64_t filled = 0;
     for (float& z : heights.values()) {
         if (std::isnan(z)) {
@@ -141,7 +142,7 @@ std::int64_t fill(Raster<float>& heights, double level) {
 }
 
 /// The DEM as a lattice, with the level of the sea or, in heightmaps, the lowest height in place of holes.
-Lattice sampled(Scene const& scene, Size size, ExportResult& made, Run const& run) {
+Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run) {
     Raster<float> const& dem = *scene.dem;
     made.holes = std::count_if(dem.values().begin(), dem.values().end(), [](float z) { return std::isnan(z); });
     auto const count = [&] { return fmt::format("{} of {} cells", made.holes, dem.cells()); };
@@ -152,7 +153,7 @@ Lattice sampled(Scene const& scene, Size size, ExportResult& made, Run const& ru
         made.hole_m = scene.sea->level_m;
         made.notes.push_back(fmt::format("the sea, {}, lies level at {} m", count(), *made.hole_m));
         Raster<float> filled = dem;
-        fill(filled, *made.hole_m);
+        fill_holes(filled, *made.hole_m);
         return lattice(filled, size.width, size.height, run);
     }
     if (made.format == ExportFormat::stl) {
@@ -170,7 +171,7 @@ Lattice sampled(Scene const& scene, Size size, ExportResult& made, Run const& ru
     made.hole_m = range->first;
     made.notes.push_back(fmt::format("{} have no data: their samples get the lowest height, {} m", count(),
                                      fmt::format("{:.6g}", *made.hole_m)));
-    fill(out.z, *made.hole_m);
+    fill_holes(out.z, *made.hole_m);
     return out;
 }
 
@@ -240,7 +241,7 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
     std::string const name = fs::path(source).lexically_normal().filename().string();
     ExportJson json{{"thalweg", version()},
                     {"source", name.empty() || name == "." ? source : name},
-                    {"format", name_of(made.format)},
+                    {"format", export_name_of(made.format)},
                     {"width", made.width},
                     {"height", made.height},
                     {"min_m", made.min_m},
@@ -381,7 +382,7 @@ std::vector<ExportFormatName> const& export_formats() {
 
 ExportResult run_export(ExportParams const& params, Run const& run) {
     ExportResult made;
-    made.format = format_of(params);
+    made.format = export_format_of(params);
     require_options(params, made.format);
     ExportFiles files(params, made.format);
     constexpr std::int64_t longest_side = 30000;
@@ -389,7 +390,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
         read_scene({.source = params.source, .network = {}, .nodata = params.nodata, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     made.notes = std::move(read.notes);
-    Size const size = size_of(params, made.format, read.scene.dem->grid(), made.notes);
+    ExportSize const size = size_of(params, made.format, read.scene.dem->grid(), made.notes);
     Lattice const ground = sampled(read.scene, size, made, run);
     made.width = ground.z.width();
     made.height = ground.z.height();

@@ -22,17 +22,17 @@ using GlbJson = nlohmann::ordered_json;
 enum GlbNumber : std::uint32_t {
     glb_magic = 0x46546C67,
     glb_version = 2,
-    chunk_json = 0x4E4F534A,
-    chunk_bin = 0x004E4942,
-    of_float = 5126,
-    of_index = 5125,
-    of_vertices = 34962,
-    of_indices = 34963,
-    linear = 9729,
-    linear_mipmaps = 9987,
-    clamped = 33071,
-    lines = 1,
-    triangles = 4
+    glb_chunk_json = 0x4E4F534A,
+    glb_chunk_bin = 0x004E4942,
+    glb_of_float = 5126,
+    glb_of_index = 5125,
+    glb_of_vertices = 34962,
+    glb_of_indices = 34963,
+    glb_linear = 9729,
+    glb_linear_mipmaps = 9987,
+    glb_clamped = 33071,
+    glb_lines = 1,
+    glb_triangles = 4
 };
 
 void put_word(std::string& bytes, std::uint32_t value) {
@@ -94,7 +94,7 @@ public:
                 ++k;
             }
         }
-        std::size_t const number = end_accessor(begin, of_vertices, of_float, vertices.size(), "VEC3");
+        std::size_t const number = end_accessor(begin, glb_of_vertices, glb_of_float, vertices.size(), "VEC3");
         accessors[number]["min"] = low;
         accessors[number]["max"] = high;
         return number;
@@ -123,14 +123,14 @@ GlbJson add_terrain(GlbBuffer& buffer, LatticeMesh const& mesh, Run const& run) 
     for (Vec3 const& normal : normals_of(mesh)) {
         put_vector(buffer.bytes, y_up(normal));
     }
-    std::size_t const normals = buffer.end_accessor(begin, of_vertices, of_float, mesh.vertices.size(), "VEC3");
+    std::size_t const normals = buffer.end_accessor(begin, glb_of_vertices, glb_of_float, mesh.vertices.size(), "VEC3");
     run.at(0.5, "write");
     begin = buffer.bytes.size();
     for (Vec2 const& place : mesh.places) {
         put_float(buffer.bytes, place.x);
         put_float(buffer.bytes, place.y);
     }
-    std::size_t const places = buffer.end_accessor(begin, of_vertices, of_float, mesh.places.size(), "VEC2");
+    std::size_t const places = buffer.end_accessor(begin, glb_of_vertices, glb_of_float, mesh.places.size(), "VEC2");
     run.at(0.6, "write");
     begin = buffer.bytes.size();
     for (auto const& t : mesh.triangles) {
@@ -138,14 +138,15 @@ GlbJson add_terrain(GlbBuffer& buffer, LatticeMesh const& mesh, Run const& run) 
             put_word(buffer.bytes, v);
         }
     }
-    std::size_t const indices = buffer.end_accessor(begin, of_indices, of_index, 3 * mesh.triangles.size(), "SCALAR");
+    std::size_t const indices =
+        buffer.end_accessor(begin, glb_of_indices, glb_of_index, 3 * mesh.triangles.size(), "SCALAR");
     return {{"attributes", {{"POSITION", positions}, {"NORMAL", normals}, {"TEXCOORD_0", places}}},
             {"indices", indices},
             {"material", 0},
-            {"mode", triangles}};
+            {"mode", glb_triangles}};
 }
 
-GlbJson add_rivers(GlbBuffer& buffer, std::vector<std::vector<Vec3>> const& rivers) {
+GlbJson add_river_lines(GlbBuffer& buffer, std::vector<std::vector<Vec3>> const& rivers) {
     std::vector<Vec3> vertices;
     std::vector<std::uint32_t> ends;
     for (std::vector<Vec3> const& river : rivers) {
@@ -162,8 +163,8 @@ GlbJson add_rivers(GlbBuffer& buffer, std::vector<std::vector<Vec3>> const& rive
     for (std::uint32_t const end : ends) {
         put_word(buffer.bytes, end);
     }
-    std::size_t const indices = buffer.end_accessor(begin, of_indices, of_index, ends.size(), "SCALAR");
-    return {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 1}, {"mode", lines}};
+    std::size_t const indices = buffer.end_accessor(begin, glb_of_indices, glb_of_index, ends.size(), "SCALAR");
+    return {{"attributes", {{"POSITION", positions}}}, {"indices", indices}, {"material", 1}, {"mode", glb_lines}};
 }
 
 } // namespace
@@ -180,10 +181,10 @@ std::string glb(GlbScene const& scene, Run const& run) {
                           {{"baseColorTexture", {{"index", 0}}}, {"metallicFactor", 0.0}, {"roughnessFactor", 1.0}}}}});
     if (!scene.rivers.empty()) {
         nodes.push_back({{"name", "rivers"}, {"mesh", 1}});
-        meshes.push_back({{"name", "rivers"}, {"primitives", GlbJson::array({add_rivers(buffer, scene.rivers)})}});
+        meshes.push_back({{"name", "rivers"}, {"primitives", GlbJson::array({add_river_lines(buffer, scene.rivers)})}});
         materials.push_back({{"name", "water"},
                              {"pbrMetallicRoughness",
-                              {{"baseColorFactor", {0.006, 0.08, 0.37, 1.0}}, // linear, of a map's rivers
+                              {{"baseColorFactor", {0.006, 0.08, 0.37, 1.0}}, // glb_linear, of a map's rivers
                                {"metallicFactor", 0.0},
                                {"roughnessFactor", 1.0}}}});
     }
@@ -194,21 +195,21 @@ std::string glb(GlbScene const& scene, Run const& run) {
     for (std::size_t i = 0; i < nodes.size(); ++i) {
         shown.push_back(i);
     }
-    GlbJson const json{
-        {"asset", {{"version", "2.0"}, {"generator", scene.generator}}},
-        {"scene", 0},
-        {"scenes", GlbJson::array({{{"nodes", shown}, {"extras", GlbJson::parse(scene.facts)}}})},
-        {"nodes", nodes},
-        {"meshes", meshes},
-        {"materials", materials},
-        {"textures", GlbJson::array({{{"sampler", 0}, {"source", 0}}})},
-        {"samplers",
-         GlbJson::array(
-             {{{"magFilter", linear}, {"minFilter", linear_mipmaps}, {"wrapS", clamped}, {"wrapT", clamped}}})},
-        {"images", GlbJson::array({{{"bufferView", image}, {"mimeType", "image/png"}}})},
-        {"accessors", buffer.accessors},
-        {"bufferViews", buffer.views},
-        {"buffers", GlbJson::array({{{"byteLength", buffer.bytes.size()}}})}};
+    GlbJson const json{{"asset", {{"version", "2.0"}, {"generator", scene.generator}}},
+                       {"scene", 0},
+                       {"scenes", GlbJson::array({{{"nodes", shown}, {"extras", GlbJson::parse(scene.facts)}}})},
+                       {"nodes", nodes},
+                       {"meshes", meshes},
+                       {"materials", materials},
+                       {"textures", GlbJson::array({{{"sampler", 0}, {"source", 0}}})},
+                       {"samplers", GlbJson::array({{{"magFilter", glb_linear},
+                                                     {"minFilter", glb_linear_mipmaps},
+                                                     {"wrapS", glb_clamped},
+                                                     {"wrapT", glb_clamped}}})},
+                       {"images", GlbJson::array({{{"bufferView", image}, {"mimeType", "image/png"}}})},
+                       {"accessors", buffer.accessors},
+                       {"bufferViews", buffer.views},
+                       {"buffers", GlbJson::array({{{"byteLength", buffer.bytes.size()}}})}};
     std::string text = json.dump(-1, ' ', false, GlbJson::error_handler_t::replace);
     text.resize((text.size() + 3) / 4 * 4, ' ');
     constexpr std::size_t heads = 12 + 8 + 8;
@@ -220,12 +221,12 @@ std::string glb(GlbScene const& scene, Run const& run) {
     file.reserve(size);
     for (std::uint32_t const word :
          {std::uint32_t{glb_magic}, std::uint32_t{glb_version}, static_cast<std::uint32_t>(size),
-          static_cast<std::uint32_t>(text.size()), std::uint32_t{chunk_json}}) {
+          static_cast<std::uint32_t>(text.size()), std::uint32_t{glb_chunk_json}}) {
         put_word(file, word);
     }
     file += text;
     put_word(file, static_cast<std::uint32_t>(buffer.bytes.size()));
-    put_word(file, chunk_bin);
+    put_word(file, glb_chunk_bin);
     file += buffer.bytes;
     return file;
 }
