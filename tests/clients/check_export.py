@@ -74,7 +74,7 @@ def main(thalweg, folder):
         path, says = export("a.png")
         image = PIL.Image.open(path)
         found.equal("size", image.size, (columns, rows))
-        found.equal("mode", image.mode, "I;16")
+        found.unless(image.mode in ("I;16", "I"), "mode", image.mode)  # by the version of Pillow
         samples = numpy.array(image).astype(float)
         known = numpy.isfinite(dem)
         error = numpy.abs(says["min_m"] + samples * says["metres_per_step"] - dem)[known]

@@ -247,7 +247,11 @@ TEST(Export, StlIsClosedAndObjHasItsCompanions) {
 
 TEST(Export, TheSeaIsLevel) {
     Workplace const place;
-    expect_run(place, "make " + samples + "island.toml --set grid.width=96 --set grid.height=96 -q -o island", 0);
+    expect_run(place,
+               "make " + samples +
+                   "island.toml --set grid.width=96 --set grid.height=96 --set network.prune=8 "
+                   "--set network.forest.spacing=8 -q -o island",
+               0);
     auto const json = expect_run(place, "export island -o island.stl --json", 0, "the sea").json();
     EXPECT_GT(json["cells_without_data"], 0);
     EXPECT_EQ(json["without_data_m"], 0.0);
