@@ -11,6 +11,7 @@
 #include <thalweg/blend/deform.hpp>
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/blend/tin.hpp>
+#include <thalweg/core/lattice.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/catchments.hpp>
