@@ -222,6 +222,7 @@ TEST(Export, StlIsClosedAndObjHasItsCompanions) {
     write_dem(place);
     auto const json = expect_run(place, "export dem.asc -o a.stl --base 5 --json", 0).json();
     EXPECT_EQ(json["base_m"], 5.0);
+    EXPECT_EQ(expect_run(place, "export dem.asc -o coarse.stl --size 4x3 --json", 0).json()["base_m"], 10.0);
     std::map<std::pair<Place, Place>, int> edges;
     double volume = 0.0;
     for (auto const& t : triangles_of(place / "a.stl")) {

@@ -346,7 +346,7 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
     made.exaggeration = params.exaggeration.value_or(1.0);
     if (made.format == ExportFormat::stl) {
         double const tenth = 0.1 * (made.max_m - made.min_m);
-        made.base_m = params.base_m.value_or(std::max({tenth, made.step_m.x, made.step_m.y}));
+        made.base_m = params.base_m.value_or(std::max(tenth, scene.dem->grid().cell_m));
     }
     LatticeMesh const mesh = made.format == ExportFormat::stl ? solid_mesh(ground, made.base_m, made.exaggeration, run)
                                                               : surface_mesh(ground, made.exaggeration, run);

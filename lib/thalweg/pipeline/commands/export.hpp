@@ -35,7 +35,8 @@ struct ExportParams {
     std::optional<std::int64_t> width = {};
     std::optional<std::int64_t> height = {};
     std::optional<double> exaggeration = {}; ///< > 0, factor of a mesh's heights; 1 if not set
-    /// [m] > 0, of stl: thickness below the lowest height; a tenth of the relief, at least a cell, if not set
+    /// [m] > 0, of stl: thickness below the lowest height; a tenth of the relief, at least a cell of the DEM, if not
+    /// set
     std::optional<double> base_m = {};
     std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
 };
