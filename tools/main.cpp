@@ -158,6 +158,7 @@ Commands add_commands(CLI::App& app, Session& session) {
     add("stats", "Print statistics of a DEM.", add_stats);
     add("measure", "Write contributing areas, flow directions and catchments of a DEM.", add_measure);
     add("draw", "Draw pictures of a DEM or of a folder written by make.", add_draw);
+    add("export", "Write heights or a mesh for game engines, 3D programs and printers.", add_export);
     add("tin", "Write a TIN of a DEM, of points or of a network.", add_tin);
     add("points", "Write the cells of a DEM as a point cloud.", add_points);
     add("blend", "Paste a part of one DEM into another without a seam.", add_blend);

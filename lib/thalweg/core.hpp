@@ -9,6 +9,7 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/height_unit.hpp>
+#include <thalweg/core/lattice.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/numbers/sums.hpp>

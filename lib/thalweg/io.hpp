@@ -9,6 +9,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/mesh/lattice_files.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/read_network.hpp>
@@ -19,6 +20,7 @@
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
+#include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>

@@ -287,4 +287,48 @@ TEST(Map, GoldenPicture) {
     EXPECT_LE(static_cast<double>(differing) / values, 0.01) << "share of channels that differ by more than 40";
 }
 
+TEST(Ground, IsTheMapAloneFromCellCentreToCellCentre) {
+    test::SmallLand const land = test::small_land();
+    MapSheet const sheet{land.dem, land.hillshade, &land.network, &land.orders, {}};
+    draw::Picture const picture = draw::ground(sheet, {.width_px = 470});
+    test::Pixels const pixels = test::decode(picture.bytes);
+    EXPECT_EQ(pixels.width, 470U);
+    EXPECT_EQ(pixels.height, 470U);
+    EXPECT_GT(test::river_pixels(pixels), 470U);
+    EXPECT_EQ(draw::ground(sheet, {.width_px = 470}).bytes, picture.bytes);
+    // the river's mouth: 500235 m lies 23 cells of 10 px from the centre of the first
+    unsigned char const blue = pixels.at(230, 400, 2);
+    EXPECT_GT(blue, pixels.at(230, 400, 0) + 60);
+    EXPECT_LT(pixels.at(250, 400, 2), pixels.at(250, 400, 0) + 60);
+
+    MapSheet const bare{land.dem, land.hillshade, nullptr, nullptr, {}};
+    test::Pixels const flat = test::decode(draw::ground(bare, {.width_px = 470, .shading = 0.0}).bytes);
+    test::Pixels const shaded = test::decode(draw::ground(bare, {.width_px = 470, .shading = 1.0}).bytes);
+    EXPECT_EQ(test::river_pixels(flat), 0U);
+    auto const contrast = [](test::Pixels const& p) { return std::abs(p.at(50, 300, 0) - p.at(420, 300, 0)); };
+    EXPECT_LT(contrast(flat), contrast(shaded));
+}
+
+TEST(Ground, HolesSeaAndBadSheets) {
+    test::SmallLand land = test::small_land();
+    for (std::int64_t row = 30; row < 48; ++row) {
+        for (float& z : land.dem.row(row)) {
+            z = none;
+        }
+    }
+    MapSheet sheet{land.dem, land.hillshade, nullptr, nullptr, {}};
+    test::Pixels const grey = test::decode(draw::ground(sheet, {.width_px = 300}).bytes);
+    EXPECT_EQ(grey.at(150, 280, 0), grey.at(150, 280, 2));
+    sheet.sea = draw::Sea{};
+    test::Pixels const sea = test::decode(draw::ground(sheet, {.width_px = 300}).bytes);
+    EXPECT_GT(sea.at(150, 280, 2), sea.at(150, 280, 0));
+    EXPECT_NE(test::message_of<BadParameter>([&] { draw::ground(sheet, {.width_px = 100}); }), "");
+    EXPECT_NE(test::message_of<BadParameter>([&] { draw::ground(sheet, {.shading = 1.5}); }), "");
+    for (auto const& [width, height] : {std::pair<std::int64_t, std::int64_t>{1, 9}, {9, 1}, {200, 3}}) {
+        Raster<float> const strip = test::slopes({width, height, 10.0, 0.0, 0.0, ""});
+        Raster<std::uint8_t> const shade = test::shade(strip);
+        EXPECT_NE(test::message_of<BadInput>([&] { draw::ground({strip, shade, nullptr, nullptr, {}}); }), "");
+    }
+}
+
 } // namespace map_test

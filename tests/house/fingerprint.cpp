@@ -11,6 +11,7 @@
 #include <thalweg/blend/deform.hpp>
 #include <thalweg/blend/paste.hpp>
 #include <thalweg/blend/tin.hpp>
+#include <thalweg/core/lattice.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/flow/catchments.hpp>
@@ -367,6 +368,14 @@ void print_detail(Run const& run) {
     print("midpoint exact", hash_of(fractal::midpoint(coarse, params, run).dem));
 }
 
+/// A terrain resampled for engines, finer along one axis and coarser along the other, and as a solid.
+void print_lattice(Raster<float> const& land, Run const& run) {
+    Lattice const samples = lattice(land, 2 * land.width() + 5, land.height() / 3, run);
+    print("lattice", hash_of(samples.z));
+    LatticeMesh const solid = solid_mesh(samples, 50.0, 1.5, run);
+    print("solid_mesh", hash_of(Tin{solid.vertices, solid.triangles}));
+}
+
 /// Types of rivers, and the heights that follow from them or from areas.
 void print_rivers(StreamNetwork const& network, Grid const& grid, Run const& run) {
     network::RiverTypes const types =
@@ -649,6 +658,7 @@ int main(int count, char** words) {
     }
     print_diffused(valley, run);
     print_detail(run);
+    print_lattice(land, run);
     print_lands_of_statistics(run);
     print_points(run);
     print_blend(land, tin, run);

@@ -24,6 +24,7 @@ REFERRING = {
     "pipeline/make/relief.hpp": "names are literals",
     "pipeline/make/laws.hpp": "names are literals, and a row of a table of them",
     "pipeline/commands/convert.hpp": "names are literals",
+    "pipeline/commands/export.hpp": "names are literals",
 }
 # A member: indented by one level, without parentheses, of a type that owns nothing.
 MEMBER = re.compile(r"^    (?:[\w:<> ]+ const[*&]|[\w:<>]+[*&]|std::(?:string_view|span<[^;]*>|reference_wrapper<[^;]*>))"

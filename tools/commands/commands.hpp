@@ -35,6 +35,7 @@ Command add_check(CLI::App& app, Session& session);
 Command add_convert(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);
 Command add_draw(CLI::App& app, Session& session);
+Command add_export(CLI::App& app, Session& session);
 Command add_replay(CLI::App& app, Session& session);
 Command add_recipe(CLI::App& app, Session& session);
 Command add_tin(CLI::App& app, Session& session);

@@ -178,9 +178,14 @@ std::array<double, 256> lights(Raster<float> const& dem, Raster<std::uint8_t> co
 /// Colours cells by height and light.
 class Ground {
 public:
-    Ground(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade, HeightRange const& heights, bool has_sea)
+    Ground(Raster<float> const& dem, Raster<std::uint8_t> const& hillshade, HeightRange const& heights, bool has_sea,
+           double shading)
         : dem_(dem), hillshade_(hillshade), light_(lights(dem, hillshade)), low_m_(heights.low_m),
-          span_m_(heights.high_m - heights.low_m), has_sea_(has_sea) {}
+          span_m_(heights.high_m - heights.low_m), has_sea_(has_sea) {
+        for (double& light : light_) {
+            light *= shading;
+        }
+    }
 
     /// \return alpha 0: not coloured. In the sea, cells near land have the mean colour of the land around them: shores
     /// are smoother than cells.
@@ -218,10 +223,11 @@ private:
 // Makes the background of a map: the sheet's heights and their hillshade [1, 255] (0: none).
 // Returns one pixel per cell, or one for the mean colour of every k × k cells, with the largest k that leaves at least
 // most_wide pixels in a row; k is larger if the picture would exceed 30 000 pixels a side.
-Relief tinted_relief(MapSheet const& sheet, HeightRange const& heights, double most_wide) {
+// shading: [0, 1] share of light and shade.
+Relief tinted_relief(MapSheet const& sheet, HeightRange const& heights, double most_wide, double shading = 1.0) {
     Raster<float> const& dem = sheet.dem;
     Relief relief;
-    Ground const ground(dem, sheet.hillshade, heights, sheet.sea.has_value());
+    Ground const ground(dem, sheet.hillshade, heights, sheet.sea.has_value(), shading);
 
     constexpr std::int64_t longest = 30000;
     std::int64_t const fine = static_cast<std::int64_t>(static_cast<double>(dem.width()) / std::max(1.0, most_wide));
@@ -708,6 +714,41 @@ Picture map(MapSheet const& sheet, MapParams const& params) {
         draw_frame(canvas, layout);
         draw_heading(canvas, layout, params.title);
         draw_legend(canvas, layout.legend, layout.legend_corner, layout.legend_width, unit);
+    });
+}
+
+Picture ground(MapSheet const& sheet, GroundParams const& params) {
+    require_sheet(sheet, {});
+    require_in("draw.ground", "width_px", params.width_px, Range::between(200, 8000), "pixels");
+    require_in("draw.ground", "shading", params.shading, Range::between(0.0, 1.0));
+    Grid const& grid = sheet.dem.grid();
+    constexpr std::int64_t longest = 16;
+    refuse_if<BadInput>(
+        grid.width < 2 || grid.height < 2 || grid.height - 1 > longest * (grid.width - 1) ||
+            grid.width - 1 > longest * (grid.height - 1),
+        "draw.ground: the DEM has {} x {} cells: a texture needs 2 x 2, and sides not more than {} times "
+        "as long as one another",
+        grid.width, grid.height, longest);
+    double const px_per_cell = static_cast<double>(params.width_px) / static_cast<double>(grid.width - 1);
+    double const height = std::max(1.0, std::floor(px_per_cell * static_cast<double>(grid.height - 1) + 0.5));
+    Box const all{-0.5 * px_per_cell, -0.5 * px_per_cell, px_per_cell * static_cast<double>(grid.width),
+                  px_per_cell * static_cast<double>(grid.height)}; // outer halves of cells lie beyond the picture
+    Window const window{all, grid.west, grid.north, px_per_cell / grid.cell_m};
+    double const unit = std::max(0.6, static_cast<double>(params.width_px) / 1400.0);
+    HeightRange const heights = height_range(sheet.dem);
+    Relief const relief = tinted_relief(sheet, heights, all.width, params.shading);
+    return paint(params.width_px, height, Format::png, [&](Cairo* canvas) {
+        fill_box(canvas, all, sheet.sea && sheet.sea->is_around ? deep_sea : no_data);
+        draw_relief(canvas, relief, all, px_per_cell);
+        draw_rivers(canvas, sheet, window, unit);
+        if (sheet.sea && heights.holes > 0) {
+            Mask const sea = holes_of(sheet.dem);
+            Relief const depths = sea_depths(sea);
+            draw_water(canvas, shores_on_sheet(sea, window), &depths, all, px_per_cell, unit);
+        }
+        if (has_lakes(sheet)) {
+            draw_water(canvas, shores_on_sheet(*sheet.lakes, window), nullptr, all, px_per_cell, unit);
+        }
     });
 }
 

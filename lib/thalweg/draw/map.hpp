@@ -77,4 +77,17 @@ struct MapSheet {
 /// finite
 Picture map(MapSheet const& sheet, MapParams const& params = {});
 
+/// Options of ground().
+struct GroundParams {
+    int width_px = 2048;   ///< [200, 8000]; the height follows
+    double shading = 0.45; ///< [0, 1] share of a map's light and shade: 3D programs add their own
+};
+
+/// Draws what a map shows of the ground, alone, as a texture: tinted and shaded relief, rivers, sea and lakes, without
+/// contours, ridges, heights or a frame. Its corners are the centres of the DEM's corner cells.
+/// \param sheet a DEM of at least 2 x 2 cells
+/// \return PNG
+/// \throws BadInput as map(), and for a DEM of a single row or column, or one more than 16 times as long as wide
+Picture ground(MapSheet const& sheet, GroundParams const& params = {});
+
 } // namespace thalweg::draw

@@ -157,8 +157,8 @@ TEST(Messages, NamesThatAreNotUtf8AreEscaped) {
     std::string const name = "\"$(printf '\\377\\233.gpkg')\"";
     for (std::string const& arguments :
          {std::string("make name.toml -o out"), std::string("make escaped.toml -o out"), "make " + name + " -o out",
-          "check " + name, "stats " + name, "draw " + name + " -o out", "tin " + name + " -o a.ply",
-          "recipe --for " + name, "convert " + name + " -o b.gpkg",
+          "check " + name, "stats " + name, "draw " + name + " -o out", "export " + name + " -o a.glb",
+          "tin " + name + " -o a.ply", "recipe --for " + name, "convert " + name + " -o b.gpkg",
           "make -o out --set network.source=lines --set network.lines.path=" + name}) {
         Outcome const o = expect_run(place, arguments, 2);
         EXPECT_TRUE(is_utf8(o.err) && is_utf8(o.out)) << arguments << o.err;

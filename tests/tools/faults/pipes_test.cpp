@@ -74,6 +74,8 @@ TEST_F(Pipes, AreRefusedAsTheInputOfEveryCommand) {
                             {"draw", "p.tif", "-o", "out"},
                             {"draw", "folder", "-o", "out"},
                             {"draw", "base/dem.tif", "--network", "p.gpkg", "-o", "out"},
+                            {"export", "p.tif", "-o", "out.glb"},
+                            {"export", "folder", "-o", "out.glb"},
                             {"tin", "p.tif", "-o", "out.ply"},
                             {"tin", "p.csv", "-o", "out.ply"},
                             {"tin", "folder", "-o", "out.ply"},

@@ -40,6 +40,7 @@ std::vector<Words> every_command() {
             {"stats", "base/dem.tif", "--json"},
             {"measure", "base/dem.tif", "-o", "measured", "--overwrite"},
             {"draw", "base", "-o", "drawn", "--what", "profile", "--overwrite"},
+            {"export", "base", "-o", "e.png", "--overwrite"},
             {"tin", "base/dem.tif", "-o", "t.ply", "--overwrite"},
             {"points", "base/dem.tif", "-o", "p.las", "--overwrite"},
             {"blend", "base/dem.tif", "base/dem.tif", "-o", "b.tif", "--window", "20,20,20,20", "--overwrite"},

@@ -1,0 +1,420 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/export.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <filesystem>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thalweg/core/lattice.hpp>
+#include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/parameters.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/draw/map.hpp>
+#include <thalweg/io/mesh/lattice_files.hpp>
+#include <thalweg/io/raster/dem_derivatives.hpp>
+#include <thalweg/io/raster/heightmap.hpp>
+#include <thalweg/pipeline/commands/internal/glb.hpp>
+#include <thalweg/pipeline/commands/internal/read_scene.hpp>
+#include <thalweg/pipeline/report/report.hpp>
+
+namespace thalweg::pipeline {
+namespace {
+
+namespace fs = std::filesystem;
+
+constexpr std::int64_t most_samples = 16385;  // a side
+constexpr std::int64_t most_vertices = 4097;  // a side of a mesh: a GLB of 0.9 GB
+constexpr std::int64_t usual_vertices = 1025; // a side of a mesh
+
+bool is_mesh(ExportFormat format) {
+    return format == ExportFormat::glb || format == ExportFormat::obj || format == ExportFormat::stl;
+}
+
+char const* export_name_of(ExportFormat format) {
+    return export_formats()[static_cast<std::size_t>(format)].name;
+}
+
+ExportFormat export_format_of(ExportParams const& params) {
+    std::vector<std::string> names;
+    std::string ending = fs::path(params.output).extension().string();
+    std::ranges::transform(ending, ending.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    for (ExportFormatName const& known : export_formats()) {
+        if (params.format.empty() ? ending == known.ending : params.format == known.name) {
+            return known.format;
+        }
+        names.emplace_back(known.name);
+    }
+    if (params.format.empty() && ending == ".raw") { // as Unity and Unreal name it
+        return ExportFormat::r16;
+    }
+    throw BadParameter(params.format.empty()
+                           ? fmt::format("pipeline.run_export: the name of {} does not tell the format; name one of {}",
+                                         params.output, fmt::join(names, ", "))
+                           : fmt::format("pipeline.run_export: unknown format '{}'; the formats are {}.{}",
+                                         params.format, fmt::join(names, ", "), did_you_mean(params.format, names)));
+}
+
+void require_options(ExportParams const& params, ExportFormat format) {
+    refuse_if<BadParameter>(params.output.empty(), "pipeline.run_export: the name of the output is empty");
+    refuse_if<BadParameter>(
+        params.exaggeration && !is_mesh(format),
+        "pipeline.run_export: --exaggeration applies to meshes (glb, obj, stl), not to {}: a program "
+        "that reads it scales heights itself",
+        export_name_of(format));
+    refuse_if<BadParameter>(params.base_m && format != ExportFormat::stl,
+                            "pipeline.run_export: --base applies to the solid of stl, not to {}",
+                            export_name_of(format));
+    refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
+                            "pipeline.run_export: a size has a width and a height");
+    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base_m}}) {
+        if (value) {
+            require_in("pipeline.run_export", name, *value, Range::above(0.0));
+        }
+    }
+    std::int64_t const most = is_mesh(format) ? most_vertices : most_samples;
+    for (std::optional<std::int64_t> const side : {params.width, params.height}) {
+        if (side) {
+            require_in("pipeline.run_export", "size", *side, Range::between(2.0, static_cast<double>(most)),
+                       is_mesh(format) ? "vertices" : "samples");
+        }
+    }
+}
+
+struct ExportSize {
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+};
+
+/// The size nearest to a DEM's shape whose longer side has this many samples.
+ExportSize fitting(Grid const& grid, std::int64_t longer) {
+    std::int64_t const most = std::max(grid.width, grid.height) - 1;
+    auto const side = [&](std::int64_t cells) {
+        double const share = static_cast<double>(cells - 1) / static_cast<double>(most);
+        return std::max<std::int64_t>(
+            2, static_cast<std::int64_t>(std::floor(share * static_cast<double>(longer - 1) + 0.5)) + 1);
+    };
+    return {side(grid.width), side(grid.height)};
+}
+
+ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<std::string>& notes) {
+    refuse_if<BadInput>(grid.width < 2 || grid.height < 2,
+                        "pipeline.run_export: {} has {} x {} cells: at least 2 x 2 are needed", params.source,
+                        grid.width, grid.height);
+    if (params.width) {
+        ExportSize const asked{*params.width, *params.height};
+        double const across = static_cast<double>(grid.width - 1) / static_cast<double>(asked.width - 1);
+        double const down = static_cast<double>(grid.height - 1) / static_cast<double>(asked.height - 1);
+        if (std::fabs(across - down) > 0.01 * std::min(across, down)) {
+            ExportSize const fit = fitting(grid, std::max(asked.width, asked.height));
+            throw BadInput(fmt::format("pipeline.run_export: {} x {} would stretch a DEM of {} x {} cells by {:.0f} %: "
+                                       "use --size {}x{}, or cut the DEM to that shape first (gdal_translate -srcwin)",
+                                       asked.width, asked.height, grid.width, grid.height,
+                                       100.0 * (std::max(across, down) / std::min(across, down) - 1.0), fit.width,
+                                       fit.height));
+        }
+        return asked;
+    }
+    std::int64_t const most = is_mesh(format) ? usual_vertices : most_samples;
+    if (std::max(grid.width, grid.height) <= most) {
+        return {grid.width, grid.height};
+    }
+    ExportSize const fit = fitting(grid, most);
+    notes.push_back(fmt::format("{} x {} cells are reduced to {} x {} {} (--size sets another size)", grid.width,
+                                grid.height, fit.width, fit.height, is_mesh(format) ? "vertices" : "samples"));
+    return fit;
+}
+
+std::int64_t fill_holes(Raster<float>& heights, double level) {
+    std::int64_t filled = 0;
+    for (float& z : heights.values()) {
+        if (std::isnan(z)) {
+            z = static_cast<float>(level);
+            ++filled;
+        }
+    }
+    return filled;
+}
+
+/// The DEM as a lattice, with the level of the sea or, in heightmaps, the lowest height in place of holes.
+Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run) {
+    Raster<float> const& dem = *scene.dem;
+    made.holes = std::count_if(dem.values().begin(), dem.values().end(), [](float z) { return std::isnan(z); });
+    auto const count = [&] { return fmt::format("{} of {} cells", made.holes, dem.cells()); };
+    if (made.holes == 0) {
+        return lattice(dem, size.width, size.height, run);
+    }
+    if (scene.sea) {
+        made.hole_m = scene.sea->level_m;
+        made.notes.push_back(fmt::format("the sea, {}, lies level at {} m", count(), *made.hole_m));
+        Raster<float> filled = dem;
+        fill_holes(filled, *made.hole_m);
+        return lattice(filled, size.width, size.height, run);
+    }
+    if (made.format == ExportFormat::stl) {
+        throw BadInput(fmt::format("pipeline.run_export: {} have no data: a solid has no holes; fill them first "
+                                   "(gdal_fillnodata.py)",
+                                   count()));
+    }
+    Lattice out = lattice(dem, size.width, size.height, run);
+    if (is_mesh(made.format)) {
+        made.notes.push_back(fmt::format("{} have no data: the mesh has holes there", count()));
+        return out;
+    }
+    auto const range = height_range(out.z);
+    refuse_if<BadInput>(!range, "pipeline.run_export: no sample has a height");
+    made.hole_m = range->first;
+    made.notes.push_back(fmt::format("{} have no data: their samples get the lowest height, {} m", count(),
+                                     fmt::format("{:.6g}", *made.hole_m)));
+    fill_holes(out.z, *made.hole_m);
+    return out;
+}
+
+std::string texture_of(Scene const& scene, Run const& run) {
+    run.at(0.0, "texture");
+    Raster<float> const& dem = *scene.dem;
+    draw::MapSheet sheet{dem,
+                         io::hillshade(dem),
+                         scene.network ? &*scene.network : nullptr,
+                         scene.network ? &scene.orders : nullptr,
+                         {},
+                         nullptr,
+                         scene.ds_area_m2};
+    sheet.lakes = &scene.lakes;
+    if (scene.sea) {
+        sheet.sea = draw::Sea{scene.sea->is_around};
+    }
+    constexpr double longer_px = 2048.0;
+    constexpr double least_px = 200.0;
+    double const shape = static_cast<double>(dem.width() - 1) / static_cast<double>(dem.height() - 1);
+    draw::GroundParams params;
+    params.width_px = static_cast<int>(std::max(least_px, std::floor(longer_px * std::min(1.0, shape) + 0.5)));
+    return draw::ground(sheet, params).bytes;
+}
+
+/// Rivers laid on a mesh, in its frame; a little above it, or they would be hidden in it.
+std::vector<std::vector<Vec3>> rivers_on_mesh(ElevatedNetwork const& network, Lattice const& ground,
+                                              LatticeMesh const& mesh, double exaggeration) {
+    double const step = std::min(ground.z.grid().cell_m, ground.row_step_m);
+    double const lift = 0.1 * step;
+    std::vector<std::vector<Vec3>> out;
+    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
+        std::vector<Vec2> const& line = network.planform.arc(arc).line;
+        std::vector<Vec3> part;
+        auto const end_part = [&] {
+            if (part.size() > 1) {
+                out.push_back(part);
+            }
+            part.clear();
+        };
+        auto const add = [&](Vec2 p) {
+            double const z = height_on_mesh(ground, p);
+            if (std::isnan(z)) {
+                end_part();
+                return;
+            }
+            part.push_back({p.x - mesh.origin.x, p.y - mesh.origin.y, (z - mesh.origin.z) * exaggeration + lift});
+        };
+        for (std::size_t i = 0; i < line.size(); ++i) {
+            if (i > 0) { // so dense that lines follow the triangles
+                double const pieces = std::floor(distance(line[i - 1], line[i]) / (0.5 * step));
+                for (double k = 1.0; k <= pieces; ++k) {
+                    add(line[i - 1] + (k / (pieces + 1.0)) * (line[i] - line[i - 1]));
+                }
+            }
+            add(line[i]);
+        }
+        end_part();
+    }
+    return out;
+}
+
+using ExportJson = nlohmann::ordered_json;
+
+ExportJson json_of(ExportResult const& made, std::string const& source) {
+    bool const mesh = is_mesh(made.format);
+    std::string const name = fs::path(source).lexically_normal().filename().string();
+    ExportJson json{{"thalweg", version()},
+                    {"source", name.empty() || name == "." ? source : name},
+                    {"format", export_name_of(made.format)},
+                    {"width", made.width},
+                    {"height", made.height},
+                    {"min_m", made.min_m},
+                    {"max_m", made.max_m}};
+    if (made.metres_per_step > 0.0 || made.format == ExportFormat::png16 || made.format == ExportFormat::r16) {
+        json["metres_per_step"] = made.metres_per_step;
+    }
+    json["step_m"] = {made.step_m.x, made.step_m.y};
+    json["size_m"] = {static_cast<double>(made.width - 1) * made.step_m.x,
+                      static_cast<double>(made.height - 1) * made.step_m.y};
+    json["north_west"] = {made.north_west.x, made.north_west.y};
+    json["crs"] = made.crs;
+    if (mesh) {
+        json["axes"] = made.format == ExportFormat::stl ? "x east, y north, z up; metres from origin"
+                                                        : "x east, y up, z south; metres from origin";
+        json["origin"] = {made.origin.x, made.origin.y, made.origin.z};
+        json["exaggeration"] = made.exaggeration;
+        if (made.format == ExportFormat::stl) {
+            json["base_m"] = made.base_m;
+        }
+        json["vertices"] = made.vertices;
+        json["triangles"] = made.triangles;
+        if (made.format == ExportFormat::glb) {
+            json["river_lines"] = made.river_lines;
+        }
+    } else {
+        json["axes"] = "rows from north to south, samples of a row from west to east";
+        json["samples"] = made.format == ExportFormat::r32 ? "32-bit floating point, metres"
+                                                           : "16-bit unsigned: min_m + number x metres_per_step";
+        json["byte_order"] = made.format == ExportFormat::png16 ? "big-endian, as in every PNG" : "little-endian";
+    }
+    json["cells_without_data"] = made.holes;
+    if (made.hole_m) {
+        json["without_data_m"] = *made.hole_m;
+    }
+    return json;
+}
+
+/// The files of an export, written together.
+class ExportFiles {
+public:
+    ExportFiles(ExportParams const& params, ExportFormat format)
+        : folder_(fs::path(params.output).has_parent_path() ? fs::path(params.output).parent_path() : fs::path(".")),
+          names_(names_of(fs::path(params.output), format)), out_(folder_.string(), io::Existing::add, there(params)) {}
+
+    std::string path(std::size_t number) const { return out_.path(names_[number]); }
+    std::string const& name(std::size_t number) const { return names_[number]; }
+    std::size_t description() const { return names_.size() - 1; }
+    std::vector<std::string> commit() {
+        out_.commit();
+        std::vector<std::string> files;
+        for (std::string const& name : names_) {
+            files.push_back(folder_ == "." ? name : (folder_ / name).string());
+        }
+        return files;
+    }
+
+private:
+    static std::vector<std::string> names_of(fs::path const& path, ExportFormat format) {
+        std::string const name = path.filename().string();
+        refuse_if<BadParameter>(name.empty() || name == "." || name == ".." || fs::is_directory(path),
+                                "pipeline.run_export: {} is a folder: name a file", path.string());
+        std::vector<std::string> names{name};
+        if (format == ExportFormat::obj) {
+            names.push_back(path.stem().string() + ".mtl");
+            names.push_back(path.stem().string() + "_texture.png");
+        }
+        names.push_back(name + ".json");
+        return names;
+    }
+    std::vector<std::string> there(ExportParams const& params) const {
+        std::vector<std::string> found;
+        for (std::string const& name : names_) {
+            if (fs::exists(fs::symlink_status(folder_ / name))) {
+                found.push_back(name);
+            }
+        }
+        if (!found.empty() && params.existing == io::Existing::refuse) {
+            throw BadInput(fmt::format("pipeline.run_export: {} already exists: name another or use --overwrite",
+                                       (folder_ / found.front()).string()));
+        }
+        return found;
+    }
+
+    fs::path folder_;
+    std::vector<std::string> names_;
+    io::OutputFolder out_;
+};
+
+void write_obj(LatticeMesh const& mesh, Scene const& scene, ExportFiles const& files, std::string const& crs,
+               Run const& run) {
+    constexpr char const* material = "ground";
+    io::write_textured_obj(mesh, files.path(0), {crs, files.name(1), material}, run);
+    io::write_text(files.path(1),
+                   fmt::format("# thalweg\nnewmtl {}\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {}\n", material,
+                               files.name(2)));
+    io::write_text(files.path(2), texture_of(scene, run));
+}
+
+void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& params, ExportFiles const& files,
+                ExportResult& made, Run const& run) {
+    made.exaggeration = params.exaggeration.value_or(1.0);
+    if (made.format == ExportFormat::stl) {
+        double const tenth = 0.1 * (made.max_m - made.min_m);
+        made.base_m = params.base_m.value_or(std::max(tenth, scene.dem->grid().cell_m));
+    }
+    LatticeMesh const mesh = made.format == ExportFormat::stl ? solid_mesh(ground, made.base_m, made.exaggeration, run)
+                                                              : surface_mesh(ground, made.exaggeration, run);
+    made.vertices = static_cast<std::int64_t>(mesh.vertices.size());
+    made.triangles = static_cast<std::int64_t>(mesh.triangles.size());
+    made.origin = mesh.origin;
+    if (made.format == ExportFormat::stl) {
+        io::write_stl(mesh, files.path(0), run);
+        return;
+    }
+    if (made.format == ExportFormat::obj) {
+        write_obj(mesh, scene, files, made.crs, run);
+        return;
+    }
+    std::string const texture = texture_of(scene, run);
+    GlbScene shown{mesh, texture, {}, "thalweg " + version(), {}};
+    if (scene.network) {
+        shown.rivers = rivers_on_mesh(*scene.network, ground, mesh, made.exaggeration);
+    }
+    made.river_lines = static_cast<std::int64_t>(shown.rivers.size());
+    shown.facts = json_of(made, params.source).dump(-1, ' ', false, ExportJson::error_handler_t::replace);
+    io::write_text(files.path(0), glb(shown, run));
+}
+
+} // namespace
+
+std::vector<ExportFormatName> const& export_formats() {
+    static std::vector<ExportFormatName> const formats{
+        {ExportFormat::png16, "png16", ".png"}, {ExportFormat::r16, "r16", ".r16"}, {ExportFormat::r32, "r32", ".r32"},
+        {ExportFormat::glb, "glb", ".glb"},     {ExportFormat::obj, "obj", ".obj"}, {ExportFormat::stl, "stl", ".stl"}};
+    return formats;
+}
+
+ExportResult run_export(ExportParams const& params, Run const& run) {
+    ExportResult made;
+    made.format = export_format_of(params);
+    require_options(params, made.format);
+    ExportFiles files(params, made.format);
+    constexpr std::int64_t longest_side = 30000;
+    SceneRead read =
+        read_scene({.source = params.source, .network = {}, .nodata = params.nodata, .most_side = longest_side}, run);
+    refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
+    made.notes = std::move(read.notes);
+    ExportSize const size = size_of(params, made.format, read.scene.dem->grid(), made.notes);
+    Lattice const ground = sampled(read.scene, size, made, run);
+    made.width = ground.z.width();
+    made.height = ground.z.height();
+    made.step_m = {ground.z.grid().cell_m, ground.row_step_m};
+    made.north_west = ground.north_west();
+    made.crs = ground.z.grid().crs;
+    auto const range = height_range(ground.z);
+    refuse_if<BadInput>(!range, "pipeline.run_export: no vertex has a height");
+    made.min_m = range->first;
+    made.max_m = range->second;
+    if (is_mesh(made.format)) {
+        write_mesh(ground, read.scene, params, files, made, run);
+    } else {
+        constexpr io::HeightmapFormat heightmaps[] = {io::HeightmapFormat::png16, io::HeightmapFormat::r16,
+                                                      io::HeightmapFormat::r32};
+        io::HeightmapScale const scale =
+            io::write_heightmap(ground.z, files.path(0), heightmaps[static_cast<std::size_t>(made.format)], run);
+        made.metres_per_step = scale.step_m;
+    }
+    made.description = json_of(made, params.source).dump(2, ' ', false, ExportJson::error_handler_t::replace);
+    io::write_text(files.path(files.description()), made.description + "\n");
+    run.at(1.0, "write");
+    made.files = files.commit();
+    return made;
+}
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,80 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/io/files/files.hpp>
+
+namespace thalweg::pipeline {
+
+enum class ExportFormat : std::uint8_t { png16, r16, r32, glb, obj, stl };
+
+/// The name of an export format.
+struct ExportFormatName {
+    ExportFormat format;
+    char const* name;   ///< "png16"
+    char const* ending; ///< ".png"
+};
+/// \return in the order of the enumeration
+std::vector<ExportFormatName> const& export_formats();
+
+/// Options of run_export().
+struct ExportParams {
+    std::string source = {};                      ///< a folder written by make, or a DEM as io::read_drawable
+    std::string output = {};                      ///< a new file; its folder is created where it is missing
+    io::Existing existing = io::Existing::refuse; ///< replace: files of the same names are replaced, nothing else
+    std::string format = {};                      ///< a name of export_formats(); "": by the output's extension
+    /// samples or vertices of a row and of a column, set together: [2, 16385], of meshes [2, 4097]; not set: the DEM's
+    /// cells, in a mesh at most 1025 a side
+    std::optional<std::int64_t> width = {};
+    std::optional<std::int64_t> height = {};
+    std::optional<double> exaggeration = {}; ///< > 0, factor of a mesh's heights; 1 if not set
+    /// [m] > 0, of stl: thickness below the lowest height; a tenth of the relief, at least a cell of the DEM, if not
+    /// set
+    std::optional<double> base_m = {};
+    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+};
+
+/// What run_export() wrote.
+struct ExportResult {
+    std::vector<std::string> files; ///< paths: the file named, its companions, its description (FILE.json)
+    std::vector<std::string> notes; ///< changes and choices, as sentences
+    ExportFormat format = ExportFormat::png16;
+    std::int64_t width = 0;            ///< samples or vertices of a row
+    std::int64_t height = 0;           ///< samples or vertices of a column
+    Vec2 step_m;                       ///< between neighbours of a row, and of a column
+    Vec2 north_west;                   ///< [m] position of the first sample or vertex
+    std::string crs;                   ///< as in Grid
+    double min_m = 0.0;                ///< lowest height
+    double max_m = 0.0;                ///< highest height
+    double metres_per_step = 0.0;      ///< of 16 bits; else 0
+    std::int64_t holes = 0;            ///< cells of the DEM without data
+    std::optional<double> hole_m = {}; ///< height that they were given; not set: there are none, or left out
+    std::int64_t vertices = 0;         ///< of a mesh; else 0
+    std::int64_t triangles = 0;        ///< of a mesh; else 0
+    std::int64_t river_lines = 0;      ///< of a glb
+    Vec3 origin;                       ///< [m] of a mesh's frame
+    double exaggeration = 1.0;         ///< of a mesh
+    double base_m = 0.0;               ///< of a solid; else 0
+    std::string description;           ///< what FILE.json says: one JSON object
+};
+
+/// Runs `thalweg export`: writes the heights of a terrain as one file for game engines, 3D programs and printers, and
+/// beside it FILE.json, which says sizes, heights, axes and position. All files are written, or none. The corners are
+/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32: as io::write_heightmap; cells without
+/// data get the level of the sea if the folder's recipe has one, else the lowest height. glb, obj, stl: metres from a
+/// local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb and obj
+/// are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up.
+/// \return what was written; the same bytes for any number of threads
+/// \throws BadParameter for an unknown format, an option of another format or a size that the format cannot have
+/// \throws BadInput when the size would stretch the DEM by more than 1 %, a solid would have holes, a file exists
+/// already; as the readers
+ExportResult run_export(ExportParams const& params, Run const& run = {});
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,92 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <charconv>
+#include <memory>
+#include <optional>
+#include <string>
+#include <string_view>
+#include <system_error>
+
+#include <CLI/CLI.hpp>
+#include <fmt/format.h>
+
+#include <thalweg/pipeline/commands/export.hpp>
+
+#include "commands/commands.hpp"
+#include "commands/options.hpp"
+#include "commands/print.hpp"
+
+namespace thalweg::tools {
+
+namespace {
+
+int export_terrain(pipeline::ExportParams const& params, Session const& session) {
+    pipeline::ExportResult const made = pipeline::run_export(params, session.run);
+    for (std::string const& note : made.notes) {
+        session.run.tell("note", note);
+    }
+    session.run.tell("export",
+                     fmt::format("{} x {}, {:.6g} to {:.6g} m", made.width, made.height, made.min_m, made.max_m));
+    auto json = nlohmann::ordered_json::parse(made.description);
+    json["files"] = made.files;
+    json["notes"] = made.notes;
+    print_result(session, json, made.files);
+    return Exit::done;
+}
+
+std::optional<std::int64_t> side_in(std::string_view word) {
+    std::int64_t side = 0;
+    auto const [end, fault] = std::from_chars(word.data(), word.data() + word.size(), side);
+    return fault == std::errc{} && end == word.data() + word.size() ? std::optional(side) : std::nullopt;
+}
+
+/// Explains why a word is not a size; "": it is one.
+std::string take_size(std::string const& word, pipeline::ExportParams& params) {
+    std::size_t const cross = word.find('x');
+    params.width = side_in(std::string_view(word).substr(0, cross));
+    params.height = cross == std::string::npos ? params.width : side_in(std::string_view(word).substr(cross + 1));
+    return params.width && params.height ? ""
+                                         : fmt::format("'{}' is not N or WIDTHxHEIGHT, such as 1025 or 1025x769", word);
+}
+
+} // namespace
+
+Command add_export(CLI::App& app, Session& session) {
+    auto const params = std::make_shared<pipeline::ExportParams>();
+    app.add_option("SOURCE", params->source, "A folder written by make, or any height raster GDAL reads.")
+        ->type_name("FILE")
+        ->required();
+    app.add_option("-o,--output", params->output,
+                   "Write this file, and beside it FILE.json with sizes, heights, axes and position.")
+        ->required();
+    app.add_option("--format", params->format,
+                   names_in_words(pipeline::export_formats()) + ". Default: by the file extension.");
+    app.add_option_function<std::string>(
+           "--size",
+           [params](std::string const& word) {
+               if (std::string const fault = take_size(word, *params); !fault.empty()) {
+                   throw CLI::ValidationError("--size", fault);
+               }
+           },
+           "Resample to this many samples or vertices: N a side, or WIDTHxHEIGHT. Default: the DEM's cells, in a mesh "
+           "at most 1025 a side.")
+        ->type_name("N|WxH");
+    app.add_option("--exaggeration", params->exaggeration, "Multiply the heights of a mesh by this factor.");
+    app.add_option("--base", params->base_m,
+                   "Make the solid of stl this thick below its lowest height [m]. Default: a tenth of the relief, at "
+                   "least a cell.");
+    add_nodata_option(app, params->nodata);
+    add_json_option(app, session);
+    add_overwrite_option(app, params->existing, "Replace files of the same names.");
+    app.footer(
+        "png16, r16 and r32 are heightmaps: 16 bits from the lowest height to the highest as PNG or raw, or metres "
+        "as raw 32-bit floats. glb and obj are textured meshes, Y up, glb with rivers as lines; stl is a closed "
+        "solid, Z up. Meshes are in metres from an origin in the middle, at the lowest height.\n\n"
+        "Examples:\n"
+        "  thalweg export valley -o valley.glb\n"
+        "  thalweg export valley --size 1009 -o heights.png\n"
+        "  thalweg export dem.tif --size 513x385 --exaggeration 2 --base 50 -o dem.stl\n");
+    return [params, &session] { return export_terrain(*params, session); };
+}
+
+} // namespace thalweg::tools
