@@ -22,6 +22,8 @@ MANUAL = "/usr/share/doc/thalweg-doc/docs/qgis.md"  # of Debian's package
 NODATA = ("Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every value as a "
           "height. Default: refuse values that look like undeclared no-data.")
 
+LIMITS = {"at_most": "allowed", "at_least": "at least"}  # of checks, by their bound
+
 
 def names(text: str) -> list[str]:
     """Return the words of a list with commas or spaces."""
@@ -189,5 +191,6 @@ def warn_of_failed(report: dict[str, Any], feedback: QgsProcessingFeedback) -> N
     """Name the checks that failed in a warning."""
     failed = [check for check in report.get("checks", []) if not check["ok"]]
     if failed:
-        said = ", ".join(f"{check['name']} ({check['value']:g}, allowed {check['limit']:g})" for check in failed)
+        said = ", ".join(f"{check['name']} ({check['value']:g}, {LIMITS[check.get('bound', 'at_most')]} {check['limit']:g})"
+                         for check in failed)
         feedback.pushWarning(f"These checks failed: {said}")

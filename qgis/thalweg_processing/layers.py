@@ -9,10 +9,11 @@ from dataclasses import dataclass
 from typing import Any
 
 from osgeo import gdal, ogr
-from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsMapLayer,
+from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsLayerTreeLayer, QgsMapLayer,
                        QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSource,
                        QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback, QgsProcessingLayerPostProcessorInterface,
-                       QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer)
+                       QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer,
+                       QgsWkbTypes)
 from qgis.PyQt import sip
 
 ITS_OWN_ID = "thalweg_fid"  # of an exported feature: a field fid of the layer stays a field
@@ -233,28 +234,55 @@ def _raster_of(layer: QgsRasterLayer) -> RasterInput:
     return RasterInput(layer.name(), path, crs, ranges[0].min() if ranges else None)
 
 
-class _AsMade(QgsProcessingLayerPostProcessorInterface):
-    """Gives a new layer the style that lies in or beside its file, and a CRS that its format has no place for."""
+HEIGHTS = {QgsWkbTypes.PolygonGeometry: 1, QgsWkbTypes.LineGeometry: 2, QgsWkbTypes.PointGeometry: 3}  # of layers of a run
 
-    def __init__(self, crs: QgsCoordinateReferenceSystem) -> None:
+
+class _AsMade(QgsProcessingLayerPostProcessorInterface):
+    """Gives a new layer the style that lies in or beside its file, a CRS that its format has no place for, and its place
+    among the layers of the run: those that hide most are at the bottom."""
+
+    def __init__(self, crs: QgsCoordinateReferenceSystem, on_top: bool) -> None:
         super().__init__()
         self.crs = crs
+        self.on_top = on_top
+        self.layer_id = ""
+        self.height = 0
 
     def postProcessLayer(self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         if self.crs.isValid() and not layer.crs().isValid():
             layer.setCrs(self.crs)
         layer.loadDefaultStyle()
         layer.triggerRepaint()
+        self.layer_id = layer.id()
+        self.height = 4 if self.on_top else HEIGHTS.get(layer.geometryType(), 0) if isinstance(layer, QgsVectorLayer) else 0
+        self.place(layer.project(), context)
+
+    def place(self, project: QgsProject, context: QgsProcessingContext) -> None:
+        """Move the layer over those of the run that it hides less than they hide it (QGIS opens them by their names)."""
+        node = project.layerTreeRoot().findLayer(self.layer_id) if project is not None else None
+        if node is None:
+            return
+        siblings = node.parent().children()
+        heights = {one.layer_id: one.height for one in _kept if not sip.isdeleted(one) and one.layer_id and any(
+            details.postProcessor() is one for details in context.layersToLoadOnCompletion().values())}
+        places = {at: heights[one.layerId()] for at, one in enumerate(siblings)
+                  if isinstance(one, QgsLayerTreeLayer) and one.layerId() in heights}
+        here = siblings.index(node)
+        below = [at for at, height in places.items() if height < self.height and at < here]
+        above = [at for at, height in places.items() if height > self.height and at > here]
+        if below or above:
+            node.parent().insertChildNode(min(below) if below else max(above) + 1, node.clone())
+            node.parent().removeChildNode(node)
 
 
 _kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QGIS holds no reference to them
 
 
-def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str) -> None:
+def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str, on_top: bool = False) -> None:
     its = QgsCoordinateReferenceSystem()
     if crs:
         its.createFromUserInput(crs)
-    processor = _AsMade(its)
+    processor = _AsMade(its, on_top)
     details.setPostProcessor(processor)
     _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
 
@@ -264,7 +292,7 @@ HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingU
 
 
 def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "",
-               project: QgsProject | None = None) -> None:
+               project: QgsProject | None = None, on_top: bool = False) -> None:
     """Let QGIS open a layer when the algorithm has ended.
 
     Parameters
@@ -281,13 +309,15 @@ def open_after(context: QgsProcessingContext, source: str, title: str, output: s
         Of a file that names none.
     project : QgsProject or None
         Where it is opened; None: in that of the run.
+    on_top : bool
+        Whether it lies over all others of the run.
     """
     project = project or context.project()
     if project is None:
         return
     details = QgsProcessingContext.LayerDetails(title, project, output, HINTS[kind])
     details.forceName = True
-    _show_as_made(details, crs)
+    _show_as_made(details, crs, on_top)
     context.addLayerToLoadOnCompletion(source, details)
 
 

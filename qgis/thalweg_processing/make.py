@@ -128,7 +128,7 @@ class Make(Algorithm):
             self.keys = ()
         by_name = {key["key"]: key for key in self.keys}
         self.add(QgsProcessingParameterFeatureSource("RIVERS", "Rivers", [QgsProcessing.TypeVectorLine], optional=True),
-                 "Lines of rivers. Without rivers, a DEM and a recipe, thalweg grows a valley on 1024x1024 cells.")
+                 "Lines of rivers. Without rivers, DEM or recipe, thalweg grows a valley on 1024x1024 cells.")
         self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True), DEM_TEXT)
         self.add(QgsProcessingParameterFile("RECIPE", "Recipe", extension="toml", optional=True), "A recipe of thalweg (TOML).")
         for name, label in (("seed", "Random seed"), ("grid.cell", "Cell size [m]")):

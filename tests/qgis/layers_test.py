@@ -19,6 +19,7 @@ from qgis.core import (  # noqa: E402
     QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProcessingModelChildParameterSource,
     QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer,
     QgsRasterRange, QgsRectangle, QgsVectorLayer)
+from processing.core.ProcessingConfig import ProcessingConfig  # noqa: E402
 from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
 
 GRID = {"GRID_WIDTH": 96, "GRID_HEIGHT": 96, "CELL": 30}
@@ -258,6 +259,25 @@ class Opened(Case):
         self.kept.append(layers)
         return results, layers
 
+    def from_the_top(self):
+        return [node.name() for node in self.kept[-2].layerTreeRoot().findLayers()]
+
+    def test_layers_that_hide_others_lie_below(self):
+        for group in ("", "Results"):  # new layers lie at the top of the project, or at the bottom of a group
+            ProcessingConfig.setSettingValue(ProcessingConfig.RESULTS_GROUP_NAME, group)
+            self.addCleanup(ProcessingConfig.setSettingValue, ProcessingConfig.RESULTS_GROUP_NAME, "")
+            self.opened("make", {"OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 2, 3], "NETWORK_FOREST_OUTLET_SPACING": 0,
+                                 **GRID})
+            self.assertEqual(self.from_the_top(), ["Nodes of the rivers", "Rivers", "Catchments", "DEM"])
+
+    def test_a_check_without_findings_opens_nothing(self):
+        source, wanted = str(self.folder / "out"), ">" + QgsProcessing.TEMPORARY_OUTPUT
+        self.assertEqual(program("make", "-o", source, "--set=grid.width=96", "--set=grid.height=96",
+                                 "--set=network.forest.outlet_spacing=0").returncode, 0)
+        results, layers = self.opened("check", {"NETWORK": f"{source}/network.gpkg|layername=arcs", "FINDINGS": wanted})
+        self.assertEqual((results["FINDINGS_COUNT"], layers), (0, {}))
+        self.assertTrue(QgsVectorLayer(results["FINDINGS"], "empty", "ogr").isValid())
+
     def test_make_opens_what_is_wanted_with_its_styles(self):
         results, layers = self.opened("make", {
             "OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 3, 5], "NETWORK_FOREST_OUTLET_SPACING": 0,
@@ -280,6 +300,7 @@ class Opened(Case):
         wanted = ">" + QgsProcessing.TEMPORARY_OUTPUT
         results, layers = self.opened("check", {"NETWORK": str(COAST), "FIX": wanted, "FINDINGS": wanted})
         self.assertEqual(set(layers), {"Repaired arcs", "Repaired nodes", "Findings"})
+        self.assertEqual(self.from_the_top(), ["Findings", "Repaired nodes", "Repaired arcs"])
         fixed = results["FIX"]
         _, layers = self.opened("convert", {"NETWORK": fixed, "SCHEMA": "native", "OUTPUT": str(self.folder / "n.geojson")})
         self.assertEqual(set(layers), {"Arcs", "Nodes"})
