@@ -17,7 +17,10 @@ KNOWN = (
     (r"\bgdal_fillnodata", "Raster > Analysis > Fill Nodata"),
     (r"-srcwin\b|-projwin\b", "Raster > Extraction > Clip Raster by Extent"),
     (r"-clipsrc\b", "Vector > Geoprocessing Tools > Clip"),
-    (r"--fix\b|\barcs leave the node\b", REPAIR),
+    (r"\bmatch no schema\b", "take a Repaired network, for which any lines will do, or the advanced parameters Schema and "
+                              "Fields of the network"),
+    (r"\bits --fix\b|\barcs leave the node\b", REPAIR),
+    (r"--network\b", "the parameter Rivers"),
     (r"--max-upstream\b", "the parameter Most arcs upstream of one"),
     (r"\bgive --dem or --cell\b", "the parameter DEM, or Cell size of a raster"),
 )

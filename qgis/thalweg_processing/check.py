@@ -6,8 +6,9 @@ from __future__ import annotations
 from collections import Counter
 from typing import Any
 
-from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputBoolean,
-                       QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber, QgsProcessingOutputVectorLayer,
+from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,
+                       QgsProcessingOutputBoolean, QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber,
+                       QgsProcessingOutputVectorLayer,
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
                        QgsProcessingParameterVectorDestination, QgsProject)
 
@@ -70,6 +71,8 @@ class Check(NetworkAlgorithm):
     def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
         self.fix = self.file(parameters, "FIX", context)
         self.findings = self.file(parameters, "FINDINGS", context)
+        if self.fix and self.fix == self.findings:
+            raise QgsProcessingException("FIX and FINDINGS: name two files")
         options = self.network_options(parameters, context, files)
         options += self.options(parameters, context, NEAR="--near", NODATA="--nodata")
         options += [f"--dem={files['DEM'].path}"] if "DEM" in files else []

@@ -5,6 +5,7 @@ from __future__ import annotations
 
 import os
 import re
+import threading
 from dataclasses import dataclass
 from typing import Any
 
@@ -51,13 +52,14 @@ class VectorInput:
     layer_name: str
     file: File | None
     source: QgsProcessingFeatureSource | None
+    origin: str = ""  # the file that the features come from; "": none
 
     def written(self, path: str, layer_name: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         """Add the features to a GeoPackage as a layer of this name."""
         options = QgsVectorFileWriter.SaveVectorOptions()
         options.driverName = "GPKG"
         options.layerName = layer_name
-        options.layerOptions = [f"FID={ITS_OWN_ID}"]
+        options.layerOptions = [f"FID={ITS_OWN_ID}", "SPATIAL_INDEX=NO"]
         if os.path.exists(path):
             options.actionOnExistingFile = QgsVectorFileWriter.CreateOrOverwriteLayer
         source = self.source
@@ -91,17 +93,24 @@ class RasterInput:
     """A raster layer: its file, and what QGIS says of it that the file does not."""
 
     layer_name: str
-    path: str
+    path: str  # of the file, or what else GDAL opens: a table of a GeoPackage, a file in a ZIP
     crs: str = ""  # WKT; "": as in the file
     nodata: float | None = None  # beside what the file declares; None: nothing
 
+    @property
+    def origin(self) -> str:
+        """The file of the layer."""
+        return self.path
+
     def as_file(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> File:
         """Return the file; where it must be described again, in this folder."""
-        if not self.crs and self.nodata is None:
+        if os.path.exists(self.path) and not self.crs and self.nodata is None:
             return File(self.path)
-        path = free_path(folder, file_name(self.layer_name), ".vrt")
+        in_memory = "/vsimem/" in self.path or self.path.startswith("MEM:")  # of this process only
+        ending, kind = (".tif", "GTiff") if in_memory else (".vrt", "VRT")
+        path = free_path(folder, file_name(self.layer_name), ending)
         try:
-            made = gdal.Translate(path, self.path, format="VRT", outputSRS=self.crs or None, noData=self.nodata)
+            made = gdal.Translate(path, self.path, format=kind, outputSRS=self.crs or None, noData=self.nodata)
         except RuntimeError:  # where the user's GDAL raises
             made = None
         if made is None:
@@ -126,6 +135,13 @@ def opened_vector(path: str) -> Any:
         return None
 
 
+def _origin(layer: QgsVectorLayer | None) -> str:
+    """The file of a layer, "" where it has none."""
+    if layer is None or layer.providerType() != "ogr":
+        return ""
+    return str(QgsProviderRegistry.instance().decodeUri("ogr", layer.source()).get("path") or "")
+
+
 def _is_part(definition: Any) -> bool:
     """Whether a parameter takes a part of a layer's features."""
     if not isinstance(definition, QgsProcessingFeatureSourceDefinition):
@@ -143,6 +159,8 @@ def _file_of(layer: QgsVectorLayer, takes_layer_name: bool) -> File | None:
         return None
     parts = QgsProviderRegistry.instance().decodeUri("ogr", layer.source())
     path = str(parts.get("path") or "")
+    if os.path.isabs(path) and not path.startswith("/vsi") and not os.path.exists(path):
+        raise QgsProcessingException(f"{layer.name()}: its file {path} does not exist any more")
     if not os.path.exists(path) or parts.get("openOptions") or "|geometrytype=" in layer.source().lower():
         return None
     path = os.path.abspath(path)
@@ -182,7 +200,7 @@ def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
     file = _file_of(layer, takes_layer_name) if layer is not None and not _is_part(parameters[name]) else None
     if file is not None and file.source_crs and not takes_source_crs:
         file = None
-    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source)
+    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source, _origin(layer))
 
 
 def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str,
@@ -197,7 +215,7 @@ def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any
         file = _file_of(layer, takes_layer_name=False)
         if file is not None and file.source_crs:
             file = None
-        return VectorInput(layer.name(), file, algorithm.parameterAsSource(parameters, name, context))
+        return VectorInput(layer.name(), file, algorithm.parameterAsSource(parameters, name, context), _origin(layer))
     raise QgsProcessingException(f"{name}: {parameters[name]} is neither a vector nor a raster layer that QGIS can read")
 
 
@@ -276,6 +294,7 @@ class _AsMade(QgsProcessingLayerPostProcessorInterface):
 
 
 _kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QGIS holds no reference to them
+_keeping = threading.Lock()  # algorithms run in threads
 
 
 def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str, on_top: bool = False) -> None:
@@ -284,7 +303,8 @@ def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str, on_top: 
         its.createFromUserInput(crs)
     processor = _AsMade(its, on_top)
     details.setPostProcessor(processor)
-    _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
+    with _keeping:
+        _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
 
 
 HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingUtils.LayerHint.Vector,

@@ -168,6 +168,8 @@ class Make(Algorithm):
         if self.is_set(parameters, "DEM") and self.is_set(parameters, "SURFACE_SOURCE"):
             return False, "SURFACE_SOURCE: the terrain is that of DEM already"
         if self.is_set(parameters, "EXTENT"):
+            if self.parameterAsExtent(parameters, "EXTENT", context).isNull():
+                return False, f"EXTENT: '{parameters['EXTENT']}' is not an extent; write XMIN,XMAX,YMIN,YMAX [EPSG:N]"
             clash = [name for name in ("GRID_WIDTH", "GRID_HEIGHT", "GRID_ORIGIN") if self.is_set(parameters, name)]
             if clash:
                 return False, f"Give EXTENT or {clash[0]}, not both"
@@ -203,7 +205,10 @@ class Make(Algorithm):
             crs = self.grid_crs(parameters, context)
             extent = self.parameterAsExtent(parameters, "EXTENT", context, crs)
             cell = float(self.word(parameters, "CELL", context) or WITHOUT_INPUT_CELL)
-            self.grid = grid_of(extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum(), cell)
+            sides = (extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum())
+            if cell <= 0 or not all(math.isfinite(side) for side in sides):
+                raise QgsProcessingException(f"EXTENT: {extent.toString()} in {crs.authid()} has no cells of {cell:g} m")
+            self.grid = grid_of(*sides, cell)
             self.grid["grid.crs"] = crs_text(crs)
         elif self.is_set(parameters, "CRS"):
             crs = self.parameterAsCrs(parameters, "CRS", context)

@@ -173,13 +173,15 @@ def without_columns(line: str) -> str:
 class _Listener:
     """Passes on what the program writes to stderr."""
 
-    def __init__(self, command: str, feedback: QgsProcessingFeedback) -> None:
+    def __init__(self, command: str, folder: str, feedback: QgsProcessingFeedback) -> None:
+        self.folder = os.path.join(folder, "")  # a layer that was written to it is named without it
         self.feedback = feedback
         self.parts = STAGES.get(command, {})
         self.shown = 0.0
         self.error: list[str] = []
 
     def hear(self, line: str) -> None:
+        line = line.replace(self.folder, "")
         if line.startswith("{"):
             try:
                 state = json.loads(line)
@@ -254,7 +256,7 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
                threading.Thread(target=_read_all, args=(out, printed), daemon=True)]
     for reader in readers:
         reader.start()
-    listener = _Listener(arguments[0], feedback)
+    listener = _Listener(arguments[0], folder, feedback)
     try:
         while True:
             if feedback.isCanceled():

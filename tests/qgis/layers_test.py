@@ -6,6 +6,7 @@ import json
 import os
 import pathlib
 import tomllib
+import zipfile
 
 from support import COAST, JACKSBORO, Case, main, program, start
 
@@ -166,6 +167,73 @@ class Layers(Case):
         with self.assertRaises(QgsProcessingException):
             processing.run("thalweg:measure", {"DEM": layer, "OUTPUT": str(self.folder / "out")}, feedback=said)
         self.assertRegex(said.errors[0], "tiles does not come from a file: save it as a GeoTIFF")
+
+    def test_rasters_that_are_no_file_of_their_own(self):
+        table, zipped, memory = self.folder / "two.gpkg", self.folder / "z.zip", "/vsimem/höhen.tif"
+        for name, more in (("a", []), ("b", ["APPEND_SUBDATASET=YES"])):
+            gdal.Translate(str(table), str(JACKSBORO), format="GPKG", outputType=gdal.GDT_Float32,
+                           creationOptions=[f"RASTER_TABLE={name}", *more])
+        with zipfile.ZipFile(zipped, "w") as file:
+            file.write(JACKSBORO, "in.tif")
+        gdal.Translate(memory, str(JACKSBORO))
+        for number, source in enumerate((f"GPKG:{table}:b", f"/vsizip/{zipped}/in.tif", memory)):
+            layer = QgsRasterLayer(source, "dem")
+            self.assertTrue(layer.isValid())
+            results = processing.run("thalweg:measure", {"DEM": layer, "WHAT": [0], "OUTPUT": str(self.folder / str(number))})
+            self.assertEqual(QgsRasterLayer(results["AREA_D8"]).width(), layer.width())
+        gdal.Unlink(memory)
+        self.assertEqual(self.leftovers(), [])
+
+    def refused(self, words, algorithm, **parameters):
+        instance = QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{algorithm}")
+        context, said = QgsProcessingContext(), Said()
+        context.setProject(QgsProject.instance())
+        right, why = instance.checkParameterValues(parameters, context)
+        if right:
+            try:
+                self.assertFalse(instance.run(parameters, context, said, {}, False)[1])
+                why = said.errors[0]
+            except QgsProcessingException as error:
+                why = str(error)
+        self.assertRegex(why, words)
+        self.assertNotIn("Traceback", why)
+
+    def test_no_output_replaces_the_file_of_an_input(self):
+        path, dem = self.saved(lines_layer()), self.folder / "dem.tif"
+        dem.write_bytes(JACKSBORO.read_bytes())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        layer.setSubsetString("\"name\" <> 'river 0'")  # so that the program gets another file
+        for name in ("FIX", "FINDINGS"):
+            self.refused(f"{name}: .* would replace the file of the layer lines", "check", NETWORK=layer, **{name: str(path)})
+        self.refused("would replace the file of the layer dem", "blend", TARGET=str(dem), SOURCE=str(JACKSBORO), GAIN=2,
+                     OUTPUT=str(dem))
+        self.refused("name two files", "check", NETWORK=layer, **dict.fromkeys(("FIX", "FINDINGS"), str(self.folder / "x.gpkg")))
+        shapes = self.folder / "r_arcs.shp"
+        gdal.VectorTranslate(str(shapes), str(path))
+        self.refused("would replace", "check", NETWORK=str(shapes), FIX=str(self.folder / "r.shp"))
+        layer.setSubsetString("")
+        self.assertEqual(layer.featureCount(), 3)
+        self.assertEqual(dem.read_bytes(), JACKSBORO.read_bytes())
+
+    def test_nonsense_is_refused_in_words(self):
+        dem, out = str(JACKSBORO), str(self.folder / "out")
+        for gain in ("1,5", "much", float("nan"), "inf"):
+            self.refused("GAIN: '.*' is not a", "blend", TARGET=dem, SOURCE=dem, GAIN=gain, OUTPUT=f"{out}.tif")
+        self.refused("SEED: '2.5' is not a whole number", "make", SEED="2.5", OUTPUT=out)
+        self.refused("TITLE: a text with a null character", "make", TITLE="a\0b", OUTPUT=out)
+        self.refused("EXTENT: 'a,b,c' is not an extent", "make", EXTENT="a,b,c", OUTPUT=out)
+        for extent, cell in (("0,inf,0,1 [EPSG:32631]", 1), ("0,1,0,1 [EPSG:32631]", 0)):
+            self.refused("EXTENT: .* has no cells of", "make", EXTENT=extent, CELL=cell, OUTPUT=out)
+        self.refused("OUTPUT: cannot make the folder of /proc/none/out", "make", OUTPUT="/proc/none/out")
+        self.refused("match no schema(.|\n)*In QGIS: ", "check", NETWORK=lines_layer())
+        self.refused("2 arcs leave(.|\n)*In QGIS: ", "convert", NETWORK=str(COAST), OUTPUT=f"{out}/new/x.gpkg")
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_a_file_that_has_gone_is_not_an_empty_layer(self):
+        path = self.saved(lines_layer())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        path.rename(self.folder / "elsewhere.gpkg")
+        self.refused("lines: its file .* does not exist any more", "check", NETWORK=layer)
 
     def test_nodes_of_another_layer(self):
         self.assertEqual(program("make", "-o", self.folder / "made", "--set", "grid.width=128", "--set", "grid.height=128",
