@@ -11,14 +11,14 @@ import tempfile
 from typing import Any
 
 from processing.core.ProcessingConfig import ProcessingConfig
-from qgis.core import (QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,
-                       QgsProcessingOutputDefinition, QgsProcessingParameterDefinition, QgsProcessingParameterNumber,
-                       QgsProcessingUtils)
+from qgis.core import (QgsProcessing, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
+                       QgsProcessingFeedback, QgsProcessingOutputDefinition, QgsProcessingOutputLayerDefinition,
+                       QgsProcessingParameterDefinition, QgsProcessingParameterNumber, QgsProcessingUtils)
 from qgis.PyQt.QtCore import QUrl
 from qgis.PyQt.QtGui import QIcon
 
 from . import program
-from .layers import File, RasterInput, VectorInput, is_given
+from .layers import File, RasterInput, VectorInput, crs_text, is_given
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MANUAL = "/usr/share/doc/thalweg-doc/docs/qgis.md"  # of Debian's package
@@ -31,6 +31,12 @@ LIMITS = {"at_most": "allowed", "at_least": "at least"}  # of checks, by their b
 def names(text: str) -> list[str]:
     """Return the words of a list with commas or spaces."""
     return text.replace(",", " ").split()
+
+
+def ends_in(destination: Any, *endings: str) -> bool:
+    """Return whether the file of a destination has one of these extensions, or gets one from QGIS."""
+    said = destination.sink.staticValue() if isinstance(destination, QgsProcessingOutputLayerDefinition) else destination
+    return not isinstance(said, str) or said == QgsProcessing.TEMPORARY_OUTPUT or said.lower().endswith(endings)
 
 
 class Algorithm(QgsProcessingAlgorithm):
@@ -125,6 +131,15 @@ class Algorithm(QgsProcessingAlgorithm):
             return self.parameterAsEnumString(parameters, name, context)
         return self.parameterAsString(parameters, name, context).strip()
 
+    def crs(self, parameters: dict[str, Any], name: str, context: QgsProcessingContext) -> str:
+        """Return a CRS as the program takes it, "" where it is not set."""
+        if not self.is_set(parameters, name):
+            return ""
+        crs = self.parameterAsCrs(parameters, name, context)
+        if not crs.isValid():
+            raise QgsProcessingException(f"{name}: '{parameters[name]}' is not a CRS that QGIS knows")
+        return crs_text(crs)
+
     def options(self, parameters: dict[str, Any], context: QgsProcessingContext, **flags: str) -> list[str]:
         """Return the options of parameters that are set, given as NAME=option."""
         found = []
@@ -191,8 +206,13 @@ class Algorithm(QgsProcessingAlgorithm):
         except program.ProgramError as why:
             raise QgsProcessingException(str(why)) from why
         try:
-            with tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(),
-                                             ignore_cleanup_errors=True) as folder:
+            temporary = tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(),
+                                                    ignore_cleanup_errors=True)
+        except OSError as why:
+            raise QgsProcessingException(f"cannot write to the folder for temporary files, {QgsProcessingUtils.tempFolder()}: "
+                                         f"{why.strerror}. Settings > Options > Processing > General names it.") from why
+        try:
+            with temporary as folder:
                 return self.run_in(folder, found, parameters, context, feedback)
         finally:
             for made in self.new_folders:

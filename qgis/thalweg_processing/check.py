@@ -12,7 +12,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingExcepti
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
                        QgsProcessingParameterVectorDestination, QgsProject)
 
-from .algorithm import LIMITS, NODATA, warn_of_failed
+from .algorithm import LIMITS, NODATA, ends_in, warn_of_failed
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
 from .network_input import NetworkAlgorithm
 from .program import Finished
@@ -58,11 +58,10 @@ class Check(NetworkAlgorithm):
     def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:
         if wrong := self.check_fields(parameters, context):
             return False, wrong
-        if self.is_set(parameters, "FINDINGS"):
-            value = parameters["FINDINGS"]
-            said = value.sink.staticValue() if isinstance(value, QgsProcessingOutputLayerDefinition) else value
-            if said != QgsProcessing.TEMPORARY_OUTPUT and not str(said).lower().endswith(".gpkg"):
-                return False, "FINDINGS: thalweg writes findings to a GeoPackage (.gpkg)"
+        if self.is_set(parameters, "FINDINGS") and not ends_in(parameters["FINDINGS"], ".gpkg"):
+            return False, "FINDINGS: thalweg writes findings to a GeoPackage (.gpkg)"
+        if self.is_set(parameters, "FIX") and not ends_in(parameters["FIX"], ".gpkg", ".shp"):
+            return False, "FIX: thalweg writes a repaired network to a GeoPackage (.gpkg) or shapefiles (.shp)"
         return super().checkParameterValues(parameters, context)
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:

@@ -210,11 +210,8 @@ class Make(Algorithm):
                 raise QgsProcessingException(f"EXTENT: {extent.toString()} in {crs.authid()} has no cells of {cell:g} m")
             self.grid = grid_of(*sides, cell)
             self.grid["grid.crs"] = crs_text(crs)
-        elif self.is_set(parameters, "CRS"):
-            crs = self.parameterAsCrs(parameters, "CRS", context)
-            if not crs.isValid():
-                raise QgsProcessingException(f"CRS: '{parameters['CRS']}' is not a CRS that QGIS knows")
-            self.grid = {"grid.crs": crs_text(crs)}
+        elif wanted := self.crs(parameters, "CRS", context):
+            self.grid = {"grid.crs": wanted}
         inputs: dict[str, VectorInput | RasterInput | None] = {
             "RIVERS": vector_input(self, parameters, "RIVERS", context, takes_layer_name=True, takes_source_crs=True),
             "DEM": raster_input(self, parameters, "DEM", context)}

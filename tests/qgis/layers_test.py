@@ -6,9 +6,10 @@ import json
 import os
 import pathlib
 import tomllib
+import unittest.mock
 import zipfile
 
-from support import COAST, JACKSBORO, Case, main, program, start
+from support import COAST, JACKSBORO, SAMPLES, Case, main, program, start
 
 application, plugin = start()
 
@@ -21,6 +22,7 @@ from qgis.core import (  # noqa: E402
     QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer,
     QgsRasterRange, QgsRectangle, QgsVectorLayer)
 from processing.core.ProcessingConfig import ProcessingConfig  # noqa: E402
+import thalweg_processing.algorithm  # noqa: E402
 from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
 
 GRID = {"GRID_WIDTH": 96, "GRID_HEIGHT": 96, "CELL": 30}
@@ -225,9 +227,18 @@ class Layers(Case):
         for extent, cell in (("0,inf,0,1 [EPSG:32631]", 1), ("0,1,0,1 [EPSG:32631]", 0)):
             self.refused("EXTENT: .* has no cells of", "make", EXTENT=extent, CELL=cell, OUTPUT=out)
         self.refused("OUTPUT: cannot make the folder of /proc/none/out", "make", OUTPUT="/proc/none/out")
+        self.refused("CRS: 'EPSG:0' is not a CRS", "tin", TEXT=str(SAMPLES / "points.csv"), CRS="EPSG:0", OUTPUT=f"{out}.2dm")
+        self.refused("is a folder", "tin", TEXT=str(self.folder), OUTPUT=f"{out}.2dm")
+        self.refused("writes a GeoTIFF", "blend", TARGET=dem, SOURCE=dem, OUTPUT=f"{out}.png")
+        self.refused("FIX: thalweg writes", "check", NETWORK=str(COAST), FIX=f"{out}.geojson")
         self.refused("match no schema(.|\n)*In QGIS: ", "check", NETWORK=lines_layer())
         self.refused("2 arcs leave(.|\n)*In QGIS: ", "convert", NETWORK=str(COAST), OUTPUT=f"{out}/new/x.gpkg")
         self.assertEqual(os.listdir(self.folder), [])
+
+    def test_no_folder_for_temporary_files(self):
+        none = unittest.mock.Mock(tempFolder=lambda: "/proc/none")
+        with unittest.mock.patch.object(thalweg_processing.algorithm, "QgsProcessingUtils", none):
+            self.refused("cannot write to the folder for temporary files, /proc/none: ", "check", NETWORK=str(COAST))
 
     def test_a_file_that_has_gone_is_not_an_empty_layer(self):
         path = self.saved(lines_layer())
