@@ -10,14 +10,15 @@ from dataclasses import dataclass
 from typing import Any
 
 from osgeo import gdal, ogr
-from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsLayerTreeLayer, QgsMapLayer,
-                       QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSource,
-                       QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback, QgsProcessingLayerPostProcessorInterface,
+from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsField, QgsFields,
+                       QgsLayerTreeLayer, QgsMapLayer, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
+                       QgsProcessingFeatureSource, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
+                       QgsProcessingLayerPostProcessorInterface,
                        QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer,
                        QgsWkbTypes)
 from qgis.PyQt import sip
 
-ITS_OWN_ID = "thalweg_fid"  # of an exported feature: a field fid of the layer stays a field
+ITS_OWN_ID, ITS_SHAPE = "thalweg_fid", "thalweg_shape"  # of an exported feature: fields fid and geom of the layer stay fields
 
 
 def is_given(value: Any) -> bool:
@@ -34,6 +35,25 @@ def crs_text(crs: QgsCoordinateReferenceSystem) -> str:
 def file_name(layer_name: str) -> str:
     """Return a layer's name as the name of a file."""
     return re.sub(r'[/\\:*?"<>|\0-\x1f]', "_", layer_name).strip(" .")[:80] or "layer"
+
+
+def table_name(layer_name: str) -> str:
+    """Return a layer's name as a GeoPackage takes it."""
+    return layer_name if re.match(r"(?!gpkg|sqlite_|rtree_)\w", layer_name, re.IGNORECASE) else f"layer {layer_name}"
+
+
+def told_apart(fields: QgsFields) -> QgsFields:
+    """Return fields whose names differ in more than their case, as those of a GeoPackage must."""
+    found, taken = QgsFields(), {ITS_OWN_ID, ITS_SHAPE}
+    for field in fields:
+        name, number = field.name(), 2
+        while name.lower() in taken:
+            name, number = f"{field.name()}_{number}", number + 1
+        taken.add(name.lower())
+        renamed = QgsField(field)
+        renamed.setName(name)
+        found.append(renamed)
+    return found
 
 
 @dataclass
@@ -58,13 +78,13 @@ class VectorInput:
         """Add the features to a GeoPackage as a layer of this name."""
         options = QgsVectorFileWriter.SaveVectorOptions()
         options.driverName = "GPKG"
-        options.layerName = layer_name
-        options.layerOptions = [f"FID={ITS_OWN_ID}", "SPATIAL_INDEX=NO"]
+        options.layerName = table_name(layer_name)
+        options.layerOptions = [f"FID={ITS_OWN_ID}", f"GEOMETRY_NAME={ITS_SHAPE}", "SPATIAL_INDEX=NO"]
         if os.path.exists(path):
             options.actionOnExistingFile = QgsVectorFileWriter.CreateOrOverwriteLayer
         source = self.source
         assert source is not None
-        writer = QgsVectorFileWriter.create(path, source.fields(), source.wkbType(), source.sourceCrs(),
+        writer = QgsVectorFileWriter.create(path, told_apart(source.fields()), source.wkbType(), source.sourceCrs(),
                                             context.transformContext(), options)
         if writer.hasError() != QgsVectorFileWriter.NoError:
             raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
@@ -197,6 +217,8 @@ def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
     source = algorithm.parameterAsSource(parameters, name, context)
     if source is None:
         raise QgsProcessingException(algorithm.invalidSourceError(parameters, name))
+    if layer is not None and not layer.isValid():
+        raise QgsProcessingException(f"{layer.name()}: QGIS cannot read this layer")
     file = _file_of(layer, takes_layer_name) if layer is not None and not _is_part(parameters[name]) else None
     if file is not None and file.source_crs and not takes_source_crs:
         file = None

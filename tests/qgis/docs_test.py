@@ -120,7 +120,8 @@ class Page(Case):
         self.assertLessEqual({"Rivers", "Heights", "Hillshade"}, {layer.name() for layer in project.mapLayers().values()})
         rivers, heights = (project.mapLayersByName(name)[0] for name in ("Rivers", "Heights"))
 
-        checked, _ = run("check", NETWORK=rivers, DEM=heights)
+        checked, log = run("check", NETWORK=rivers, DEM=heights)
+        self.assertIn("All checks passed. They allow findings within limits: ", log)
         self.assertTrue(checked["OK"])
         self.assert_says(f"The {checked['FINDINGS_COUNT']} findings are places")
         measured, log = run("measure", DEM=heights, NETWORK=rivers, OUTPUT="measures")

@@ -55,7 +55,8 @@ def lines_layer(crs="EPSG:32631", name="lines", fields="field=fid:integer&field=
     layer = QgsVectorLayer(f"LineStringZ?crs={crs}&{fields}", name, "memory")
     for number, text in enumerate(LINES):
         feature = QgsFeature(layer.fields())
-        feature.setAttributes([7, f"river {number}"])  # ids that repeat
+        feature.setAttribute("fid", 7)  # ids that repeat
+        feature.setAttribute("name", f"river {number}")
         feature.setGeometry(QgsGeometry.fromWkt(text))
         assert layer.dataProvider().addFeature(feature)
     return layer
@@ -239,6 +240,17 @@ class Layers(Case):
         none = unittest.mock.Mock(tempFolder=lambda: "/proc/none")
         with unittest.mock.patch.object(thalweg_processing.algorithm, "QgsProcessingUtils", none):
             self.refused("cannot write to the folder for temporary files, /proc/none: ", "check", NETWORK=str(COAST))
+
+    def test_names_that_a_geopackage_does_not_take(self):
+        fields = "&".join(f"field={name}:string" for name in ("ID", "id", "geom", "thalweg_fid", "thalweg_shape"))
+        for name in ("", "(rivers)", "-o", "./a", "gpkg_contents", "sqlite_a", "x" * 300):
+            self.checked(lines_layer(name=name, fields=f"{fields}&field=fid:integer&field=name:string"))
+            self.assertEqual(self.fixed_lines()[0], 3)
+
+    def test_a_layer_that_qgis_cannot_read_is_not_empty(self):
+        layer = QgsProject.instance().addMapLayer(QgsVectorLayer("/none.csv", "no rivers", "delimitedtext"))
+        self.refused("no rivers: QGIS cannot read|Could not load source", "check", NETWORK=layer)
+        QgsProject.instance().clear()
 
     def test_a_file_that_has_gone_is_not_an_empty_layer(self):
         path = self.saved(lines_layer())
