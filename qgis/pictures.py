@@ -109,7 +109,6 @@ def ten_minutes():
     processing.runAndLoadResults("thalweg:check", {"NETWORK": rivers, "FIX": str(HERE / "repaired.gpkg"),
                                                    "FINDINGS": str(HERE / "findings.gpkg")})
     layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
-    QgsProject.instance().layerTreeRoot().findLayer(layers["Findings"]).setExpanded(True)
     iface.setActiveLayer(layers["Findings"])
     iface.showAttributeTable(layers["Findings"])
     wait(1)

@@ -311,8 +311,10 @@ class _AsMade(QgsProcessingLayerPostProcessorInterface):
         below = [at for at, height in places.items() if height < self.height and at < here]
         above = [at for at, height in places.items() if height > self.height and at > here]
         if below or above:
-            node.parent().insertChildNode(min(below) if below else max(above) + 1, node.clone())
+            moved = node.clone()
+            node.parent().insertChildNode(min(below) if below else max(above) + 1, moved)
             node.parent().removeChildNode(node)
+            moved.setExpanded(True)  # as a layer that has just been opened
 
 
 _kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QGIS holds no reference to them
