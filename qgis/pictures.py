@@ -68,15 +68,6 @@ def picture(name, dialog=None):
     window.save(str(PICTURES / f"qgis_{name}.png"))
 
 
-def on_top(layer):
-    """Move a layer to the top, as the reader does by the mouse."""
-    root = QgsProject.instance().layerTreeRoot()
-    node = root.findLayer(layer)
-    node.setExpanded(True)
-    root.insertChildNode(0, node.clone())
-    root.removeChildNode(node)
-
-
 def toolbox_open():
     """Show the toolbox with thalweg's algorithms."""
     toolbox = dock("ProcessingToolbox")
@@ -118,7 +109,6 @@ def ten_minutes():
     processing.runAndLoadResults("thalweg:check", {"NETWORK": rivers, "FIX": str(HERE / "repaired.gpkg"),
                                                    "FINDINGS": str(HERE / "findings.gpkg")})
     layers = {layer.name(): layer for layer in QgsProject.instance().mapLayers().values()}
-    on_top(layers["Findings"])
     iface.setActiveLayer(layers["Findings"])
     iface.showAttributeTable(layers["Findings"])
     wait(1)

@@ -4,28 +4,39 @@
 from __future__ import annotations
 
 import configparser
+import contextlib
+import math
 import os
 import tempfile
 from typing import Any
 
 from processing.core.ProcessingConfig import ProcessingConfig
-from qgis.core import (QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,
-                       QgsProcessingOutputDefinition, QgsProcessingParameterDefinition, QgsProcessingUtils)
+from qgis.core import (QgsProcessing, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
+                       QgsProcessingFeedback, QgsProcessingOutputDefinition, QgsProcessingOutputLayerDefinition,
+                       QgsProcessingParameterDefinition, QgsProcessingParameterNumber, QgsProcessingUtils)
 from qgis.PyQt.QtCore import QUrl
 from qgis.PyQt.QtGui import QIcon
 
 from . import program
-from .layers import File, RasterInput, VectorInput, is_given
+from .layers import File, RasterInput, VectorInput, crs_text, is_given
 
 HERE = os.path.dirname(os.path.abspath(__file__))
 MANUAL = "/usr/share/doc/thalweg-doc/docs/qgis.md"  # of Debian's package
 NODATA = ("Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every value as a "
           "height. Default: refuse values that look like undeclared no-data.")
 
+LIMITS = {"at_most": "allowed", "at_least": "at least"}  # of checks, by their bound
+
 
 def names(text: str) -> list[str]:
     """Return the words of a list with commas or spaces."""
     return text.replace(",", " ").split()
+
+
+def ends_in(destination: Any, *endings: str) -> bool:
+    """Return whether the file of a destination has one of these extensions, or gets one from QGIS."""
+    said = destination.sink.staticValue() if isinstance(destination, QgsProcessingOutputLayerDefinition) else destination
+    return not isinstance(said, str) or said == QgsProcessing.TEMPORARY_OUTPUT or said.lower().endswith(endings)
 
 
 class Algorithm(QgsProcessingAlgorithm):
@@ -41,6 +52,7 @@ class Algorithm(QgsProcessingAlgorithm):
         super().__init__()
         self.said: dict[str, str] = {}  # help of parameters and outputs
         self.inputs: dict[str, VectorInput | RasterInput | None] = {}
+        self.new_folders: list[str] = []  # of outputs, the innermost first
 
     def createInstance(self) -> Algorithm:
         return type(self)()
@@ -119,6 +131,15 @@ class Algorithm(QgsProcessingAlgorithm):
             return self.parameterAsEnumString(parameters, name, context)
         return self.parameterAsString(parameters, name, context).strip()
 
+    def crs(self, parameters: dict[str, Any], name: str, context: QgsProcessingContext) -> str:
+        """Return a CRS as the program takes it, "" where it is not set."""
+        if not self.is_set(parameters, name):
+            return ""
+        crs = self.parameterAsCrs(parameters, name, context)
+        if not crs.isValid():
+            raise QgsProcessingException(f"{name}: '{parameters[name]}' is not a CRS that QGIS knows")
+        return crs_text(crs)
+
     def options(self, parameters: dict[str, Any], context: QgsProcessingContext, **flags: str) -> list[str]:
         """Return the options of parameters that are set, given as NAME=option."""
         found = []
@@ -139,8 +160,39 @@ class Algorithm(QgsProcessingAlgorithm):
         if not path:
             return ""
         path = os.path.abspath(path)
-        os.makedirs(os.path.dirname(path), exist_ok=True)
+        stem, ending = os.path.splitext(path)
+        existing = [one for one in (path, f"{stem}_arcs{ending}", f"{stem}_nodes{ending}") if os.path.exists(one)]
+        for taken in self.inputs.values():  # the program does not know the file of one that has been exported
+            if taken is not None and os.path.exists(taken.origin) and (
+                    any(os.path.samefile(one, taken.origin) for one in existing)):
+                raise QgsProcessingException(f"{name}: {path} would replace the file of the layer {taken.layer_name}: name "
+                                             "another")
+        missing, folder = [], os.path.dirname(path)
+        while not os.path.exists(folder):
+            missing.append(folder)
+            folder = os.path.dirname(folder)
+        self.new_folders = missing + self.new_folders
+        try:
+            os.makedirs(os.path.dirname(path), exist_ok=True)
+        except OSError as why:
+            raise QgsProcessingException(f"{name}: cannot make the folder of {path}: {why.strerror}") from why
         return path
+
+    def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:
+        """Refuse what QGIS would silently take for 0, and what no program can be given."""
+        for name, value in parameters.items():
+            definition = self.parameterDefinition(name)
+            if isinstance(value, str) and "\0" in value:
+                return False, f"{name}: a text with a null character"
+            if definition is not None and definition.type() == "number" and isinstance(value, (str, float)) and value != "":
+                whole = definition.dataType() == QgsProcessingParameterNumber.Integer
+                try:
+                    number = float(value)
+                except ValueError:
+                    return False, f"{name}: '{value}' is not a number; write it as 1.5"
+                if not math.isfinite(number) or (whole and number != int(number)):
+                    return False, f"{name}: '{value}' is not a {'whole' if whole else 'finite'} number"
+        return super().checkParameterValues(parameters, context)
 
     def prepareAlgorithm(self, parameters: dict[str, Any], context: QgsProcessingContext,
                          feedback: QgsProcessingFeedback) -> bool:
@@ -153,19 +205,32 @@ class Algorithm(QgsProcessingAlgorithm):
             found = program.find()
         except program.ProgramError as why:
             raise QgsProcessingException(str(why)) from why
-        with tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(),
-                                         ignore_cleanup_errors=True) as folder:
-            files = self.written(folder, context, feedback)
-            if feedback.isCanceled():
-                return {}
-            arguments = [self.COMMAND, *self.arguments(parameters, context, files), "--json", "--progress"]
-            threads = ProcessingConfig.getSetting(ProcessingConfig.MAX_THREADS)
-            if threads and int(threads) > 0:
-                arguments.append(f"--threads={int(threads)}")
-            finished = program.run(found, arguments, folder, feedback)
-            if finished is None:
-                return {}
-            return self.results(finished, parameters, context, feedback)
+        try:
+            temporary = tempfile.TemporaryDirectory(prefix="thalweg-", dir=QgsProcessingUtils.tempFolder(),
+                                                    ignore_cleanup_errors=True)
+        except OSError as why:
+            raise QgsProcessingException(f"cannot write to the folder for temporary files, {QgsProcessingUtils.tempFolder()}: "
+                                         f"{why.strerror}. Settings > Options > Processing > General names it.") from why
+        try:
+            with temporary as folder:
+                return self.run_in(folder, found, parameters, context, feedback)
+        finally:
+            for made in self.new_folders:
+                with contextlib.suppress(OSError):
+                    os.rmdir(made)  # where nothing has come into it
+
+    def run_in(self, folder: str, found: program.Program, parameters: dict[str, Any], context: QgsProcessingContext,
+               feedback: QgsProcessingFeedback) -> dict[str, Any]:
+        """Run the command with a folder for what must be written for it."""
+        files = self.written(folder, context, feedback)
+        if feedback.isCanceled():
+            return {}
+        arguments = [self.COMMAND, *self.arguments(parameters, context, files), "--json", "--progress"]
+        threads = ProcessingConfig.getSetting(ProcessingConfig.MAX_THREADS)
+        if threads and int(threads) > 0:
+            arguments.append(f"--threads={int(threads)}")
+        finished = program.run(found, arguments, folder, feedback)
+        return {} if finished is None else self.results(finished, parameters, context, feedback)
 
     def written(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> dict[str, File]:
         """Return the files of the inputs; those that must be written, in this folder."""
@@ -189,5 +254,6 @@ def warn_of_failed(report: dict[str, Any], feedback: QgsProcessingFeedback) -> N
     """Name the checks that failed in a warning."""
     failed = [check for check in report.get("checks", []) if not check["ok"]]
     if failed:
-        said = ", ".join(f"{check['name']} ({check['value']:g}, allowed {check['limit']:g})" for check in failed)
+        said = ", ".join(f"{check['name']} ({check['value']:g}, {LIMITS[check.get('bound', 'at_most')]} {check['limit']:g})"
+                         for check in failed)
         feedback.pushWarning(f"These checks failed: {said}")

@@ -11,7 +11,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
                        QgsProcessingParameterPoint, QgsProcessingParameterRasterDestination, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
-from .algorithm import NODATA, Algorithm
+from .algorithm import NODATA, Algorithm, ends_in
 from .layers import File, RasterInput, VectorInput, raster_input, style_after, vector_input
 from .program import Finished
 
@@ -71,6 +71,8 @@ class Blend(Algorithm):
         window = self.word(parameters, "WINDOW", context)
         if window and not re.fullmatch(r"\s*\d+\s*,\s*\d+\s*,\s*\d+\s*,\s*\d+\s*", window):
             return False, f"WINDOW: write four whole numbers, COLUMN,ROW,WIDTH,HEIGHT, not '{window}'"
+        if self.is_set(parameters, "OUTPUT") and not ends_in(parameters["OUTPUT"], ".tif", ".tiff"):
+            return False, "OUTPUT: thalweg writes a GeoTIFF (.tif)"
         return super().checkParameterValues(parameters, context)
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:

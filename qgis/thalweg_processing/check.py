@@ -3,19 +3,21 @@
 """thalweg check."""
 from __future__ import annotations
 
+from collections import Counter
 from typing import Any
 
-from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputBoolean,
-                       QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber, QgsProcessingOutputVectorLayer,
+from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,
+                       QgsProcessingOutputBoolean, QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber,
+                       QgsProcessingOutputVectorLayer,
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
                        QgsProcessingParameterVectorDestination, QgsProject)
 
-from .algorithm import NODATA, warn_of_failed
+from .algorithm import LIMITS, NODATA, ends_in, warn_of_failed
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
 from .network_input import NetworkAlgorithm
 from .program import Finished
 
-SHOWN = 20  # findings in the log
+SHOWN = 20  # findings, and repairs, in the log
 
 
 class Check(NetworkAlgorithm):
@@ -46,9 +48,8 @@ class Check(NetworkAlgorithm):
                                                          createByDefault=False),
                  "A repaired copy in the native schema: arcs, and nodes in a second layer. Nothing is written if faults "
                  "remain. The network may then be any lines.")
-        self.add(QgsProcessingParameterVectorDestination("FINDINGS", "Findings", QgsProcessing.TypeVectorPoint, optional=True,
-                                                         createByDefault=False),
-                 "The findings as points (GeoPackage).")
+        self.add(QgsProcessingParameterVectorDestination("FINDINGS", "Findings", QgsProcessing.TypeVectorPoint, optional=True),
+                 "The findings as points (GeoPackage). Without findings, QGIS does not open it.")
         self.give(QgsProcessingOutputBoolean("OK", "Every check passed"), "Whether every check passed.")
         self.give(QgsProcessingOutputNumber("FINDINGS_COUNT", "Number of findings"), "Number of findings.")
         self.give(QgsProcessingOutputVectorLayer("FIXED_NODES", "Nodes of the repaired network", QgsProcessing.TypeVectorPoint),
@@ -57,11 +58,10 @@ class Check(NetworkAlgorithm):
     def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:
         if wrong := self.check_fields(parameters, context):
             return False, wrong
-        if self.is_set(parameters, "FINDINGS"):
-            value = parameters["FINDINGS"]
-            said = value.sink.staticValue() if isinstance(value, QgsProcessingOutputLayerDefinition) else value
-            if said != QgsProcessing.TEMPORARY_OUTPUT and not str(said).lower().endswith(".gpkg"):
-                return False, "FINDINGS: thalweg writes findings to a GeoPackage (.gpkg)"
+        if self.is_set(parameters, "FINDINGS") and not ends_in(parameters["FINDINGS"], ".gpkg"):
+            return False, "FINDINGS: thalweg writes findings to a GeoPackage (.gpkg)"
+        if self.is_set(parameters, "FIX") and not ends_in(parameters["FIX"], ".gpkg", ".shp"):
+            return False, "FIX: thalweg writes a repaired network to a GeoPackage (.gpkg) or shapefiles (.shp)"
         return super().checkParameterValues(parameters, context)
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
@@ -70,6 +70,8 @@ class Check(NetworkAlgorithm):
     def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
         self.fix = self.file(parameters, "FIX", context)
         self.findings = self.file(parameters, "FINDINGS", context)
+        if self.fix and self.fix == self.findings:
+            raise QgsProcessingException("FIX and FINDINGS: name two files")
         options = self.network_options(parameters, context, files)
         options += self.options(parameters, context, NEAR="--near", NODATA="--nodata")
         options += [f"--dem={files['DEM'].path}"] if "DEM" in files else []
@@ -81,17 +83,18 @@ class Check(NetworkAlgorithm):
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
         report = finished.report
         warn_of_failed(report, feedback)
-        for finding in report["findings"][:SHOWN]:
-            feedback.pushInfo(finding["text"])
-        if len(report["findings"]) > SHOWN:
-            feedback.pushInfo(f"and {len(report['findings']) - SHOWN} more")
-        for mended in report["mended"][:SHOWN]:
-            feedback.pushInfo(f"repaired: {mended['text']}")
+        say(report["findings"], "finding", feedback)
+        if finished.passed and report["findings"]:
+            feedback.pushInfo(f"All checks passed. {allowance(report['checks'])}")
+        say(report["mended"], "repair", feedback)
+        for note in report["notes"]:
+            feedback.pushInfo(f"note: {note['text']}")
         found: dict[str, Any] = {"OK": finished.passed, "FINDINGS_COUNT": len(report["findings"])}
         if self.findings:
             found["FINDINGS"] = self.findings
-            if project := project_of(parameters, "FINDINGS"):
-                open_after(context, self.findings, "Findings", "FINDINGS", "vector", project=project)
+            project = project_of(parameters, "FINDINGS")
+            if project and report["findings"]:
+                open_after(context, self.findings, "Findings", "FINDINGS", "vector", project=project, on_top=True)
         if self.fix:
             if not any(path.startswith(self.fix.rpartition(".")[0]) for path in report["written"]):
                 feedback.pushWarning("Faults remain: no repaired network was written")
@@ -103,6 +106,26 @@ class Check(NetworkAlgorithm):
                     if project := project_of(parameters, "FIX"):
                         open_after(context, layers[kind], title, name, "vector", project=project)
         return found
+
+
+def say(found: list[dict[str, Any]], what: str, feedback: QgsProcessingFeedback) -> None:
+    """Count findings or repairs by kind, and list the first: those of rare kinds before those of common ones."""
+    if not found:
+        return
+    kinds = Counter(one["kind"] for one in found)
+    counted = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
+    feedback.pushInfo(f"{len(found)} {what}{'s' if len(found) > 1 else ''}: {counted}")
+    for one in sorted(found, key=lambda one: kinds[one["kind"]])[:SHOWN]:
+        feedback.pushInfo(f"  {one['text']}")
+    if len(found) > SHOWN:
+        feedback.pushInfo(f"  and {len(found) - SHOWN} more")
+
+
+def allowance(checks: list[dict[str, Any]]) -> str:
+    """Return which checks, with which limits, let findings pass."""
+    bounds = [f"{check['name']} is {check['value']:g}, {LIMITS[check['bound']]} {check['limit']:g}" for check in checks
+              if check["bound"] == "at_least" or 0 < check["value"] <= check["limit"]]
+    return f"They allow findings within limits: {'; '.join(bounds)}" if bounds else "No check counts these findings."
 
 
 def project_of(parameters: dict[str, Any], name: str) -> QgsProject | None:

@@ -5,17 +5,20 @@ from __future__ import annotations
 
 import os
 import re
+import threading
 from dataclasses import dataclass
 from typing import Any
 
 from osgeo import gdal, ogr
-from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsMapLayer,
-                       QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSource,
-                       QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback, QgsProcessingLayerPostProcessorInterface,
-                       QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer)
+from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsField, QgsFields,
+                       QgsLayerTreeLayer, QgsMapLayer, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
+                       QgsProcessingFeatureSource, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
+                       QgsProcessingLayerPostProcessorInterface,
+                       QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer,
+                       QgsWkbTypes)
 from qgis.PyQt import sip
 
-ITS_OWN_ID = "thalweg_fid"  # of an exported feature: a field fid of the layer stays a field
+ITS_OWN_ID, ITS_SHAPE = "thalweg_fid", "thalweg_shape"  # of an exported feature: fields fid and geom of the layer stay fields
 
 
 def is_given(value: Any) -> bool:
@@ -34,6 +37,25 @@ def file_name(layer_name: str) -> str:
     return re.sub(r'[/\\:*?"<>|\0-\x1f]', "_", layer_name).strip(" .")[:80] or "layer"
 
 
+def table_name(layer_name: str) -> str:
+    """Return a layer's name as a GeoPackage takes it."""
+    return layer_name if re.match(r"(?!gpkg|sqlite_|rtree_)\w", layer_name, re.IGNORECASE) else f"layer {layer_name}"
+
+
+def told_apart(fields: QgsFields) -> QgsFields:
+    """Return fields whose names differ in more than their case, as those of a GeoPackage must."""
+    found, taken = QgsFields(), {ITS_OWN_ID, ITS_SHAPE}
+    for field in fields:
+        name, number = field.name(), 2
+        while name.lower() in taken:
+            name, number = f"{field.name()}_{number}", number + 1
+        taken.add(name.lower())
+        renamed = QgsField(field)
+        renamed.setName(name)
+        found.append(renamed)
+    return found
+
+
 @dataclass
 class File:
     """A file for the program."""
@@ -50,18 +72,19 @@ class VectorInput:
     layer_name: str
     file: File | None
     source: QgsProcessingFeatureSource | None
+    origin: str = ""  # the file that the features come from; "": none
 
     def written(self, path: str, layer_name: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         """Add the features to a GeoPackage as a layer of this name."""
         options = QgsVectorFileWriter.SaveVectorOptions()
         options.driverName = "GPKG"
-        options.layerName = layer_name
-        options.layerOptions = [f"FID={ITS_OWN_ID}"]
+        options.layerName = table_name(layer_name)
+        options.layerOptions = [f"FID={ITS_OWN_ID}", f"GEOMETRY_NAME={ITS_SHAPE}", "SPATIAL_INDEX=NO"]
         if os.path.exists(path):
             options.actionOnExistingFile = QgsVectorFileWriter.CreateOrOverwriteLayer
         source = self.source
         assert source is not None
-        writer = QgsVectorFileWriter.create(path, source.fields(), source.wkbType(), source.sourceCrs(),
+        writer = QgsVectorFileWriter.create(path, told_apart(source.fields()), source.wkbType(), source.sourceCrs(),
                                             context.transformContext(), options)
         if writer.hasError() != QgsVectorFileWriter.NoError:
             raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
@@ -90,17 +113,24 @@ class RasterInput:
     """A raster layer: its file, and what QGIS says of it that the file does not."""
 
     layer_name: str
-    path: str
+    path: str  # of the file, or what else GDAL opens: a table of a GeoPackage, a file in a ZIP
     crs: str = ""  # WKT; "": as in the file
     nodata: float | None = None  # beside what the file declares; None: nothing
 
+    @property
+    def origin(self) -> str:
+        """The file of the layer."""
+        return self.path
+
     def as_file(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> File:
         """Return the file; where it must be described again, in this folder."""
-        if not self.crs and self.nodata is None:
+        if os.path.exists(self.path) and not self.crs and self.nodata is None:
             return File(self.path)
-        path = free_path(folder, file_name(self.layer_name), ".vrt")
+        in_memory = "/vsimem/" in self.path or self.path.startswith("MEM:")  # of this process only
+        ending, kind = (".tif", "GTiff") if in_memory else (".vrt", "VRT")
+        path = free_path(folder, file_name(self.layer_name), ending)
         try:
-            made = gdal.Translate(path, self.path, format="VRT", outputSRS=self.crs or None, noData=self.nodata)
+            made = gdal.Translate(path, self.path, format=kind, outputSRS=self.crs or None, noData=self.nodata)
         except RuntimeError:  # where the user's GDAL raises
             made = None
         if made is None:
@@ -125,6 +155,13 @@ def opened_vector(path: str) -> Any:
         return None
 
 
+def _origin(layer: QgsVectorLayer | None) -> str:
+    """The file of a layer, "" where it has none."""
+    if layer is None or layer.providerType() != "ogr":
+        return ""
+    return str(QgsProviderRegistry.instance().decodeUri("ogr", layer.source()).get("path") or "")
+
+
 def _is_part(definition: Any) -> bool:
     """Whether a parameter takes a part of a layer's features."""
     if not isinstance(definition, QgsProcessingFeatureSourceDefinition):
@@ -142,6 +179,8 @@ def _file_of(layer: QgsVectorLayer, takes_layer_name: bool) -> File | None:
         return None
     parts = QgsProviderRegistry.instance().decodeUri("ogr", layer.source())
     path = str(parts.get("path") or "")
+    if os.path.isabs(path) and not path.startswith("/vsi") and not os.path.exists(path):
+        raise QgsProcessingException(f"{layer.name()}: its file {path} does not exist any more")
     if not os.path.exists(path) or parts.get("openOptions") or "|geometrytype=" in layer.source().lower():
         return None
     path = os.path.abspath(path)
@@ -178,10 +217,12 @@ def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
     source = algorithm.parameterAsSource(parameters, name, context)
     if source is None:
         raise QgsProcessingException(algorithm.invalidSourceError(parameters, name))
+    if layer is not None and not layer.isValid():
+        raise QgsProcessingException(f"{layer.name()}: QGIS cannot read this layer")
     file = _file_of(layer, takes_layer_name) if layer is not None and not _is_part(parameters[name]) else None
     if file is not None and file.source_crs and not takes_source_crs:
         file = None
-    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source)
+    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source, _origin(layer))
 
 
 def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str,
@@ -196,7 +237,7 @@ def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any
         file = _file_of(layer, takes_layer_name=False)
         if file is not None and file.source_crs:
             file = None
-        return VectorInput(layer.name(), file, algorithm.parameterAsSource(parameters, name, context))
+        return VectorInput(layer.name(), file, algorithm.parameterAsSource(parameters, name, context), _origin(layer))
     raise QgsProcessingException(f"{name}: {parameters[name]} is neither a vector nor a raster layer that QGIS can read")
 
 
@@ -233,30 +274,61 @@ def _raster_of(layer: QgsRasterLayer) -> RasterInput:
     return RasterInput(layer.name(), path, crs, ranges[0].min() if ranges else None)
 
 
-class _AsMade(QgsProcessingLayerPostProcessorInterface):
-    """Gives a new layer the style that lies in or beside its file, and a CRS that its format has no place for."""
+HEIGHTS = {QgsWkbTypes.PolygonGeometry: 1, QgsWkbTypes.LineGeometry: 2, QgsWkbTypes.PointGeometry: 3}  # of layers of a run
 
-    def __init__(self, crs: QgsCoordinateReferenceSystem) -> None:
+
+class _AsMade(QgsProcessingLayerPostProcessorInterface):
+    """Gives a new layer the style that lies in or beside its file, a CRS that its format has no place for, and its place
+    among the layers of the run: those that hide most are at the bottom."""
+
+    def __init__(self, crs: QgsCoordinateReferenceSystem, on_top: bool) -> None:
         super().__init__()
         self.crs = crs
+        self.on_top = on_top
+        self.layer_id = ""
+        self.height = 0
 
     def postProcessLayer(self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         if self.crs.isValid() and not layer.crs().isValid():
             layer.setCrs(self.crs)
         layer.loadDefaultStyle()
         layer.triggerRepaint()
+        self.layer_id = layer.id()
+        self.height = 4 if self.on_top else HEIGHTS.get(layer.geometryType(), 0) if isinstance(layer, QgsVectorLayer) else 0
+        self.place(layer.project(), context)
+
+    def place(self, project: QgsProject, context: QgsProcessingContext) -> None:
+        """Move the layer over those of the run that it hides less than they hide it (QGIS opens them by their names)."""
+        node = project.layerTreeRoot().findLayer(self.layer_id) if project is not None else None
+        if node is None:
+            return
+        siblings = node.parent().children()
+        heights = {one.layer_id: one.height for one in _kept if not sip.isdeleted(one) and one.layer_id and any(
+            details.postProcessor() is one for details in context.layersToLoadOnCompletion().values())}
+        places = {at: heights[one.layerId()] for at, one in enumerate(siblings)
+                  if isinstance(one, QgsLayerTreeLayer) and one.layerId() in heights}
+        here = siblings.index(node)
+        below = [at for at, height in places.items() if height < self.height and at < here]
+        above = [at for at, height in places.items() if height > self.height and at > here]
+        if below or above:
+            moved = node.clone()
+            node.parent().insertChildNode(min(below) if below else max(above) + 1, moved)
+            node.parent().removeChildNode(node)
+            moved.setExpanded(True)  # as a layer that has just been opened
 
 
 _kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QGIS holds no reference to them
+_keeping = threading.Lock()  # algorithms run in threads
 
 
-def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str) -> None:
+def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str, on_top: bool = False) -> None:
     its = QgsCoordinateReferenceSystem()
     if crs:
         its.createFromUserInput(crs)
-    processor = _AsMade(its)
+    processor = _AsMade(its, on_top)
     details.setPostProcessor(processor)
-    _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
+    with _keeping:
+        _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
 
 
 HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingUtils.LayerHint.Vector,
@@ -264,7 +336,7 @@ HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingU
 
 
 def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "",
-               project: QgsProject | None = None) -> None:
+               project: QgsProject | None = None, on_top: bool = False) -> None:
     """Let QGIS open a layer when the algorithm has ended.
 
     Parameters
@@ -281,13 +353,15 @@ def open_after(context: QgsProcessingContext, source: str, title: str, output: s
         Of a file that names none.
     project : QgsProject or None
         Where it is opened; None: in that of the run.
+    on_top : bool
+        Whether it lies over all others of the run.
     """
     project = project or context.project()
     if project is None:
         return
     details = QgsProcessingContext.LayerDetails(title, project, output, HINTS[kind])
     details.forceName = True
-    _show_as_made(details, crs)
+    _show_as_made(details, crs, on_top)
     context.addLayerToLoadOnCompletion(source, details)
 
 

@@ -128,7 +128,7 @@ class Make(Algorithm):
             self.keys = ()
         by_name = {key["key"]: key for key in self.keys}
         self.add(QgsProcessingParameterFeatureSource("RIVERS", "Rivers", [QgsProcessing.TypeVectorLine], optional=True),
-                 "Lines of rivers. Without rivers, a DEM and a recipe, thalweg grows a valley on 1024x1024 cells.")
+                 "Lines of rivers. Without rivers, DEM or recipe, thalweg grows a valley on 1024x1024 cells.")
         self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True), DEM_TEXT)
         self.add(QgsProcessingParameterFile("RECIPE", "Recipe", extension="toml", optional=True), "A recipe of thalweg (TOML).")
         for name, label in (("seed", "Random seed"), ("grid.cell", "Cell size [m]")):
@@ -168,6 +168,8 @@ class Make(Algorithm):
         if self.is_set(parameters, "DEM") and self.is_set(parameters, "SURFACE_SOURCE"):
             return False, "SURFACE_SOURCE: the terrain is that of DEM already"
         if self.is_set(parameters, "EXTENT"):
+            if self.parameterAsExtent(parameters, "EXTENT", context).isNull():
+                return False, f"EXTENT: '{parameters['EXTENT']}' is not an extent; write XMIN,XMAX,YMIN,YMAX [EPSG:N]"
             clash = [name for name in ("GRID_WIDTH", "GRID_HEIGHT", "GRID_ORIGIN") if self.is_set(parameters, name)]
             if clash:
                 return False, f"Give EXTENT or {clash[0]}, not both"
@@ -203,13 +205,13 @@ class Make(Algorithm):
             crs = self.grid_crs(parameters, context)
             extent = self.parameterAsExtent(parameters, "EXTENT", context, crs)
             cell = float(self.word(parameters, "CELL", context) or WITHOUT_INPUT_CELL)
-            self.grid = grid_of(extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum(), cell)
+            sides = (extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum())
+            if cell <= 0 or not all(math.isfinite(side) for side in sides):
+                raise QgsProcessingException(f"EXTENT: {extent.toString()} in {crs.authid()} has no cells of {cell:g} m")
+            self.grid = grid_of(*sides, cell)
             self.grid["grid.crs"] = crs_text(crs)
-        elif self.is_set(parameters, "CRS"):
-            crs = self.parameterAsCrs(parameters, "CRS", context)
-            if not crs.isValid():
-                raise QgsProcessingException(f"CRS: '{parameters['CRS']}' is not a CRS that QGIS knows")
-            self.grid = {"grid.crs": crs_text(crs)}
+        elif wanted := self.crs(parameters, "CRS", context):
+            self.grid = {"grid.crs": wanted}
         inputs: dict[str, VectorInput | RasterInput | None] = {
             "RIVERS": vector_input(self, parameters, "RIVERS", context, takes_layer_name=True, takes_source_crs=True),
             "DEM": raster_input(self, parameters, "DEM", context)}

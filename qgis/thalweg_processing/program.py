@@ -6,6 +6,7 @@ from __future__ import annotations
 import json
 import os
 import queue
+import re
 import shlex
 import shutil
 import signal
@@ -16,6 +17,8 @@ from dataclasses import dataclass
 from typing import Any
 
 from qgis.core import QgsProcessingException, QgsProcessingFeedback, QgsSettings
+
+from .advice import in_qgis
 
 SETTING = "THALWEG_PROGRAM"
 CHECK_FAILED = 3  # exit status
@@ -162,17 +165,23 @@ def _read_all(stream: Any, printed: list[bytes]) -> None:
     printed.append(stream.read())
 
 
+def without_columns(line: str) -> str:
+    """Return a line of the log, such as "read       60 lines of a.gpkg       0.1 s", for QGIS, whose log has no columns."""
+    return re.sub(r" {2,}([\d.]+ s|ok)$", r", \1", re.sub(r"^(\w+) {2,}", r"\1: ", line))
+
+
 class _Listener:
     """Passes on what the program writes to stderr."""
 
-    def __init__(self, command: str, feedback: QgsProcessingFeedback) -> None:
+    def __init__(self, command: str, folder: str, feedback: QgsProcessingFeedback) -> None:
+        self.folder = os.path.join(folder, "")  # a layer that was written to it is named without it
         self.feedback = feedback
         self.parts = STAGES.get(command, {})
-        self.stage = ""
         self.shown = 0.0
         self.error: list[str] = []
 
     def hear(self, line: str) -> None:
+        line = line.replace(self.folder, "")
         if line.startswith("{"):
             try:
                 state = json.loads(line)
@@ -181,16 +190,13 @@ class _Listener:
             except (ValueError, KeyError, TypeError):
                 pass
         if line.startswith("warning:"):
-            self.feedback.pushWarning(line.removeprefix("warning:").strip())
+            self.feedback.pushWarning(in_qgis(line.removeprefix("warning:").strip()))
         elif line.startswith("error:") or self.error:
             self.error.append(line.removeprefix("error:").strip() if not self.error else line)
         elif line.strip():
-            self.feedback.pushInfo(line)
+            self.feedback.pushInfo(without_columns(line))
 
     def move(self, stage: str, share: float) -> None:
-        if stage != self.stage:
-            self.stage = stage
-            self.feedback.setProgressText(stage)
         begin, end = self.parts.get(stage, (0, 0))
         now = begin + (end - begin) * min(max(share, 0.0), 1.0)
         if now > self.shown:
@@ -250,7 +256,7 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
                threading.Thread(target=_read_all, args=(out, printed), daemon=True)]
     for reader in readers:
         reader.start()
-    listener = _Listener(arguments[0], feedback)
+    listener = _Listener(arguments[0], folder, feedback)
     try:
         while True:
             if feedback.isCanceled():
@@ -278,7 +284,7 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
 
 
 def _finished(code: int, printed: bytes, error: list[str]) -> Finished:
-    words = "\n".join(error).strip()
+    words = in_qgis("\n".join(error).strip())
     if code not in (0, CHECK_FAILED):
         raise QgsProcessingException(words if code > 0 and words else f"thalweg failed: {_ended(code)}. {words}".strip())
     try:

@@ -74,7 +74,7 @@ class Provider(QgsProcessingProvider):
         return "tif"
 
     def supportedOutputVectorLayerExtensions(self) -> list[str]:
-        return ["gpkg", "shp", "fgb", "geojson"]
+        return ["gpkg", "shp"]  # of check: convert has its own
 
     def supportedOutputRasterLayerExtensions(self) -> list[str]:
         return ["tif"]

@@ -3,6 +3,7 @@
 """thalweg tin."""
 from __future__ import annotations
 
+import os
 from typing import Any
 
 from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputMapLayer,
@@ -12,7 +13,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
                        QgsProcessingParameterString)
 
 from .algorithm import NODATA, Algorithm
-from .layers import File, RasterInput, VectorInput, crs_text, open_after, raster_input, vector_input
+from .layers import File, RasterInput, VectorInput, open_after, raster_input, vector_input
 from .program import Finished
 
 FORMATS = ["2dm", "ply", "gpkg", "obj", "off", "landxml", "las", "xyz", "ply-points"]
@@ -80,6 +81,8 @@ class Tin(Algorithm):
             return False, "BREAKLINES: a TIN of a DEM takes no breaklines"
         if self.is_set(parameters, "ERROR") and given != ["DEM"]:
             return False, "ERROR: only a DEM has a vertical error"
+        if given == ["TEXT"] and os.path.isdir(text := self.parameterAsFile(parameters, "TEXT", context)):
+            return False, f"TEXT: {text} is a folder"
         return super().checkParameterValues(parameters, context)
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
@@ -93,8 +96,8 @@ class Tin(Algorithm):
         options = self.options(parameters, context, ERROR="--error", COLUMNS="--columns", DUPLICATES="--duplicates",
                                FORMAT="--format", NODATA="--nodata")
         for name, flag in (("CRS", "--crs"), ("SOURCE_CRS", "--source-crs")):
-            crs = self.parameterAsCrs(parameters, name, context)
-            options += [f"{flag}={crs_text(crs)}"] if crs.isValid() else []
+            crs = self.crs(parameters, name, context)
+            options += [f"{flag}={crs}"] if crs else []
         options += [f"--breaklines={files['BREAKLINES'].path}"] if "BREAKLINES" in files else []
         return [source, f"--output={self.output}", *options, "--overwrite"]
 

@@ -98,7 +98,8 @@ class Page(Case):
         kinds = {kind: count(checked["FINDINGS"], f"kind = '{kind}'") for kind in
                  ("several_outflows", "duplicate_geometry", "ds_arc_mismatch")}
         self.assertEqual(sum(kinds.values()), checked["FINDINGS_COUNT"])
-        self.assert_says("three checks that failed", f"{checked['FINDINGS_COUNT']} findings.", *kinds)
+        repairs, = re.findall(r"(\d+) repairs: .*\d+ secondary", log)
+        self.assert_says("three checks that failed", f"{checked['FINDINGS_COUNT']} findings and counts {repairs} repairs", *kinds)
         self.assert_says(f"{kinds['several_outflows']} findings are nodes",
                          f"{kinds['duplicate_geometry']} is a line drawn twice",
                          f"{kinds['ds_arc_mismatch']} names the wrong river")
@@ -109,8 +110,8 @@ class Page(Case):
         self.assertTrue(made["CHECKS_OK"])
         with open("coast/report.json", encoding="utf-8") as file:
             grid = json.load(file)["recipe"]["grid"]
-        checks, outlets = re.search(r"check +(\d+) checks, (\d+) outlets", log).groups()
-        sea = re.search(r"sea +(\d+) % of the grid", log)[1]
+        checks, outlets = re.search(r"check: (\d+) checks, (\d+) outlets", log).groups()
+        sea = re.search(r"sea: (\d+) % of the grid", log)[1]
         self.assert_says(f"{grid['width']} × {grid['height']} cells of {grid['cell']:g} m in {grid['crs']}",
                          f"All {checks} checks pass",
                          f"{count(made['ARCS'])} arcs reach {outlets} outlets, and {sea} % of the grid is sea")
@@ -119,7 +120,8 @@ class Page(Case):
         self.assertLessEqual({"Rivers", "Heights", "Hillshade"}, {layer.name() for layer in project.mapLayers().values()})
         rivers, heights = (project.mapLayersByName(name)[0] for name in ("Rivers", "Heights"))
 
-        checked, _ = run("check", NETWORK=rivers, DEM=heights)
+        checked, log = run("check", NETWORK=rivers, DEM=heights)
+        self.assertIn("All checks passed. They allow findings within limits: ", log)
         self.assertTrue(checked["OK"])
         self.assert_says(f"The {checked['FINDINGS_COUNT']} findings are places")
         measured, log = run("measure", DEM=heights, NETWORK=rivers, OUTPUT="measures")

@@ -6,8 +6,10 @@ import json
 import os
 import pathlib
 import tomllib
+import unittest.mock
+import zipfile
 
-from support import COAST, JACKSBORO, Case, main, program, start
+from support import COAST, JACKSBORO, SAMPLES, Case, main, program, start
 
 application, plugin = start()
 
@@ -19,6 +21,8 @@ from qgis.core import (  # noqa: E402
     QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProcessingModelChildParameterSource,
     QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer,
     QgsRasterRange, QgsRectangle, QgsVectorLayer)
+from processing.core.ProcessingConfig import ProcessingConfig  # noqa: E402
+import thalweg_processing.algorithm  # noqa: E402
 from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
 
 GRID = {"GRID_WIDTH": 96, "GRID_HEIGHT": 96, "CELL": 30}
@@ -51,7 +55,8 @@ def lines_layer(crs="EPSG:32631", name="lines", fields="field=fid:integer&field=
     layer = QgsVectorLayer(f"LineStringZ?crs={crs}&{fields}", name, "memory")
     for number, text in enumerate(LINES):
         feature = QgsFeature(layer.fields())
-        feature.setAttributes([7, f"river {number}"])  # ids that repeat
+        feature.setAttribute("fid", 7)  # ids that repeat
+        feature.setAttribute("name", f"river {number}")
         feature.setGeometry(QgsGeometry.fromWkt(text))
         assert layer.dataProvider().addFeature(feature)
     return layer
@@ -166,6 +171,93 @@ class Layers(Case):
             processing.run("thalweg:measure", {"DEM": layer, "OUTPUT": str(self.folder / "out")}, feedback=said)
         self.assertRegex(said.errors[0], "tiles does not come from a file: save it as a GeoTIFF")
 
+    def test_rasters_that_are_no_file_of_their_own(self):
+        table, zipped, memory = self.folder / "two.gpkg", self.folder / "z.zip", "/vsimem/höhen.tif"
+        for name, more in (("a", []), ("b", ["APPEND_SUBDATASET=YES"])):
+            gdal.Translate(str(table), str(JACKSBORO), format="GPKG", outputType=gdal.GDT_Float32,
+                           creationOptions=[f"RASTER_TABLE={name}", *more])
+        with zipfile.ZipFile(zipped, "w") as file:
+            file.write(JACKSBORO, "in.tif")
+        gdal.Translate(memory, str(JACKSBORO))
+        for number, source in enumerate((f"GPKG:{table}:b", f"/vsizip/{zipped}/in.tif", memory)):
+            layer = QgsRasterLayer(source, "dem")
+            self.assertTrue(layer.isValid())
+            results = processing.run("thalweg:measure", {"DEM": layer, "WHAT": [0], "OUTPUT": str(self.folder / str(number))})
+            self.assertEqual(QgsRasterLayer(results["AREA_D8"]).width(), layer.width())
+        gdal.Unlink(memory)
+        self.assertEqual(self.leftovers(), [])
+
+    def refused(self, words, algorithm, **parameters):
+        instance = QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{algorithm}")
+        context, said = QgsProcessingContext(), Said()
+        context.setProject(QgsProject.instance())
+        right, why = instance.checkParameterValues(parameters, context)
+        if right:
+            try:
+                self.assertFalse(instance.run(parameters, context, said, {}, False)[1])
+                why = said.errors[0]
+            except QgsProcessingException as error:
+                why = str(error)
+        self.assertRegex(why, words)
+        self.assertNotIn("Traceback", why)
+
+    def test_no_output_replaces_the_file_of_an_input(self):
+        path, dem = self.saved(lines_layer()), self.folder / "dem.tif"
+        dem.write_bytes(JACKSBORO.read_bytes())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        layer.setSubsetString("\"name\" <> 'river 0'")  # so that the program gets another file
+        for name in ("FIX", "FINDINGS"):
+            self.refused(f"{name}: .* would replace the file of the layer lines", "check", NETWORK=layer, **{name: str(path)})
+        self.refused("would replace the file of the layer dem", "blend", TARGET=str(dem), SOURCE=str(JACKSBORO), GAIN=2,
+                     OUTPUT=str(dem))
+        self.refused("name two files", "check", NETWORK=layer, **dict.fromkeys(("FIX", "FINDINGS"), str(self.folder / "x.gpkg")))
+        shapes = self.folder / "r_arcs.shp"
+        gdal.VectorTranslate(str(shapes), str(path))
+        self.refused("would replace", "check", NETWORK=str(shapes), FIX=str(self.folder / "r.shp"))
+        layer.setSubsetString("")
+        self.assertEqual(layer.featureCount(), 3)
+        self.assertEqual(dem.read_bytes(), JACKSBORO.read_bytes())
+
+    def test_nonsense_is_refused_in_words(self):
+        dem, out = str(JACKSBORO), str(self.folder / "out")
+        for gain in ("1,5", "much", float("nan"), "inf"):
+            self.refused("GAIN: '.*' is not a", "blend", TARGET=dem, SOURCE=dem, GAIN=gain, OUTPUT=f"{out}.tif")
+        self.refused("SEED: '2.5' is not a whole number", "make", SEED="2.5", OUTPUT=out)
+        self.refused("TITLE: a text with a null character", "make", TITLE="a\0b", OUTPUT=out)
+        self.refused("EXTENT: 'a,b,c' is not an extent", "make", EXTENT="a,b,c", OUTPUT=out)
+        for extent, cell in (("0,inf,0,1 [EPSG:32631]", 1), ("0,1,0,1 [EPSG:32631]", 0)):
+            self.refused("EXTENT: .* has no cells of", "make", EXTENT=extent, CELL=cell, OUTPUT=out)
+        self.refused("OUTPUT: cannot make the folder of /proc/none/out", "make", OUTPUT="/proc/none/out")
+        self.refused("CRS: 'EPSG:0' is not a CRS", "tin", TEXT=str(SAMPLES / "points.csv"), CRS="EPSG:0", OUTPUT=f"{out}.2dm")
+        self.refused("is a folder", "tin", TEXT=str(self.folder), OUTPUT=f"{out}.2dm")
+        self.refused("writes a GeoTIFF", "blend", TARGET=dem, SOURCE=dem, OUTPUT=f"{out}.png")
+        self.refused("FIX: thalweg writes", "check", NETWORK=str(COAST), FIX=f"{out}.geojson")
+        self.refused("match no schema(.|\n)*In QGIS: ", "check", NETWORK=lines_layer())
+        self.refused("2 arcs leave(.|\n)*In QGIS: ", "convert", NETWORK=str(COAST), OUTPUT=f"{out}/new/x.gpkg")
+        self.assertEqual(os.listdir(self.folder), [])
+
+    def test_no_folder_for_temporary_files(self):
+        none = unittest.mock.Mock(tempFolder=lambda: "/proc/none")
+        with unittest.mock.patch.object(thalweg_processing.algorithm, "QgsProcessingUtils", none):
+            self.refused("cannot write to the folder for temporary files, /proc/none: ", "check", NETWORK=str(COAST))
+
+    def test_names_that_a_geopackage_does_not_take(self):
+        fields = "&".join(f"field={name}:string" for name in ("ID", "id", "geom", "thalweg_fid", "thalweg_shape"))
+        for name in ("", "(rivers)", "-o", "./a", "gpkg_contents", "sqlite_a", "x" * 300):
+            self.checked(lines_layer(name=name, fields=f"{fields}&field=fid:integer&field=name:string"))
+            self.assertEqual(self.fixed_lines()[0], 3)
+
+    def test_a_layer_that_qgis_cannot_read_is_not_empty(self):
+        layer = QgsProject.instance().addMapLayer(QgsVectorLayer("/none.csv", "no rivers", "delimitedtext"))
+        self.refused("no rivers: QGIS cannot read|Could not load source", "check", NETWORK=layer)
+        QgsProject.instance().clear()
+
+    def test_a_file_that_has_gone_is_not_an_empty_layer(self):
+        path = self.saved(lines_layer())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        path.rename(self.folder / "elsewhere.gpkg")
+        self.refused("lines: its file .* does not exist any more", "check", NETWORK=layer)
+
     def test_nodes_of_another_layer(self):
         self.assertEqual(program("make", "-o", self.folder / "made", "--set", "grid.width=128", "--set", "grid.height=128",
                                  "--set",
@@ -258,6 +350,25 @@ class Opened(Case):
         self.kept.append(layers)
         return results, layers
 
+    def from_the_top(self):
+        return [node.name() for node in self.kept[-2].layerTreeRoot().findLayers()]
+
+    def test_layers_that_hide_others_lie_below(self):
+        for group in ("", "Results"):  # new layers lie at the top of the project, or at the bottom of a group
+            ProcessingConfig.setSettingValue(ProcessingConfig.RESULTS_GROUP_NAME, group)
+            self.addCleanup(ProcessingConfig.setSettingValue, ProcessingConfig.RESULTS_GROUP_NAME, "")
+            self.opened("make", {"OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 2, 3], "NETWORK_FOREST_OUTLET_SPACING": 0,
+                                 **GRID})
+            self.assertEqual(self.from_the_top(), ["Nodes of the rivers", "Rivers", "Catchments", "DEM"])
+
+    def test_a_check_without_findings_opens_nothing(self):
+        source, wanted = str(self.folder / "out"), ">" + QgsProcessing.TEMPORARY_OUTPUT
+        self.assertEqual(program("make", "-o", source, "--set=grid.width=96", "--set=grid.height=96",
+                                 "--set=network.forest.outlet_spacing=0").returncode, 0)
+        results, layers = self.opened("check", {"NETWORK": f"{source}/network.gpkg|layername=arcs", "FINDINGS": wanted})
+        self.assertEqual((results["FINDINGS_COUNT"], layers), (0, {}))
+        self.assertTrue(QgsVectorLayer(results["FINDINGS"], "empty", "ogr").isValid())
+
     def test_make_opens_what_is_wanted_with_its_styles(self):
         results, layers = self.opened("make", {
             "OUTPUT": str(self.folder / "out"), "LOAD": [0, 1, 3, 5], "NETWORK_FOREST_OUTLET_SPACING": 0,
@@ -280,6 +391,7 @@ class Opened(Case):
         wanted = ">" + QgsProcessing.TEMPORARY_OUTPUT
         results, layers = self.opened("check", {"NETWORK": str(COAST), "FIX": wanted, "FINDINGS": wanted})
         self.assertEqual(set(layers), {"Repaired arcs", "Repaired nodes", "Findings"})
+        self.assertEqual(self.from_the_top(), ["Findings", "Repaired nodes", "Repaired arcs"])
         fixed = results["FIX"]
         _, layers = self.opened("convert", {"NETWORK": fixed, "SCHEMA": "native", "OUTPUT": str(self.folder / "n.geojson")})
         self.assertEqual(set(layers), {"Arcs", "Nodes"})

@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cancelling ends the program and leaves nothing; what is wrong with a program is said in words."""
 import os
+import re
 import signal
 import subprocess
 import threading
@@ -17,7 +18,8 @@ from qgis.core import (QgsApplication, QgsProcessingContext, QgsProcessingExcept
 from thalweg_processing import program  # noqa: E402
 
 LONG = {"GRID_WIDTH": 3000, "GRID_HEIGHT": 3000}
-REPORT = '{"findings": [], "mended": [], "written": [], "checks": [{"name": "spike", "value": 2, "limit": 0, "ok": false}]}'
+REPORT = ('{"findings": [], "mended": [], "notes": [], "written": [], '
+          '"checks": [{"name": "spike", "value": 2, "limit": 0, "ok": false}]}')
 
 
 class Said(QgsProcessingFeedback):
@@ -192,9 +194,25 @@ class Wrong(WithSetting):
         self.assertFalse(run("check", {"NETWORK": str(COAST)}, said)["OK"])
         self.assertEqual(said.warnings, ["These checks failed: spike (2, allowed 0)"])
 
+    def test_the_log_has_no_columns_and_no_bare_stages(self):
+        self.fake("echo 'read       60 lines of a  b.gpkg       0.1 s' >&2\necho '{\"stage\": \"check\", \"share\": 0}' >&2\n"
+                  f"echo '{REPORT}'")
+        said = Said()
+        said.setProgressText = self.fail  # the dialog writes it to the log
+        run("check", {"NETWORK": str(COAST)}, said)
+        self.assertEqual(said.lines, ["read: 60 lines of a  b.gpkg, 0.1 s"])
+
+    def test_advice_for_the_shell_is_followed_by_what_to_do_in_qgis(self):
+        for words, there in (("a.shp has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", "Layer CRS > Set Layer CRS"),
+                             ("a.tif is in feet: warp it (gdalwarp -t_srs)", "Raster > Projections > Warp"),
+                             ("too coarse: --set grid.cell=3 keeps them apart", "the parameter Cell size."),
+                             ("If they should meet: --set network.lines.snap=3.", "the parameter network.lines: snap.")):
+            self.fails(f"echo 'error: {words}' >&2; exit 1", f"^{re.escape(words)}\nIn QGIS: .*{there}")
+
     def test_full_pipes(self):
         self.fake("head -c 3000000 /dev/zero | tr '\\0' x | fold -w 1000 >&2\n"
-                  "printf '{\"a\": \"'; head -c 3000000 /dev/zero | tr '\\0' y; printf '\", \"findings\": [], \"mended\": []}'")
+                  "printf '{\"a\": \"'; head -c 3000000 /dev/zero | tr '\\0' y; "
+                  "printf '\", \"findings\": [], \"mended\": [], \"notes\": []}'")
         said = Said()
         self.assertTrue(run("check", {"NETWORK": str(COAST)}, said)["OK"])
         self.assertEqual(len(said.lines), 3000)
