@@ -3,6 +3,7 @@
 #include <thalweg/io/qgis/project.hpp>
 
 #include <charconv>
+#include <cstdlib>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
@@ -35,7 +36,14 @@ std::string element(char const* name, std::string const& text) {
 
 /// QGIS takes the code where there is one, else the text.
 std::string reference_system(std::string const& crs) {
-    OGRSpatialReference const reference = read_reference(crs);
+    OGRSpatialReference reference = read_reference(crs);
+    // Texts of one code differ, by who wrote them.
+    if (char const* const name = reference.GetAuthorityName(nullptr); name != nullptr && EQUAL(name, "EPSG")) {
+        OGRSpatialReference of_code;
+        if (of_code.importFromEPSG(std::atoi(reference.GetAuthorityCode(nullptr))) == OGRERR_NONE) {
+            reference = of_code;
+        }
+    }
     char* text = nullptr;
     char const* const options[] = {"FORMAT=WKT2_2018", nullptr};
     reference.exportToWkt(&text, options);
