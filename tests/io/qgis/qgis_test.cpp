@@ -231,6 +231,20 @@ TEST(QgisProjects, HoldTheirLayersByRelativePaths) {
     EXPECT_EQ(texts(parsed, "CanvasColorGreenPart"), (std::vector<std::string>{"220"}));
 }
 
+TEST(QgisProjects, HaveOneTextForACode) {
+    ScratchFolder const folder;
+    io::QgisProject project = hostile_project();
+    io::write_qgis_project(project, folder / "code.qgz");
+    OGRSpatialReference reference;
+    reference.importFromEPSG(32631);
+    char* text = nullptr;
+    reference.exportToWkt(&text); // WKT 1, as files have it: without the members of the datum
+    project.extent.crs = text;
+    CPLFree(text);
+    io::write_qgis_project(project, folder / "text.qgz");
+    EXPECT_EQ(bytes_of(folder / "code.qgz"), bytes_of(folder / "text.qgz"));
+}
+
 TEST(QgisProjects, AreTheSameEachTime) {
     ScratchFolder const folder;
     io::write_qgis_project(hostile_project(), folder / "one.qgz");

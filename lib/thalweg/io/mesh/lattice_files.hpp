@@ -27,8 +27,11 @@ struct ObjNames {
 };
 
 /// Writes a mesh with texture coordinates as a new Wavefront OBJ. Y is up: x is the mesh's x, y its z, z its -y, as
-/// most programs expect; lengths are metres. Comments say the origin in the CRS. \param mesh with places \param path of
-/// the file \param names of its material \throws BadInput when a coordinate is not finite or the mesh has no places
+/// most programs expect; lengths are metres. Comments say the origin in the CRS.
+/// \param mesh with places
+/// \param path of the file
+/// \param names of its material
+/// \throws BadInput when a coordinate is not finite or the mesh has no places
 /// \throws IoError also when the file exists
 ///
 /// Source: Alias Wavefront, Object Files (.obj).

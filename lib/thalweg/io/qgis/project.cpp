@@ -3,17 +3,19 @@
 #include <thalweg/io/qgis/project.hpp>
 
 #include <charconv>
-#include <cstdlib>
+#include <memory>
 
 #include <cpl_conv.h>
 #include <cpl_string.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
+#include <proj.h>
 
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/qgis/internal/qgis.hpp>
@@ -34,25 +36,36 @@ std::string element(char const* name, std::string const& text) {
     return fmt::format("<{0}>{1}</{0}>", name, xml_escaped(text));
 }
 
-/// QGIS takes the code where there is one, else the text.
+/// The text of a code, such as "EPSG:32617"; "": PROJ does not know it. That of GDAL differs with what it has read
+/// before.
+std::string text_of_code(std::string const& code) {
+    struct Free {
+        void operator()(PJ_CONTEXT* context) const { proj_context_destroy(context); }
+        void operator()(PJ* crs) const { proj_destroy(crs); }
+    };
+    std::unique_ptr<PJ_CONTEXT, Free> const context(proj_context_create());
+    confine_proj(context.get());
+    std::unique_ptr<PJ, Free> const crs(proj_create(context.get(), code.c_str()));
+    char const* const options[] = {"MULTILINE=NO", nullptr};
+    char const* const text = crs ? proj_as_wkt(context.get(), crs.get(), PJ_WKT2_2018, options) : nullptr;
+    return text == nullptr ? "" : text;
+}
+
+/// QGIS takes the code where there is one, but not without a text.
 std::string reference_system(std::string const& crs) {
-    OGRSpatialReference reference = read_reference(crs);
-    // Texts of one code differ, by who wrote them.
-    if (char const* const name = reference.GetAuthorityName(nullptr); name != nullptr && EQUAL(name, "EPSG")) {
-        OGRSpatialReference of_code;
-        if (of_code.importFromEPSG(std::atoi(reference.GetAuthorityCode(nullptr))) == OGRERR_NONE) {
-            reference = of_code;
-        }
-    }
-    char* text = nullptr;
-    char const* const options[] = {"FORMAT=WKT2_2018", nullptr};
-    reference.exportToWkt(&text, options);
-    std::string const wkt = text == nullptr ? "" : text;
-    CPLFree(text);
+    OGRSpatialReference const reference = read_reference(crs);
     char const* const authority = reference.GetAuthorityName(nullptr);
     char const* const code = reference.GetAuthorityCode(nullptr);
     std::string const authid =
         authority != nullptr && code != nullptr ? fmt::format("{}:{}", authority, code) : std::string();
+    std::string wkt = authid.empty() ? "" : text_of_code(authid);
+    if (wkt.empty()) {
+        char* text = nullptr;
+        char const* const options[] = {"FORMAT=WKT2_2018", nullptr};
+        reference.exportToWkt(&text, options);
+        wkt = text == nullptr ? "" : text;
+        CPLFree(text);
+    }
     return "<spatialrefsys nativeFormat=\"Wkt\">" + element("wkt", wkt) + element("authid", authid) +
            "</spatialrefsys>";
 }
