@@ -79,9 +79,9 @@ Command add_export(CLI::App& app, Session& session) {
     add_json_option(app, session);
     add_overwrite_option(app, params->existing, "Replace files of the same names.");
     app.footer(
-        "png16, r16 and r32 are heightmaps: 16 bits from the lowest height to the highest as PNG or raw, or metres "
-        "as raw 32-bit floats. glb and obj are textured meshes, Y up, glb with rivers as lines; stl is a closed "
-        "solid, Z up. Meshes are in metres from an origin in the middle, at the lowest height.\n\n"
+        "png16, r16, r32 and exr are heightmaps: 16 bits from the lowest height to the highest as PNG or raw, or "
+        "metres as 32-bit floats, raw or as OpenEXR. glb and obj are textured meshes, Y up, glb with rivers as lines; "
+        "stl is a closed solid, Z up. Meshes are in metres from an origin in the middle, at the lowest height.\n\n"
         "Examples:\n"
         "  thalweg export valley -o valley.glb\n"
         "  thalweg export valley --size 1009 -o heights.png\n"

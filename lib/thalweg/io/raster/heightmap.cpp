@@ -13,6 +13,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
+#include <thalweg/io/raster/internal/exr.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -89,9 +90,13 @@ HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& 
     std::string const what = "io.write_heightmap: " + path;
     refuse_if<BadInput>(heights.cells() < 1, "{}: there are no heights", what);
     HeightmapScale scale = scale_of(heights, what);
-    if (format == HeightmapFormat::r32) {
+    if (format == HeightmapFormat::r32 || format == HeightmapFormat::exr) {
         scale.step_m = 0.0;
-        write_raw<float>(heights.values(), path, run);
+        if (format == HeightmapFormat::r32) {
+            write_raw<float>(heights.values(), path, run);
+        } else {
+            write_text(path, exr(heights, run));
+        }
         return scale;
     }
     std::vector<std::uint16_t> numbers = in_16_bits(heights, scale);

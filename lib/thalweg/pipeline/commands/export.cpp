@@ -246,7 +246,8 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
                     {"height", made.height},
                     {"min_m", made.min_m},
                     {"max_m", made.max_m}};
-    if (made.metres_per_step > 0.0 || made.format == ExportFormat::png16 || made.format == ExportFormat::r16) {
+    bool const sixteen = made.format == ExportFormat::png16 || made.format == ExportFormat::r16;
+    if (sixteen) {
         json["metres_per_step"] = made.metres_per_step;
     }
     json["step_m"] = {made.step_m.x, made.step_m.y};
@@ -269,8 +270,8 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
         }
     } else {
         json["axes"] = "rows from north to south, samples of a row from west to east";
-        json["samples"] = made.format == ExportFormat::r32 ? "32-bit floating point, metres"
-                                                           : "16-bit unsigned: min_m + number x metres_per_step";
+        json["samples"] =
+            sixteen ? "16-bit unsigned: min_m + number x metres_per_step" : "32-bit floating point, metres";
         json["byte_order"] = made.format == ExportFormat::png16 ? "big-endian, as in every PNG" : "little-endian";
     }
     json["cells_without_data"] = made.holes;
@@ -376,7 +377,8 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
 std::vector<ExportFormatName> const& export_formats() {
     static std::vector<ExportFormatName> const formats{
         {ExportFormat::png16, "png16", ".png"}, {ExportFormat::r16, "r16", ".r16"}, {ExportFormat::r32, "r32", ".r32"},
-        {ExportFormat::glb, "glb", ".glb"},     {ExportFormat::obj, "obj", ".obj"}, {ExportFormat::stl, "stl", ".stl"}};
+        {ExportFormat::exr, "exr", ".exr"},     {ExportFormat::glb, "glb", ".glb"}, {ExportFormat::obj, "obj", ".obj"},
+        {ExportFormat::stl, "stl", ".stl"}};
     return formats;
 }
 
@@ -405,7 +407,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
         write_mesh(ground, read.scene, params, files, made, run);
     } else {
         constexpr io::HeightmapFormat heightmaps[] = {io::HeightmapFormat::png16, io::HeightmapFormat::r16,
-                                                      io::HeightmapFormat::r32};
+                                                      io::HeightmapFormat::r32, io::HeightmapFormat::exr};
         io::HeightmapScale const scale =
             io::write_heightmap(ground.z, files.path(0), heightmaps[static_cast<std::size_t>(made.format)], run);
         made.metres_per_step = scale.step_m;

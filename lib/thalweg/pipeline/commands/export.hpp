@@ -13,7 +13,7 @@
 
 namespace thalweg::pipeline {
 
-enum class ExportFormat : std::uint8_t { png16, r16, r32, glb, obj, stl };
+enum class ExportFormat : std::uint8_t { png16, r16, r32, exr, glb, obj, stl };
 
 /// The name of an export format.
 struct ExportFormatName {
@@ -67,12 +67,13 @@ struct ExportResult {
 
 /// Runs `thalweg export`: writes the heights of a terrain as one file for game engines, 3D programs and printers, and
 /// beside it FILE.json, which says sizes, heights, axes and position. All files are written, or none. The corners are
-/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32: as io::write_heightmap; cells without
-/// data get the level of the sea if the folder's recipe has one, else the lowest height. glb, obj, stl: metres from a
-/// local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb and obj
-/// are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up.
+/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32, exr: as io::write_heightmap; cells
+/// without data get the level of the sea if the folder's recipe has one, else the lowest height. glb, obj, stl: metres
+/// from a local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb
+/// and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up.
 /// \return what was written; the same bytes for any number of threads
-/// \throws BadParameter for an unknown format, an option of another format or a size that the format cannot have
+/// \throws BadParameter for an unknown format, an option of another format or a size that the format cannot have; for
+/// exr in a build without OpenEXR
 /// \throws BadInput when the size would stretch the DEM by more than 1 %, a solid would have holes, a file exists
 /// already; as the readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});
