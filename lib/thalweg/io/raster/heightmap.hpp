@@ -37,4 +37,33 @@ struct HeightmapScale {
 HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,
                                Run const& run = {});
 
+/// Writes a part of a terrain as a new heightmap, in the scale of the whole.
+/// \param heights [m] all are numbers
+/// \param path of the file
+/// \param format of the file
+/// \param scale of the whole terrain
+/// \throws as write_heightmap
+void write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,
+                     HeightmapScale const& scale, Run const& run = {});
+
+/// Finds the scale of heights in 16 bits.
+/// \param heights [m] at least one, all are numbers
+/// \return the scale
+/// \throws BadInput naming a sample without height
+HeightmapScale heightmap_scale(Raster<float> const& heights);
+
+/// Writes shares as a new grey PNG: 0 is black, 1 white.
+/// \param shares [0, 1]
+/// \param path of the file
+/// \param bits 8 or 16, of a sample
+/// \throws BadParameter for another number of bits
+/// \throws IoError also when the file exists
+void write_grey_png(Raster<float> const& shares, std::string const& path, int bits, Run const& run = {});
+
+/// Writes colours as a new PNG.
+/// \param colours 0xRRGGBB by pixel
+/// \param path of the file
+/// \throws IoError also when the file exists
+void write_colour_png(Raster<std::uint32_t> const& colours, std::string const& path, Run const& run = {});
+
 } // namespace thalweg::io
