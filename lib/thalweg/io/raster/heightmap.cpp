@@ -13,6 +13,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
+#include <thalweg/io/raster/internal/exr.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -96,6 +97,10 @@ void write_heightmap(Raster<float> const& heights, std::string const& path, Heig
         write_raw<float>(heights.values(), path, run);
         return;
     }
+    if (format == HeightmapFormat::exr) {
+        write_text(path, exr(heights, run));
+        return;
+    }
     std::vector<std::uint16_t> numbers = in_16_bits(heights, scale);
     if (format == HeightmapFormat::r16) {
         write_raw<std::uint16_t>(numbers, path, run);
@@ -107,7 +112,7 @@ void write_heightmap(Raster<float> const& heights, std::string const& path, Heig
 HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,
                                Run const& run) {
     HeightmapScale scale = heightmap_scale(heights);
-    if (format == HeightmapFormat::r32) {
+    if (format == HeightmapFormat::r32 || format == HeightmapFormat::exr) {
         scale.step_m = 0.0;
     }
     write_heightmap(heights, path, format, scale, run);

@@ -14,7 +14,8 @@ namespace thalweg::io {
 enum class HeightmapFormat : std::uint8_t {
     png16, ///< PNG, one channel of 16 bits
     r16,   ///< 16-bit unsigned integers, little-endian, without a header
-    r32    ///< 32-bit floating point [m], little-endian, without a header
+    r32,   ///< 32-bit floating point [m], little-endian, without a header
+    exr    ///< OpenEXR, one channel (Y) of 32-bit floating point [m]
 };
 
 /// Heights of a heightmap's samples.
@@ -28,8 +29,9 @@ struct HeightmapScale {
 /// \param heights [m] all are numbers
 /// \param path of the file
 /// \param format of the file
-/// \return the scale; with 32 bits step_m is 0 and heights are exact. PNG has the same samples everywhere, and the same
-/// bytes on one machine
+/// \return the scale; with 32 bits step_m is 0 and heights are exact. PNG and OpenEXR have the same samples everywhere,
+/// and the same bytes on one machine
+/// \throws BadParameter for exr in a build without OpenEXR
 /// \throws BadInput naming a sample without height
 /// \throws IoError also when the file exists
 HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,

@@ -62,17 +62,17 @@ void require_options(ExportParams const& params, ExportFormat format) {
         "pipeline.run_export: --exaggeration applies to meshes (glb, obj, stl), not to {}: a program "
         "that reads it scales heights itself",
         export_name_of(format));
-    refuse_if<BadParameter>(params.base_m && format != ExportFormat::stl,
+    refuse_if<BadParameter>(params.base && format != ExportFormat::stl,
                             "pipeline.run_export: --base applies to the solid of stl, not to {}",
                             export_name_of(format));
     refuse_if<BadParameter>(
         params.tiles_across || params.tiles_down || !params.masks.empty() || params.mask_bits || params.runoff_mm ||
-            params.tree_line_m,
-        "pipeline.run_export: tiles, masks, runoff and the tree line belong to --for PRESET, not to "
-        "a single file");
+            params.tree_line_m || params.print_mm,
+        "pipeline.run_export: tiles, masks, runoff, tree line and print size belong to --for PRESET, not "
+        "to a single file");
     refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
                             "pipeline.run_export: a size has a width and a height");
-    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base_m}}) {
+    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base}}) {
         if (value) {
             require_in("pipeline.run_export", name, *value, Range::above(0.0));
         }
@@ -126,7 +126,8 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
                     {"height", made.height},
                     {"min_m", made.min_m},
                     {"max_m", made.max_m}};
-    if (made.metres_per_step > 0.0 || made.format == ExportFormat::png16 || made.format == ExportFormat::r16) {
+    bool const sixteen = made.format == ExportFormat::png16 || made.format == ExportFormat::r16;
+    if (sixteen) {
         json["metres_per_step"] = made.metres_per_step;
     }
     json["step_m"] = {made.step_m.x, made.step_m.y};
@@ -149,8 +150,8 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
         }
     } else {
         json["axes"] = "rows from north to south, samples of a row from west to east";
-        json["samples"] = made.format == ExportFormat::r32 ? "32-bit floating point, metres"
-                                                           : "16-bit unsigned: min_m + number x metres_per_step";
+        json["samples"] =
+            sixteen ? "16-bit unsigned: min_m + number x metres_per_step" : "32-bit floating point, metres";
         json["byte_order"] = made.format == ExportFormat::png16 ? "big-endian, as in every PNG" : "little-endian";
     }
     json["cells_without_data"] = made.holes;
@@ -226,7 +227,7 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
     made.exaggeration = params.exaggeration.value_or(1.0);
     if (made.format == ExportFormat::stl) {
         double const tenth = 0.1 * (made.max_m - made.min_m);
-        made.base_m = params.base_m.value_or(std::max(tenth, scene.dem->grid().cell_m));
+        made.base_m = params.base.value_or(std::max(tenth, scene.dem->grid().cell_m));
     }
     LatticeMesh const mesh = made.format == ExportFormat::stl ? solid_mesh(ground, made.base_m, made.exaggeration, run)
                                                               : surface_mesh(ground, made.exaggeration, run);
@@ -256,7 +257,8 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
 std::vector<ExportFormatName> const& export_formats() {
     static std::vector<ExportFormatName> const formats{
         {ExportFormat::png16, "png16", ".png"}, {ExportFormat::r16, "r16", ".r16"}, {ExportFormat::r32, "r32", ".r32"},
-        {ExportFormat::glb, "glb", ".glb"},     {ExportFormat::obj, "obj", ".obj"}, {ExportFormat::stl, "stl", ".stl"}};
+        {ExportFormat::exr, "exr", ".exr"},     {ExportFormat::glb, "glb", ".glb"}, {ExportFormat::obj, "obj", ".obj"},
+        {ExportFormat::stl, "stl", ".stl"}};
     return formats;
 }
 
@@ -288,7 +290,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
         write_mesh(ground, read.scene, params, files, made, run);
     } else {
         constexpr io::HeightmapFormat heightmaps[] = {io::HeightmapFormat::png16, io::HeightmapFormat::r16,
-                                                      io::HeightmapFormat::r32};
+                                                      io::HeightmapFormat::r32, io::HeightmapFormat::exr};
         io::HeightmapScale const scale =
             io::write_heightmap(ground.z, files.path(0), heightmaps[static_cast<std::size_t>(made.format)], run);
         made.metres_per_step = scale.step_m;
