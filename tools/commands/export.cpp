@@ -84,6 +84,8 @@ void add_preset_options(CLI::App& app, std::shared_ptr<pipeline::ExportParams> c
     app.add_option("--mask-bits", params->mask_bits, "With --for: bits of a mask's samples, 8 or 16. Default: 8.");
     app.add_option("--runoff", params->runoff_mm,
                    "With --for: runoff [mm/a], from which rivers have their discharge and width. Default: 300.");
+    app.add_option("--print-size", params->print_mm,
+                   "With --for print3d: longer side of the model [mm]. Default: 150.");
     app.add_option("--tree-line", params->tree_line_m,
                    "With --for: height [m] above which land cover has no forest. Default: 1800.");
 }
@@ -111,9 +113,10 @@ Command add_export(CLI::App& app, Session& session) {
         params, take_size);
     add_preset_options(app, params);
     app.add_option("--exaggeration", params->exaggeration, "Multiply the heights of a mesh by this factor.");
-    app.add_option("--base", params->base_m,
-                   "Make the solid of stl this thick below its lowest height [m]. Default: a tenth of the relief, at "
-                   "least a cell.");
+    app.add_option(
+        "--base", params->base,
+        "Make a solid this thick below its lowest height: of stl [m], default a tenth of the relief, at least a "
+        "cell; of print3d [mm], default 3.");
     add_nodata_option(app, params->nodata);
     add_json_option(app, session);
     add_overwrite_option(app, params->existing, "Replace files of the same names.");

@@ -232,6 +232,23 @@ TEST(ExportFor, MeshAndRiversShareTheirFrame) {
     EXPECT_TRUE(file_bytes(place / "g/terrain.glb").starts_with("glTF"));
 }
 
+TEST(ExportFor, PrintersGetMillimetres) {
+    Workplace const place;
+    write_plane(place);
+    auto const made = expect_run(place, "export plane.asc --for print3d --print-size 80 --base 2 -o p --json", 0,
+                                 "printed at 1 : 8000, 80.0 x 80.0 x 42.0 mm")
+                          .json();
+    EXPECT_EQ(made["size_mm"], (json{80.0, 80.0, 42.0}));
+    EXPECT_EQ(made["files"], (json{"p/terrain.stl", "p/export.json"}));
+    EXPECT_EQ(file_bytes(place / "p/terrain.stl").size(), 84 + 50 * made["triangles"].get<std::size_t>());
+    place.write("holes.asc",
+                "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 1\nNODATA_value -9\n1 2 3\n-9 2 1\n");
+    expect_run(place, "export holes.asc --for print3d -o q", 2, "1 of 6 cells have no data", "gdal_fillnodata.py");
+    EXPECT_FALSE(fs::exists(place / "q"));
+    expect_refused(place, "export plane.asc --for print3d -o q",
+                   {"--print-size 1", "--print-size nan", "--base 0", "--size 65", "--tiles 2", "--masks slope"});
+}
+
 TEST(ExportFor, OnlyFilesOfAnEarlierExportAreReplaced) {
     Workplace const place;
     write_plane(place);
@@ -258,7 +275,7 @@ TEST(ExportFor, NonsenseIsRefusedInWords) {
     expect_run(place, begin + "--for godot --size 257", 2, "use 513");
     expect_run(place, begin + "--for unreal --mask-bits 17", 2, "8 or 16 bits, not 17");
     expect_run(place, begin + "--for unreal --format png16", 2, "--format excludes --for");
-    expect_run(place, begin + "--for blender --tiles 2", 2, "--tiles applies to unreal, unity and godot");
+    expect_run(place, begin + "--for blender --tiles 2", 2, "blender has no option --tiles");
     expect_run(place, begin + "--for unreal --masks slop", 2, "no mask is called 'slop'", "Did you mean 'slope'?");
     expect_run(place, begin + "--for unreal --masks none,slope", 2, "'none' stands alone");
     expect_run(place, begin + "--for unity --tiles 64 --size 4097", 2, "more than 16385 a side");

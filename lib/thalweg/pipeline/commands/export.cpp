@@ -62,17 +62,17 @@ void require_options(ExportParams const& params, ExportFormat format) {
         "pipeline.run_export: --exaggeration applies to meshes (glb, obj, stl), not to {}: a program "
         "that reads it scales heights itself",
         export_name_of(format));
-    refuse_if<BadParameter>(params.base_m && format != ExportFormat::stl,
+    refuse_if<BadParameter>(params.base && format != ExportFormat::stl,
                             "pipeline.run_export: --base applies to the solid of stl, not to {}",
                             export_name_of(format));
     refuse_if<BadParameter>(
         params.tiles_across || params.tiles_down || !params.masks.empty() || params.mask_bits || params.runoff_mm ||
-            params.tree_line_m,
-        "pipeline.run_export: tiles, masks, runoff and the tree line belong to --for PRESET, not to "
-        "a single file");
+            params.tree_line_m || params.print_mm,
+        "pipeline.run_export: tiles, masks, runoff, tree line and print size belong to --for PRESET, not "
+        "to a single file");
     refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
                             "pipeline.run_export: a size has a width and a height");
-    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base_m}}) {
+    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base}}) {
         if (value) {
             require_in("pipeline.run_export", name, *value, Range::above(0.0));
         }
@@ -227,7 +227,7 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
     made.exaggeration = params.exaggeration.value_or(1.0);
     if (made.format == ExportFormat::stl) {
         double const tenth = 0.1 * (made.max_m - made.min_m);
-        made.base_m = params.base_m.value_or(std::max(tenth, scene.dem->grid().cell_m));
+        made.base_m = params.base.value_or(std::max(tenth, scene.dem->grid().cell_m));
     }
     LatticeMesh const mesh = made.format == ExportFormat::stl ? solid_mesh(ground, made.base_m, made.exaggeration, run)
                                                               : surface_mesh(ground, made.exaggeration, run);

@@ -24,7 +24,7 @@ struct ExportFormatName {
 /// \return in the order of the enumeration
 std::vector<ExportFormatName> const& export_formats();
 
-enum class ExportPreset : std::uint8_t { unreal, unity, godot, blender };
+enum class ExportPreset : std::uint8_t { unreal, unity, godot, blender, print3d };
 
 /// The name of a program that takes a folder of files.
 struct ExportPresetName {
@@ -49,10 +49,11 @@ struct ExportParams {
     std::optional<std::int64_t> width = {};
     std::optional<std::int64_t> height = {};
     std::optional<double> exaggeration = {}; ///< > 0, factor of a mesh's heights; 1 if not set
-    /// [m] > 0, of stl: thickness below the lowest height; a tenth of the relief, at least a cell of the DEM, if not
-    /// set
-    std::optional<double> base_m = {};
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    /// > 0, thickness below the lowest height: of stl [m], a tenth of the relief, at least a cell of the DEM, if not
+    /// set; of print3d [mm], 3 if not set
+    std::optional<double> base = {};
+    std::optional<double> print_mm = {}; ///< [mm] of print3d: its longer side; 150 if not set
+    std::optional<double> nodata = {};   ///< of the DEM, as in io::ReadDemParams
     /// [1, 64] tiles of a row and of a column, set together, of unreal, unity and godot; 1 if not set
     std::optional<std::int64_t> tiles_across = {};
     std::optional<std::int64_t> tiles_down = {};
@@ -94,10 +95,8 @@ struct ExportResult {
 /// and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a folder:
 /// heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as grey
 /// PNG; rivers with width and discharge as JSON; for godot and blender a GLB; export.json, which says all of it in
-/// numbers.
-/// \return what was written; the same bytes for any number of threads
-/// \throws BadParameter for an unknown format, preset or mask, an option of another one or a size that it cannot have;
-/// for exr in a build without OpenEXR
+/// numbers. \return what was written; the same bytes for any number of threads \throws BadParameter for an unknown
+/// format, preset or mask, an option of another one or a size that it cannot have; for exr in a build without OpenEXR
 /// \throws BadInput when masks of rivers are asked for and there are none, the size would stretch the DEM by more than
 /// 1 %, a solid would have holes, a file exists already; as the readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});

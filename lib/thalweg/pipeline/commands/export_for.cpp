@@ -5,6 +5,7 @@
 #include <cmath>
 #include <filesystem>
 #include <functional>
+#include <iterator>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,6 +21,7 @@
 #include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/glb.hpp>
 #include <thalweg/pipeline/commands/internal/land_masks.hpp>
+#include <thalweg/pipeline/commands/internal/print_export.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -46,14 +48,16 @@ struct Program {
     bool mesh;
 };
 
-Program const& program_of(ExportPreset preset) {
+/// \return null: it takes no heightmap
+Program const* program_of(ExportPreset preset) {
     using io::HeightmapFormat;
     static constexpr std::array programs{
         Program{ExportPreset::unreal, HeightmapFormat::png16, "png", false, false, true, false},
         Program{ExportPreset::unity, HeightmapFormat::r16, "raw", true, true, true, false},
         Program{ExportPreset::godot, HeightmapFormat::r16, "r16", false, true, true, true},
         Program{ExportPreset::blender, HeightmapFormat::png16, "png", false, false, false, true}};
-    return programs.at(static_cast<std::size_t>(preset));
+    auto const* const found = std::ranges::find(programs, preset, &Program::preset);
+    return found == programs.end() ? nullptr : found;
 }
 
 ExportPreset preset_of(std::string const& word) {
@@ -116,7 +120,7 @@ Sides sides_of(ExportPreset preset) {
                 }};
     case ExportPreset::unity: return power(33, 4097);
     case ExportPreset::godot: return power(513, 4097);
-    case ExportPreset::blender: break;
+    default: break;
     }
     return {"2 to 16385", {}, [](std::int64_t side) { return side >= 2 && side <= most_samples_for; }};
 }
@@ -183,18 +187,32 @@ Tiles tiles_of(ExportParams const& params, Program const& program, Grid const& g
     return tiles;
 }
 
-void require_options_for(ExportParams const& params, Program const& program) {
+/// Refuses options that a preset does not have.
+void require_options_for(ExportParams const& params, ExportPreset preset) {
     refuse_if<BadParameter>(params.output.empty(), "pipeline.run_export: the name of the output is empty");
     refuse_if<BadParameter>(!params.format.empty(),
                             "pipeline.run_export: --for chooses the formats: leave out --format {}", params.format);
-    refuse_if<BadParameter>(params.base_m.has_value(),
-                            "pipeline.run_export: --base applies to the solid of stl, not to {}", params.preset);
-    refuse_if<BadParameter>(params.exaggeration && !program.mesh,
-                            "pipeline.run_export: --exaggeration applies to meshes, not to {}: set the scale there",
-                            params.preset);
-    refuse_if<BadParameter>((params.tiles_across || params.tiles_down) && !program.tiles,
-                            "pipeline.run_export: --tiles applies to unreal, unity and godot, not to {}",
-                            params.preset);
+    bool const prints = preset == ExportPreset::print3d;
+    Program const* const program = program_of(preset);
+    bool const has_tiles = program != nullptr && program->tiles;
+    bool const has_mesh = prints || (program != nullptr && program->mesh);
+    struct Option {
+        bool is_set;
+        bool applies;
+        char const* name;
+    };
+    for (Option const& option : {Option{params.width.has_value(), program != nullptr, "--size"},
+                                 Option{params.tiles_across || params.tiles_down, has_tiles, "--tiles"},
+                                 Option{!params.masks.empty(), program != nullptr, "--masks"},
+                                 Option{params.mask_bits.has_value(), program != nullptr, "--mask-bits"},
+                                 Option{params.runoff_mm.has_value(), program != nullptr, "--runoff"},
+                                 Option{params.tree_line_m.has_value(), program != nullptr, "--tree-line"},
+                                 Option{params.exaggeration.has_value(), has_mesh, "--exaggeration"},
+                                 Option{params.base.has_value(), prints, "--base"},
+                                 Option{params.print_mm.has_value(), prints, "--print-size"}}) {
+        refuse_if<BadParameter>(option.is_set && !option.applies, "pipeline.run_export: {} has no option {}",
+                                params.preset, option.name);
+    }
     if (params.exaggeration) {
         require_in("pipeline.run_export", "exaggeration", *params.exaggeration, Range::above(0.0));
     }
@@ -205,6 +223,7 @@ void require_options_for(ExportParams const& params, Program const& program) {
     require_in("pipeline.run_export", "tree-line", params.tree_line_m.value_or(0.0), Range::finite(), "m");
     std::int64_t const bits = params.mask_bits.value_or(8);
     refuse_if<BadParameter>(bits != 8 && bits != 16, "pipeline.run_export: masks have 8 or 16 bits, not {}", bits);
+    masks_of(params.masks);
 }
 
 /// Where a program has places of the terrain.
@@ -230,7 +249,7 @@ Frame frame_of(ExportPreset preset, Lattice const& ground, double lowest_m) {
         return {"metres: x east, z south from the middle, y height above the lowest", [=](Vec3 p) {
                     return Vec3{p.x - middle.x, p.z - lowest_m, middle.y - p.y};
                 }};
-    case ExportPreset::blender: break;
+    default: break;
     }
     return {"metres: x east, y north from the middle, z height above the lowest", [=](Vec3 p) {
                 return Vec3{p.x - middle.x, p.y - middle.y, p.z - lowest_m};
@@ -290,7 +309,7 @@ ForJson import_of(Program const& program, ExportResult const& made, Tiles const&
                 {"position_of_south_west_tile", {0.0, made.min_m, 0.0}}};
     case ExportPreset::godot:
         return {{"map_scale", {made.step_m.x, 1.0, made.step_m.y}}, {"lowest", 0.0}, {"highest", range_m}};
-    case ExportPreset::blender: break;
+    default: break;
     }
     return {{"plane_size_m", {across_m, down_m}}, {"displacement_strength_m", range_m}, {"midlevel", 0.0}};
 }
@@ -382,11 +401,7 @@ private:
         }
     }
     ForJson head(ExportResult const& made) const {
-        std::string const name = fs::path(params_.source).lexically_normal().filename().string();
-        ForJson json{{"thalweg", version()},
-                     {"source", name.empty() || name == "." ? params_.source : name},
-                     {"for", params_.preset},
-                     {"width", made.width},
+        ForJson json{{"width", made.width},
                      {"height", made.height},
                      {"tiles",
                       {{"across", tiles_.across},
@@ -586,6 +601,40 @@ private:
     std::string colour_ = "colour.png";
 };
 
+/// Writes what a printer takes.
+ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFolder const& out, ExportResult& made,
+                  Run const& run) {
+    PrintParams print;
+    print.longest_mm = params.print_mm.value_or(print.longest_mm);
+    print.base_mm = params.base.value_or(print.base_mm);
+    print.exaggeration = params.exaggeration.value_or(1.0);
+    PrintExport const printed = write_print(scene, print, out, run);
+    std::ranges::copy(printed.notes, std::back_inserter(made.notes));
+    auto const range = height_range(*scene.dem);
+    made.format = ExportFormat::stl;
+    made.width = printed.width;
+    made.height = printed.height;
+    made.min_m = range ? range->first : 0.0;
+    made.max_m = range ? range->second : 0.0;
+    made.exaggeration = print.exaggeration;
+    made.vertices = printed.vertices;
+    made.triangles = printed.triangles;
+    return {{"width", made.width},
+            {"height", made.height},
+            {"min_m", made.min_m},
+            {"max_m", made.max_m},
+            {"file", "terrain.stl"},
+            {"axes", "millimetres: x east, y north, z up from the corner of the plate"},
+            {"size_mm", {printed.size_mm.x, printed.size_mm.y, printed.size_mm.z}},
+            {"scale", printed.scale},
+            {"relief_mm", printed.relief_mm},
+            {"base_mm", print.base_mm},
+            {"exaggeration", print.exaggeration},
+            {"vertices", printed.vertices},
+            {"triangles", printed.triangles},
+            {"crs", scene.dem->grid().crs}};
+}
+
 /// Files of an earlier export in a folder.
 std::vector<std::string> exported_before(std::string const& folder) {
     fs::path const path = fs::path(folder) / description_for;
@@ -611,14 +660,14 @@ std::vector<ExportPresetName> const& export_presets() {
     static std::vector<ExportPresetName> const presets{{ExportPreset::unreal, "unreal"},
                                                        {ExportPreset::unity, "unity"},
                                                        {ExportPreset::godot, "godot"},
-                                                       {ExportPreset::blender, "blender"}};
+                                                       {ExportPreset::blender, "blender"},
+                                                       {ExportPreset::print3d, "print3d"}};
     return presets;
 }
 
 ExportResult run_export_for(ExportParams const& params, Run const& run) {
-    Program const& program = program_of(preset_of(params.preset));
-    require_options_for(params, program);
-    masks_of(params.masks); // unknown names are refused before work begins
+    ExportPreset const preset = preset_of(params.preset);
+    require_options_for(params, preset);
     std::vector<std::string> const before =
         params.existing == io::Existing::replace ? exported_before(params.output) : std::vector<std::string>();
     io::OutputFolder out(params.output, params.existing, before);
@@ -628,7 +677,12 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     ExportResult made;
     made.notes = std::move(read.notes);
-    ForJson json = ForProgram(params, program, read.scene, out, run).write(made);
+    std::string const name = fs::path(params.source).lexically_normal().filename().string();
+    ForJson json{
+        {"thalweg", version()}, {"source", name.empty() || name == "." ? params.source : name}, {"for", params.preset}};
+    Program const* const program = program_of(preset);
+    json.update(program != nullptr ? ForProgram(params, *program, read.scene, out, run).write(made)
+                                   : print_for(params, read.scene, out, made, run));
     std::vector<std::string> files = out.files();
     files.emplace_back(description_for);
     json["files"] = files;
@@ -636,8 +690,8 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     io::write_text(out.path(description_for), made.description + "\n");
     run.at(1.0, "write");
     out.commit();
-    for (std::string const& name : files) {
-        made.files.push_back((fs::path(params.output) / name).string());
+    for (std::string const& file : files) {
+        made.files.push_back((fs::path(params.output) / file).string());
     }
     return made;
 }

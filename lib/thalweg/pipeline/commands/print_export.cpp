@@ -103,6 +103,8 @@ PrintExport write_print(Scene const& scene, PrintParams const& params, io::Outpu
     made.size_mm = {mm_per_m * extent.x, mm_per_m * extent.y, params.base_mm + made.relief_mm};
     constexpr double mm_in_m = 1000.0;
     made.scale = mm_in_m / mm_per_m;
+    made.width = ground.z.width();
+    made.height = ground.z.height();
     made.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     made.triangles = static_cast<std::int64_t>(mesh.triangles.size());
     made.files = {name};

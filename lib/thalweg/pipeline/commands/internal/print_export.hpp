@@ -26,6 +26,8 @@ struct PrintExport {
     Vec3 size_mm;                   ///< [mm] eastwards, northwards, upwards with the base
     double scale = 1.0;             ///< of the plan: 1 : scale
     double relief_mm = 0.0;         ///< [mm] from the lowest height to the highest
+    std::int64_t width = 0;         ///< vertices of a row of the surface
+    std::int64_t height = 0;        ///< vertices of a column of the surface
     std::int64_t vertices = 0;      ///< of the closed mesh
     std::int64_t triangles = 0;     ///< of the closed mesh
     std::vector<std::string> files; ///< names in the folder
