@@ -3,8 +3,8 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """planted_test.py CHECK FOLDER EXPORTS: does check_CHECK.py find each fault planted in a copy of EXPORTS?
 
-CHECK: export, programs or print. FOLDER: what the exports show. EXPORTS: what check_export.py left, with terrain.stl of
-print3d for print. Exits with 1 when a fault goes unseen or EXPORTS itself is not good."""
+CHECK: export, programs or print. FOLDER: what the exports show. EXPORTS: what check_export.py left; for print the folder of
+print3d. Exits with 1 when a fault goes unseen or EXPORTS itself is not good."""
 import json
 import pathlib
 import shutil
