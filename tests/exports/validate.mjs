@@ -6,8 +6,10 @@ import validator from 'gltf-validator'
 
 const reports = {}
 for (const path of process.argv.slice(2)) {
-  const { issues } = await validator.validateBytes(new Uint8Array(readFileSync(path)), { maxIssues: 100 })
-    .catch(error => ({ issues: { numErrors: 1, numWarnings: 0, messages: [{ code: 'UNREADABLE', message: String(error), severity: 0 }] } }))
-  reports[path] = issues
+  try {
+    reports[path] = (await validator.validateBytes(new Uint8Array(readFileSync(path)), { maxIssues: 100 })).issues
+  } catch (error) { // not a GLB at all
+    reports[path] = { numErrors: 1, numWarnings: 0, messages: [{ code: 'UNREADABLE', message: String(error), severity: 0 }] }
+  }
 }
 console.log(JSON.stringify(reports))
