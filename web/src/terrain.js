@@ -39,7 +39,7 @@ function styleOf(rivers) {
     version: 8,
     sources: {
       heights: { type: 'raster-dem', tiles: [`${address}heights/{z}/{x}/{y}${ending}`], encoding: 'mapbox', tileSize: 256, ...limits },
-      colour: { type: 'raster', tiles: [`${address}colour/{z}/{x}/{y}${ending}`], tileSize: 512, ...limits },
+      colour: { type: 'raster', tiles: [`${address}colour/{z}/{x}/{y}${ending}`], tileSize: 256, ...limits },
       ...(rivers && { rivers: { type: 'geojson', data: rivers, tolerance: 0.1 } }),
     },
     layers: [
@@ -63,7 +63,7 @@ const metres = (z) => `${z.toLocaleString('en', { maximumFractionDigits: Math.ab
 /** The whole terrain, seen up its valley. */
 function firstView(map) {
   const { center, zoom } = map.cameraForBounds([west, south, east, north], { bearing: data.bearing, padding: 20 });
-  return { center, zoom: zoom + 0.35, bearing: data.bearing, pitch: tilt };
+  return { center, zoom: zoom + 0.45, bearing: data.bearing, pitch: tilt, padding: { bottom: 120 } };
 }
 
 function addControls(map) {
@@ -107,13 +107,14 @@ async function show() {
   const map = new Map({
     container: 'map', style: styleOf(await riversOf()), attributionControl: false, maxPitch: 80, pitch: tilt, bearing: data.bearing,
     center: [0.5 * (west + east), 0.5 * (south + north)], zoom: data.min_zoom, minZoom: Math.max(0, data.min_zoom - 0.5),
-    maxZoom: Math.min(24, data.max_zoom + 3), renderWorldCopies: false,
+    maxZoom: Math.min(24, data.max_zoom + 3), renderWorldCopies: false, terrainSkirtLength: 'none',
     transformCameraUpdate: ({ center }) => ({ // the terrain stays in sight
       center: new center.constructor(Math.min(Math.max(center.lng, west), east), Math.min(Math.max(center.lat, south), north)),
     }),
   });
   state.map = map;
   map.on('error', ({ error }) => fail(error));
+  map.once('style.load', () => map.setSourceTileLodParams(1, 1)); // tiles of one level meet without gaps
   addControls(map);
   followHeights(map);
   map.jumpTo(firstView(map));
