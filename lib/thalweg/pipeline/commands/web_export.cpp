@@ -160,6 +160,8 @@ struct WebInside {
     std::int64_t max_zoom = 0;
 };
 
+constexpr std::int64_t largest_tile = 1 << 24;
+
 WebInside tiles_inside(io::WebPyramid const& pyramid, io::OutputFolder const& out, std::int64_t most_bytes) {
     WebInside inside;
     std::string bytes;
@@ -172,7 +174,7 @@ WebInside tiles_inside(io::WebPyramid const& pyramid, io::OutputFolder const& ou
             for (std::int64_t row = at.north; row <= at.south; ++row) {
                 for (char const* const kind : {"heights", "colour"}) {
                     std::string const name = fmt::format("{}/{}/{}/{}", kind, zoom, column, row);
-                    std::string const tile = io::read_text(out.path(name + ".png"), most_bytes);
+                    std::string const tile = io::read_text(out.path(name + ".png"), largest_tile);
                     places[name] = {bytes.size() + level.size(), tile.size()};
                     level += tile;
                 }
