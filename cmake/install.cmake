@@ -34,6 +34,9 @@ endif()
 if(OpenCL_FOUND)
   string(APPEND LIBRARIES " -lOpenCL")
 endif()
+if(OpenEXR_FOUND)
+  string(APPEND LIBRARIES " -lOpenEXR -lIex")
+endif()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/thalweg.pc @ONLY CONTENT [[
 prefix=${pcfiledir}/../@UP@
 libdir=${prefix}/@LIBDIR@

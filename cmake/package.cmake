@@ -166,6 +166,9 @@ endif()
 if(OpenCL_FOUND)
   list(APPEND OPTIONAL opencl)
 endif()
+if(OpenEXR_FOUND)
+  list(APPEND OPTIONAL exr)
+endif()
 debian_package(library libthalweg-dev libdevel "\
 terrain from its rivers outward - C++ library
 thalweg reads river networks from files, or grows them, and makes the terrain

@@ -3,9 +3,9 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """check_export.py THALWEG FOLDER: what `thalweg export` writes of a folder, read by programs that are not ours.
 
-PNG and raw files by Pillow and numpy: heights of GDAL's dem.tif within half a step, or bit for bit. STL by meshio: closed,
-with a volume. OBJ by meshio: the heights of the DEM, and a texture beside it. The chunks of a GLB are those of the
-standard."""
+PNG and raw files by Pillow and numpy, EXR by OpenImageIO: heights of GDAL's dem.tif within half a step, or bit for bit.
+STL by meshio: closed, with a volume. OBJ by meshio: the heights of the DEM, and a texture beside it. The chunks of a GLB
+are those of the standard."""
 import json
 import pathlib
 import struct
@@ -14,6 +14,7 @@ import tempfile
 
 import meshio
 import numpy
+import OpenImageIO
 import PIL.Image
 from osgeo import gdal
 
@@ -84,6 +85,11 @@ def main(thalweg, folder):
         found.unless((numpy.fromfile(path, "<u2").reshape(rows, columns) == samples).all(), "raw is not the PNG", path.name)
         path, _ = export("a.r32")
         found.unless((numpy.fromfile(path, "<f4").reshape(rows, columns)[known] == dem[known]).all(), "other heights", "r32")
+        path, _ = export("a.exr")
+        image = OpenImageIO.ImageInput.open(str(path))
+        form = image.spec()
+        found.equal("exr", (form.width, form.height, form.channelnames, str(form.format)), (columns, rows, ("Y",), "float"))
+        found.unless((image.read_image("float")[:, :, 0][known] == dem[known]).all(), "other heights", "exr")
 
         longer = 1 + 2 * (max(rows, columns) - 1)
         size = f"{1 + 2 * (columns - 1)}x{1 + 2 * (rows - 1)}"

@@ -27,7 +27,7 @@ FOREIGN = {
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
     "draw": ["cairo", "fontconfig/"],
-    "io": ["gdal", "ogr", "cpl_", "proj.h"],
+    "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/"],
     "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "studio": ["nlohmann/"],

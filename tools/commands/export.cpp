@@ -49,6 +49,47 @@ std::string take_size(std::string const& word, pipeline::ExportParams& params) {
                                          : fmt::format("'{}' is not N or WIDTHxHEIGHT, such as 1025 or 1025x769", word);
 }
 
+/// Explains why a word is no number of tiles; "": it is one.
+std::string take_tiles(std::string const& word, pipeline::ExportParams& params) {
+    pipeline::ExportParams read;
+    if (!take_size(word, read).empty()) {
+        return fmt::format("'{}' is not N or ACROSSxDOWN, such as 2 or 4x2", word);
+    }
+    params.tiles_across = read.width;
+    params.tiles_down = read.height;
+    return "";
+}
+
+void add_size_option(CLI::App& app, char const* name, char const* meaning,
+                     std::shared_ptr<pipeline::ExportParams> const& params,
+                     std::string (*take)(std::string const&, pipeline::ExportParams&)) {
+    app.add_option_function<std::string>(
+           name,
+           [params, name, take](std::string const& word) {
+               if (std::string const fault = take(word, *params); !fault.empty()) {
+                   throw CLI::ValidationError(name, fault);
+               }
+           },
+           meaning)
+        ->type_name("N|WxH");
+}
+
+void add_preset_options(CLI::App& app, std::shared_ptr<pipeline::ExportParams> const& params) {
+    add_size_option(app, "--tiles", "With --for: cut heights and masks into this many tiles: N a side, or ACROSSxDOWN.",
+                    params, take_tiles);
+    add_list(
+        app, "--masks", "LIST", params->masks,
+        "With --for: write these masks: slope, flow, wetness, curvature, water, river_distance, river_width, ridge, "
+        "land_cover, all or none. Default: all.");
+    app.add_option("--mask-bits", params->mask_bits, "With --for: bits of a mask's samples, 8 or 16. Default: 8.");
+    app.add_option("--runoff", params->runoff_mm,
+                   "With --for: runoff [mm/a], from which rivers have their discharge and width. Default: 300.");
+    app.add_option("--print-size", params->print_mm,
+                   "With --for print3d: longer side of the model [mm]. Default: 150.");
+    app.add_option("--tree-line", params->tree_line_m,
+                   "With --for: height [m] above which land cover has no forest. Default: 1800.");
+}
+
 } // namespace
 
 Command add_export(CLI::App& app, Session& session) {
@@ -57,34 +98,37 @@ Command add_export(CLI::App& app, Session& session) {
         ->type_name("FILE")
         ->required();
     app.add_option("-o,--output", params->output,
-                   "Write this file, and beside it FILE.json with sizes, heights, axes and position.")
+                   "Write this file, and beside it FILE.json with sizes, heights, axes and position; with --for this "
+                   "folder, with export.json in it.")
         ->required();
-    app.add_option("--format", params->format,
-                   names_in_words(pipeline::export_formats()) + ". Default: by the file extension.");
-    app.add_option_function<std::string>(
-           "--size",
-           [params](std::string const& word) {
-               if (std::string const fault = take_size(word, *params); !fault.empty()) {
-                   throw CLI::ValidationError("--size", fault);
-               }
-           },
-           "Resample to this many samples or vertices: N a side, or WIDTHxHEIGHT. Default: the DEM's cells, in a mesh "
-           "at most 1025 a side.")
-        ->type_name("N|WxH");
+    auto* const format = app.add_option(
+        "--format", params->format, names_in_words(pipeline::export_formats()) + ". Default: by the file extension.");
+    app.add_option("--for", params->preset,
+                   "Write a folder of what this program imports: " + names_in_words(pipeline::export_presets()) + ".")
+        ->excludes(format);
+    add_size_option(
+        app, "--size",
+        "Resample to this many samples or vertices: N a side, or WIDTHxHEIGHT. Default: the DEM's cells, in "
+        "a mesh at most 1025 a side; with --for the size nearest to these that the program takes.",
+        params, take_size);
+    add_preset_options(app, params);
     app.add_option("--exaggeration", params->exaggeration, "Multiply the heights of a mesh by this factor.");
-    app.add_option("--base", params->base_m,
-                   "Make the solid of stl this thick below its lowest height [m]. Default: a tenth of the relief, at "
-                   "least a cell.");
+    app.add_option(
+        "--base", params->base,
+        "Make a solid this thick below its lowest height: of stl [m], default a tenth of the relief, at least a "
+        "cell; of print3d [mm], default 3.");
     add_nodata_option(app, params->nodata);
     add_json_option(app, session);
     add_overwrite_option(app, params->existing, "Replace files of the same names.");
     app.footer(
-        "png16, r16 and r32 are heightmaps: 16 bits from the lowest height to the highest as PNG or raw, or metres "
-        "as raw 32-bit floats. glb and obj are textured meshes, Y up, glb with rivers as lines; stl is a closed "
-        "solid, Z up. Meshes are in metres from an origin in the middle, at the lowest height.\n\n"
+        "png16, r16, r32 and exr are heightmaps: 16 bits from the lowest height to the highest as PNG or raw, or "
+        "metres as 32-bit floats, raw or as OpenEXR. glb and obj are textured meshes, Y up, glb with rivers as lines; "
+        "stl is a closed solid, Z up. Meshes are in metres from an origin in the middle, at the lowest height.\n\n"
         "Examples:\n"
         "  thalweg export valley -o valley.glb\n"
         "  thalweg export valley --size 1009 -o heights.png\n"
+        "  thalweg export valley --for unreal -o landscape\n"
+        "  thalweg export valley --for unity --tiles 2 --size 1025 -o tiles\n"
         "  thalweg export dem.tif --size 513x385 --exaggeration 2 --base 50 -o dem.stl\n");
     return [params, &session] { return export_terrain(*params, session); };
 }

@@ -53,13 +53,13 @@ private:
 
 } // namespace
 
-void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run) {
+void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run, std::string const& unit) {
     std::string const what = "io.write_stl: " + path;
     require_finite(mesh, what);
     refuse_if<BadInput>(mesh.triangles.size() > std::numeric_limits<std::uint32_t>::max(),
                         "{}: {} triangles: STL holds at most 2^32 - 1", what, mesh.triangles.size());
     MeshBytes out(path, what, run);
-    std::string header = "thalweg, metres, Z up"; // must not begin with "solid": that would be text
+    std::string header = "thalweg, " + unit + ", Z up"; // must not begin with "solid": that would be text
     header.resize(80, ' ');
     out.bytes() += header;
     put_number(out.bytes(), static_cast<std::uint32_t>(mesh.triangles.size()));

@@ -9,15 +9,17 @@
 
 namespace thalweg::io {
 
-/// Writes a mesh as a new binary STL. Z is up; coordinates are those of the mesh [m] as 32-bit floats; each facet has
-/// its normal.
+/// Writes a mesh as a new binary STL. Z is up; coordinates are those of the mesh as 32-bit floats; each facet has its
+/// normal.
 /// \param mesh at least one triangle
 /// \param path of the file
+/// \param unit of the mesh's coordinates, at most 50 bytes: the header says it, and no program reads it
 /// \throws BadInput when a coordinate is not finite or there are more than 2^32 - 1 triangles
 /// \throws IoError also when the file exists
 ///
 /// Source: 3D Systems, StereoLithography Interface Specification (1989).
-void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run = {});
+void write_stl(LatticeMesh const& mesh, std::string const& path, Run const& run = {},
+               std::string const& unit = "metres");
 
 /// The names that an OBJ says.
 struct ObjNames {

@@ -13,21 +13,10 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
+#include <thalweg/io/raster/internal/exr.hpp>
 
 namespace thalweg::io {
 namespace {
-
-HeightmapScale scale_of(Raster<float> const& heights, std::string const& what) {
-    for (std::int64_t i = 0; i < heights.cells(); ++i) {
-        Cell const c = heights.grid().at(i);
-        refuse_if<BadInput>(!std::isfinite(heights[i]), "{}: the sample at column {}, row {} has no height", what,
-                            c.col, c.row);
-    }
-    auto const [low, high] = std::ranges::minmax_element(heights.values());
-    double const min_m = *low;
-    double const max_m = *high;
-    return {min_m, max_m, (max_m - min_m) / 65535.0};
-}
 
 std::vector<std::uint16_t> in_16_bits(Raster<float> const& heights, HeightmapScale const& scale) {
     std::vector<std::uint16_t> numbers;
@@ -39,8 +28,11 @@ std::vector<std::uint16_t> in_16_bits(Raster<float> const& heights, HeightmapSca
     return numbers;
 }
 
-void write_png16(std::vector<std::uint16_t>& numbers, Grid const& grid, std::string const& path,
-                 std::string const& what, Run const& run) {
+/// Writes numbers as the bands of a PNG, pixel by pixel.
+template <class T>
+void write_png(std::vector<T>& numbers, int bands, Grid const& grid, std::string const& path, Run const& run) {
+    std::string const what = "io.write_png: " + path;
+    constexpr GDALDataType type = sizeof(T) == 2 ? GDT_UInt16 : GDT_Byte;
     require_size(grid, what);
     Driver const driver;
     MemoryFile const file;
@@ -52,10 +44,11 @@ void write_png16(std::vector<std::uint16_t>& numbers, Grid const& grid, std::str
     };
     auto const width = static_cast<int>(grid.width);
     auto const height = static_cast<int>(grid.height);
-    Dataset source(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", width, height, 1, GDT_UInt16, nullptr));
+    Dataset source(GetGDALDriverManager()->GetDriverByName("MEM")->Create("", width, height, bands, type, nullptr));
     require(source != nullptr);
-    require(source->GetRasterBand(1)->RasterIO(GF_Write, 0, 0, width, height, numbers.data(), width, height, GDT_UInt16,
-                                               0, 0, nullptr) == CE_None);
+    auto const pixel = static_cast<GSpacing>(sizeof(T)) * bands;
+    require(source->RasterIO(GF_Write, 0, 0, width, height, numbers.data(), width, height, type, bands, nullptr, pixel,
+                             pixel * width, static_cast<GSpacing>(sizeof(T)), nullptr) == CE_None);
     CPLStringList options;
     options.SetNameValue("ZLEVEL", "1"); // 6 takes twice the time for 3 % fewer bytes
     GdalProgress gdal_progress(run, "write");
@@ -84,23 +77,75 @@ template <class T> void write_raw(std::span<T const> numbers, std::string const&
 
 } // namespace
 
-HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,
-                               Run const& run) {
-    std::string const what = "io.write_heightmap: " + path;
+HeightmapScale heightmap_scale(Raster<float> const& heights) {
+    constexpr char const* what = "io.write_heightmap";
     refuse_if<BadInput>(heights.cells() < 1, "{}: there are no heights", what);
-    HeightmapScale scale = scale_of(heights, what);
+    for (std::int64_t i = 0; i < heights.cells(); ++i) {
+        Cell const c = heights.grid().at(i);
+        refuse_if<BadInput>(!std::isfinite(heights[i]), "{}: the sample at column {}, row {} has no height", what,
+                            c.col, c.row);
+    }
+    auto const [low, high] = std::ranges::minmax_element(heights.values());
+    double const min_m = *low;
+    double const max_m = *high;
+    return {min_m, max_m, (max_m - min_m) / 65535.0};
+}
+
+void write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,
+                     HeightmapScale const& scale, Run const& run) {
     if (format == HeightmapFormat::r32) {
-        scale.step_m = 0.0;
         write_raw<float>(heights.values(), path, run);
-        return scale;
+        return;
+    }
+    if (format == HeightmapFormat::exr) {
+        write_text(path, exr(heights, run));
+        return;
     }
     std::vector<std::uint16_t> numbers = in_16_bits(heights, scale);
     if (format == HeightmapFormat::r16) {
         write_raw<std::uint16_t>(numbers, path, run);
     } else {
-        write_png16(numbers, heights.grid(), path, what, run);
+        write_png(numbers, 1, heights.grid(), path, run);
     }
+}
+
+HeightmapScale write_heightmap(Raster<float> const& heights, std::string const& path, HeightmapFormat format,
+                               Run const& run) {
+    HeightmapScale scale = heightmap_scale(heights);
+    if (format == HeightmapFormat::r32 || format == HeightmapFormat::exr) {
+        scale.step_m = 0.0;
+    }
+    write_heightmap(heights, path, format, scale, run);
     return scale;
+}
+
+void write_grey_png(Raster<float> const& shares, std::string const& path, int bits, Run const& run) {
+    refuse_if<BadParameter>(bits != 8 && bits != 16, "io.write_grey_png: a sample has 8 or 16 bits, not {}", bits);
+    auto const in_numbers = [&]<class T>(std::vector<T> numbers) {
+        double const most = sizeof(T) == 2 ? 65535.0 : 255.0;
+        numbers.reserve(shares.values().size());
+        for (float const share : shares.values()) {
+            numbers.push_back(
+                static_cast<T>(std::floor(std::clamp(static_cast<double>(share), 0.0, 1.0) * most + 0.5)));
+        }
+        write_png(numbers, 1, shares.grid(), path, run);
+    };
+    if (bits == 8) {
+        in_numbers(std::vector<std::uint8_t>());
+    } else {
+        in_numbers(std::vector<std::uint16_t>());
+    }
+}
+
+void write_colour_png(Raster<std::uint32_t> const& colours, std::string const& path, Run const& run) {
+    std::vector<std::uint8_t> numbers;
+    numbers.reserve(3 * colours.values().size());
+    for (std::uint32_t const colour : colours.values()) {
+        for (unsigned const shift : {16U, 8U, 0U}) {
+            numbers.push_back(static_cast<std::uint8_t>((colour >> shift) & 0xFFU));
+        }
+    }
+    write_png(numbers, 3, colours.grid(), path, run);
 }
 
 } // namespace thalweg::io

@@ -14,10 +14,9 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/draw/map.hpp>
 #include <thalweg/io/mesh/lattice_files.hpp>
-#include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
+#include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/glb.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -30,10 +29,6 @@ namespace fs = std::filesystem;
 constexpr std::int64_t most_samples = 16385;  // a side
 constexpr std::int64_t most_vertices = 4097;  // a side of a mesh: a GLB of 0.9 GB
 constexpr std::int64_t usual_vertices = 1025; // a side of a mesh
-
-bool is_mesh(ExportFormat format) {
-    return format == ExportFormat::glb || format == ExportFormat::obj || format == ExportFormat::stl;
-}
 
 char const* export_name_of(ExportFormat format) {
     return export_formats()[static_cast<std::size_t>(format)].name;
@@ -67,12 +62,17 @@ void require_options(ExportParams const& params, ExportFormat format) {
         "pipeline.run_export: --exaggeration applies to meshes (glb, obj, stl), not to {}: a program "
         "that reads it scales heights itself",
         export_name_of(format));
-    refuse_if<BadParameter>(params.base_m && format != ExportFormat::stl,
+    refuse_if<BadParameter>(params.base && format != ExportFormat::stl,
                             "pipeline.run_export: --base applies to the solid of stl, not to {}",
                             export_name_of(format));
+    refuse_if<BadParameter>(
+        params.tiles_across || params.tiles_down || !params.masks.empty() || params.mask_bits || params.runoff_mm ||
+            params.tree_line_m || params.print_mm,
+        "pipeline.run_export: tiles, masks, runoff, tree line and print size belong to --for PRESET, not "
+        "to a single file");
     refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
                             "pipeline.run_export: a size has a width and a height");
-    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base_m}}) {
+    for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base}}) {
         if (value) {
             require_in("pipeline.run_export", name, *value, Range::above(0.0));
         }
@@ -84,22 +84,6 @@ void require_options(ExportParams const& params, ExportFormat format) {
                        is_mesh(format) ? "vertices" : "samples");
         }
     }
-}
-
-struct ExportSize {
-    std::int64_t width = 0;
-    std::int64_t height = 0;
-};
-
-/// The size nearest to a DEM's shape whose longer side has this many samples.
-ExportSize fitting(Grid const& grid, std::int64_t longer) {
-    std::int64_t const most = std::max(grid.width, grid.height) - 1;
-    auto const side = [&](std::int64_t cells) {
-        double const share = static_cast<double>(cells - 1) / static_cast<double>(most);
-        return std::max<std::int64_t>(
-            2, static_cast<std::int64_t>(std::floor(share * static_cast<double>(longer - 1) + 0.5)) + 1);
-    };
-    return {side(grid.width), side(grid.height)};
 }
 
 ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<std::string>& notes) {
@@ -130,110 +114,6 @@ ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& 
     return fit;
 }
 
-std::int64_t fill_holes(Raster<float>& heights, double level) {
-    std::int64_t filled = 0;
-    for (float& z : heights.values()) {
-        if (std::isnan(z)) {
-            z = static_cast<float>(level);
-            ++filled;
-        }
-    }
-    return filled;
-}
-
-/// The DEM as a lattice, with the level of the sea or, in heightmaps, the lowest height in place of holes.
-Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run) {
-    Raster<float> const& dem = *scene.dem;
-    made.holes = std::count_if(dem.values().begin(), dem.values().end(), [](float z) { return std::isnan(z); });
-    auto const count = [&] { return fmt::format("{} of {} cells", made.holes, dem.cells()); };
-    if (made.holes == 0) {
-        return lattice(dem, size.width, size.height, run);
-    }
-    if (scene.sea) {
-        made.hole_m = scene.sea->level_m;
-        made.notes.push_back(fmt::format("the sea, {}, lies level at {} m", count(), *made.hole_m));
-        Raster<float> filled = dem;
-        fill_holes(filled, *made.hole_m);
-        return lattice(filled, size.width, size.height, run);
-    }
-    if (made.format == ExportFormat::stl) {
-        throw BadInput(fmt::format("pipeline.run_export: {} have no data: a solid has no holes; fill them first "
-                                   "(gdal_fillnodata.py)",
-                                   count()));
-    }
-    Lattice out = lattice(dem, size.width, size.height, run);
-    if (is_mesh(made.format)) {
-        made.notes.push_back(fmt::format("{} have no data: the mesh has holes there", count()));
-        return out;
-    }
-    auto const range = height_range(out.z);
-    refuse_if<BadInput>(!range, "pipeline.run_export: no sample has a height");
-    made.hole_m = range->first;
-    made.notes.push_back(fmt::format("{} have no data: their samples get the lowest height, {} m", count(),
-                                     fmt::format("{:.6g}", *made.hole_m)));
-    fill_holes(out.z, *made.hole_m);
-    return out;
-}
-
-std::string texture_of(Scene const& scene, Run const& run) {
-    run.at(0.0, "texture");
-    Raster<float> const& dem = *scene.dem;
-    draw::MapSheet sheet{dem,
-                         io::hillshade(dem),
-                         scene.network ? &*scene.network : nullptr,
-                         scene.network ? &scene.orders : nullptr,
-                         {},
-                         nullptr,
-                         scene.ds_area_m2};
-    sheet.lakes = &scene.lakes;
-    if (scene.sea) {
-        sheet.sea = draw::Sea{scene.sea->is_around};
-    }
-    constexpr double longer_px = 2048.0;
-    constexpr double least_px = 200.0;
-    double const shape = static_cast<double>(dem.width() - 1) / static_cast<double>(dem.height() - 1);
-    draw::GroundParams params;
-    params.width_px = static_cast<int>(std::max(least_px, std::floor(longer_px * std::min(1.0, shape) + 0.5)));
-    return draw::ground(sheet, params).bytes;
-}
-
-/// Rivers laid on a mesh, in its frame; a little above it, or they would be hidden in it.
-std::vector<std::vector<Vec3>> rivers_on_mesh(ElevatedNetwork const& network, Lattice const& ground,
-                                              LatticeMesh const& mesh, double exaggeration) {
-    double const step = std::min(ground.z.grid().cell_m, ground.row_step_m);
-    double const lift = 0.1 * step;
-    std::vector<std::vector<Vec3>> out;
-    for (ArcId arc = 0; arc < network.planform.arc_count(); ++arc) {
-        std::vector<Vec2> const& line = network.planform.arc(arc).line;
-        std::vector<Vec3> part;
-        auto const end_part = [&] {
-            if (part.size() > 1) {
-                out.push_back(part);
-            }
-            part.clear();
-        };
-        auto const add = [&](Vec2 p) {
-            double const z = height_on_mesh(ground, p);
-            if (std::isnan(z)) {
-                end_part();
-                return;
-            }
-            part.push_back({p.x - mesh.origin.x, p.y - mesh.origin.y, (z - mesh.origin.z) * exaggeration + lift});
-        };
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            if (i > 0) { // so dense that lines follow the triangles
-                double const pieces = std::floor(distance(line[i - 1], line[i]) / (0.5 * step));
-                for (double k = 1.0; k <= pieces; ++k) {
-                    add(line[i - 1] + (k / (pieces + 1.0)) * (line[i] - line[i - 1]));
-                }
-            }
-            add(line[i]);
-        }
-        end_part();
-    }
-    return out;
-}
-
 using ExportJson = nlohmann::ordered_json;
 
 ExportJson json_of(ExportResult const& made, std::string const& source) {
@@ -246,7 +126,8 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
                     {"height", made.height},
                     {"min_m", made.min_m},
                     {"max_m", made.max_m}};
-    if (made.metres_per_step > 0.0 || made.format == ExportFormat::png16 || made.format == ExportFormat::r16) {
+    bool const sixteen = made.format == ExportFormat::png16 || made.format == ExportFormat::r16;
+    if (sixteen) {
         json["metres_per_step"] = made.metres_per_step;
     }
     json["step_m"] = {made.step_m.x, made.step_m.y};
@@ -269,8 +150,8 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
         }
     } else {
         json["axes"] = "rows from north to south, samples of a row from west to east";
-        json["samples"] = made.format == ExportFormat::r32 ? "32-bit floating point, metres"
-                                                           : "16-bit unsigned: min_m + number x metres_per_step";
+        json["samples"] =
+            sixteen ? "16-bit unsigned: min_m + number x metres_per_step" : "32-bit floating point, metres";
         json["byte_order"] = made.format == ExportFormat::png16 ? "big-endian, as in every PNG" : "little-endian";
     }
     json["cells_without_data"] = made.holes;
@@ -346,7 +227,7 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
     made.exaggeration = params.exaggeration.value_or(1.0);
     if (made.format == ExportFormat::stl) {
         double const tenth = 0.1 * (made.max_m - made.min_m);
-        made.base_m = params.base_m.value_or(std::max(tenth, scene.dem->grid().cell_m));
+        made.base_m = params.base.value_or(std::max(tenth, scene.dem->grid().cell_m));
     }
     LatticeMesh const mesh = made.format == ExportFormat::stl ? solid_mesh(ground, made.base_m, made.exaggeration, run)
                                                               : surface_mesh(ground, made.exaggeration, run);
@@ -376,11 +257,15 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
 std::vector<ExportFormatName> const& export_formats() {
     static std::vector<ExportFormatName> const formats{
         {ExportFormat::png16, "png16", ".png"}, {ExportFormat::r16, "r16", ".r16"}, {ExportFormat::r32, "r32", ".r32"},
-        {ExportFormat::glb, "glb", ".glb"},     {ExportFormat::obj, "obj", ".obj"}, {ExportFormat::stl, "stl", ".stl"}};
+        {ExportFormat::exr, "exr", ".exr"},     {ExportFormat::glb, "glb", ".glb"}, {ExportFormat::obj, "obj", ".obj"},
+        {ExportFormat::stl, "stl", ".stl"}};
     return formats;
 }
 
 ExportResult run_export(ExportParams const& params, Run const& run) {
+    if (!params.preset.empty()) {
+        return run_export_for(params, run);
+    }
     ExportResult made;
     made.format = export_format_of(params);
     require_options(params, made.format);
@@ -405,7 +290,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
         write_mesh(ground, read.scene, params, files, made, run);
     } else {
         constexpr io::HeightmapFormat heightmaps[] = {io::HeightmapFormat::png16, io::HeightmapFormat::r16,
-                                                      io::HeightmapFormat::r32};
+                                                      io::HeightmapFormat::r32, io::HeightmapFormat::exr};
         io::HeightmapScale const scale =
             io::write_heightmap(ground.z, files.path(0), heightmaps[static_cast<std::size_t>(made.format)], run);
         made.metres_per_step = scale.step_m;

@@ -13,7 +13,7 @@
 
 namespace thalweg::pipeline {
 
-enum class ExportFormat : std::uint8_t { png16, r16, r32, glb, obj, stl };
+enum class ExportFormat : std::uint8_t { png16, r16, r32, exr, glb, obj, stl };
 
 /// The name of an export format.
 struct ExportFormatName {
@@ -24,21 +24,43 @@ struct ExportFormatName {
 /// \return in the order of the enumeration
 std::vector<ExportFormatName> const& export_formats();
 
+enum class ExportPreset : std::uint8_t { unreal, unity, godot, blender, print3d };
+
+/// The name of a program that takes a folder of files.
+struct ExportPresetName {
+    ExportPreset preset;
+    char const* name; ///< "unreal"
+};
+/// \return in the order of the enumeration
+std::vector<ExportPresetName> const& export_presets();
+
 /// Options of run_export().
 struct ExportParams {
-    std::string source = {};                      ///< a folder written by make, or a DEM as io::read_drawable
-    std::string output = {};                      ///< a new file; its folder is created where it is missing
-    io::Existing existing = io::Existing::refuse; ///< replace: files of the same names are replaced, nothing else
-    std::string format = {};                      ///< a name of export_formats(); "": by the output's extension
+    std::string source = {}; ///< a folder written by make, or a DEM as io::read_drawable
+    /// a new file, with a preset a new folder; folders above are created where they are missing
+    std::string output = {};
+    /// replace: files of the same names are replaced, with a preset those of an earlier export; nothing else
+    io::Existing existing = io::Existing::refuse;
+    std::string format = {}; ///< a name of export_formats(); "": by the output's extension; "" with a preset
+    std::string preset = {}; ///< a name of export_presets(); "": a single file
     /// samples or vertices of a row and of a column, set together: [2, 16385], of meshes [2, 4097]; not set: the DEM's
-    /// cells, in a mesh at most 1025 a side
+    /// cells, in a mesh at most 1025 a side. With a preset: of each tile, as its program takes them; not set: the size
+    /// nearest to the DEM's.
     std::optional<std::int64_t> width = {};
     std::optional<std::int64_t> height = {};
     std::optional<double> exaggeration = {}; ///< > 0, factor of a mesh's heights; 1 if not set
-    /// [m] > 0, of stl: thickness below the lowest height; a tenth of the relief, at least a cell of the DEM, if not
-    /// set
-    std::optional<double> base_m = {};
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    /// > 0, thickness below the lowest height: of stl [m], a tenth of the relief, at least a cell of the DEM, if not
+    /// set; of print3d [mm], 3 if not set
+    std::optional<double> base = {};
+    std::optional<double> print_mm = {}; ///< [mm] of print3d: its longer side; 150 if not set
+    std::optional<double> nodata = {};   ///< of the DEM, as in io::ReadDemParams
+    /// [1, 64] tiles of a row and of a column, set together, of unreal, unity and godot; 1 if not set
+    std::optional<std::int64_t> tiles_across = {};
+    std::optional<std::int64_t> tiles_down = {};
+    std::vector<std::string> masks = {};        ///< of a preset: names, or "all" or "none"; empty: all
+    std::optional<std::int64_t> mask_bits = {}; ///< of a preset: 8 or 16; 8 if not set
+    std::optional<double> runoff_mm = {};       ///< [mm/a] > 0, of a preset's rivers; 300 if not set
+    std::optional<double> tree_line_m = {};     ///< [m] of a preset's land cover; 1800 if not set
 };
 
 /// What run_export() wrote.
@@ -46,7 +68,7 @@ struct ExportResult {
     std::vector<std::string> files; ///< paths: the file named, its companions, its description (FILE.json)
     std::vector<std::string> notes; ///< changes and choices, as sentences
     ExportFormat format = ExportFormat::png16;
-    std::int64_t width = 0;            ///< samples or vertices of a row
+    std::int64_t width = 0;            ///< samples or vertices of a row, of all tiles together
     std::int64_t height = 0;           ///< samples or vertices of a column
     Vec2 step_m;                       ///< between neighbours of a row, and of a column
     Vec2 north_west;                   ///< [m] position of the first sample or vertex
@@ -62,19 +84,21 @@ struct ExportResult {
     Vec3 origin;                       ///< [m] of a mesh's frame
     double exaggeration = 1.0;         ///< of a mesh
     double base_m = 0.0;               ///< of a solid; else 0
-    std::string description;           ///< what FILE.json says: one JSON object
+    std::string description;           ///< what FILE.json or export.json says: one JSON object
 };
 
 /// Runs `thalweg export`: writes the heights of a terrain as one file for game engines, 3D programs and printers, and
 /// beside it FILE.json, which says sizes, heights, axes and position. All files are written, or none. The corners are
-/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32: as io::write_heightmap; cells without
-/// data get the level of the sea if the folder's recipe has one, else the lowest height. glb, obj, stl: metres from a
-/// local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb and obj
-/// are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up.
-/// \return what was written; the same bytes for any number of threads
-/// \throws BadParameter for an unknown format, an option of another format or a size that the format cannot have
-/// \throws BadInput when the size would stretch the DEM by more than 1 %, a solid would have holes, a file exists
-/// already; as the readers
+/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32, exr: as io::write_heightmap; cells
+/// without data get the level of the sea if the folder's recipe has one, else the lowest height. glb, obj, stl: metres
+/// from a local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb
+/// and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a folder:
+/// heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as grey
+/// PNG; rivers with width and discharge as JSON; for godot and blender a GLB; export.json, which says all of it in
+/// numbers. \return what was written; the same bytes for any number of threads \throws BadParameter for an unknown
+/// format, preset or mask, an option of another one or a size that it cannot have; for exr in a build without OpenEXR
+/// \throws BadInput when masks of rivers are asked for and there are none, the size would stretch the DEM by more than
+/// 1 %, a solid would have holes, a file exists already; as the readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

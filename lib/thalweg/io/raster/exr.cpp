@@ -1,0 +1,70 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
+#include <cstddef>
+#include <cstdint>
+
+#include <OpenEXR/Iex.h>
+#include <OpenEXR/ImfChannelList.h>
+#include <OpenEXR/ImfFrameBuffer.h>
+#include <OpenEXR/ImfHeader.h>
+#include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfOutputFile.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/io/raster/internal/exr.hpp>
+
+namespace thalweg::io {
+namespace {
+
+constexpr char const* exr_channel = "Y"; // brightness, which Blender, Godot and Unreal read as grey
+
+/// A file in memory: those on disk are written by write_text, which refuses to replace one.
+class ExrBytes : public Imf::OStream {
+public:
+    ExrBytes() : OStream("OpenEXR") {}
+    void write(char const c[], int n) override {
+        auto const count = static_cast<std::size_t>(n);
+        bytes_.resize(std::max(bytes_.size(), at_ + count));
+        std::copy_n(c, count, bytes_.begin() + static_cast<std::ptrdiff_t>(at_));
+        at_ += count;
+    }
+    std::uint64_t tellp() override { return at_; }
+    void seekp(std::uint64_t at) override { at_ = at; }
+    std::string const& bytes() const { return bytes_; }
+
+private:
+    std::string bytes_;
+    std::size_t at_ = 0;
+};
+
+} // namespace
+
+std::string exr(Raster<float> const& heights, Run const& run) {
+    auto const width = static_cast<int>(heights.width());
+    auto const height = static_cast<int>(heights.height());
+    ExrBytes out;
+    Imf::Header header(width, height);
+    header.compression() = Imf::ZIP_COMPRESSION;
+    header.channels().insert(exr_channel, Imf::Channel(Imf::FLOAT));
+    Imf::FrameBuffer samples;
+    constexpr std::size_t sample = sizeof(float);
+    // OpenEXR takes memory that it only reads by a pointer to memory that it could change.
+    auto* const first = const_cast<float*>(heights.values().data());
+    samples.insert(exr_channel, Imf::Slice(Imf::FLOAT, reinterpret_cast<char*>(first), sample,
+                                           sample * static_cast<std::size_t>(width)));
+    try {
+        Imf::OutputFile file(out, header, 0);
+        file.setFrameBuffer(samples);
+        constexpr int rows = 64;
+        for (int row = 0; row < height; row += rows) {
+            run.at(static_cast<double>(row) / static_cast<double>(height), "write");
+            file.writePixels(std::min(rows, height - row));
+        }
+    } catch (Iex::BaseExc const& fault) {
+        throw IoError(std::string("io.exr: ") + fault.what());
+    }
+    return out.bytes();
+}
+
+} // namespace thalweg::io
