@@ -24,3 +24,4 @@
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
+#include <thalweg/io/raster/web_tiles.hpp>

@@ -79,8 +79,8 @@ LOCK_HOST = re.compile(r'"resolved": *"https?://(?!registry\.npmjs\.org/)[^"\s]+
 CPP = (".cpp", ".hpp", ".inc")
 COMMENTED = {*CPP, ".cmake", ".py", ".sh", ".js", ".ts"}  # suffixes that take the SPDX lines
 PICTURES = {".png", ".jpg", ".tif", ".gpkg", ".shp", ".dbf"}
-# Built by vite from web/src and minified: what its text looks like is chance.
-GENERATED = {"web/dist/report.html"}
+# Built by vite from web/src and minified: what their text looks like is chance.
+GENERATED = {"web/dist/report.html", "web/dist/terrain.html"}
 RULES_THEMSELVES = {"tests/house/rules.py", "tests/house/rules_test.py"}
 
 

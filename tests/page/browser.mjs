@@ -19,7 +19,7 @@ export function launch(kind) {
   return chromium.launch({ executablePath: '/usr/bin/chromium', args: quiet.concat(kind === 'no3d' ? ['--disable-3d-apis'] : software) });
 }
 
-/** Opens a page file and waits until it is ready. Gives {page, complaints, requests, seconds}. */
+/** Opens a page, a file or an http address, and waits until it is ready. Gives {page, complaints, requests, seconds, failed}. */
 export async function open(browser, file, { query = '', ...context } = {}) {
   const page = await browser.newPage({ viewport: { width: 1280, height: 800 }, ...context });
   const complaints = [];
@@ -28,9 +28,9 @@ export async function open(browser, file, { query = '', ...context } = {}) {
   page.on('pageerror', (error) => complaints.push(String(error)));
   page.on('request', (request) => requests.push(request.url()));
   const begin = Date.now();
-  await page.goto(pathToFileURL(file).href + query);
+  await page.goto((file.startsWith('http:') ? file : pathToFileURL(file).href) + query);
   await page.waitForFunction(() => window.__thalweg?.ready || window.__thalweg?.error, null, { timeout: 60000 });
-  return { page, complaints, requests, seconds: (Date.now() - begin) / 1000 };
+  return { page, complaints, requests, seconds: (Date.now() - begin) / 1000, failed: await page.evaluate(() => window.__thalweg.error) };
 }
 
 /** What the view shows: distinct colours, and pixels that are clearly blue. */

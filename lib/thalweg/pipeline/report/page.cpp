@@ -321,7 +321,7 @@ struct Place {
 std::size_t find_once(std::string_view page, std::string_view marker) {
     std::size_t const at = page.find(marker);
     if (at == std::string_view::npos || page.find(marker, at + 1) != std::string_view::npos) {
-        throw std::logic_error(fmt::format("pipeline.fill_page: the page holds {} {}; rebuild web/dist/report.html",
+        throw std::logic_error(fmt::format("pipeline.fill_markers: the page holds {} {}; rebuild web/dist",
                                            at == std::string_view::npos ? "no" : "more than one", marker));
     }
     return at;
@@ -329,17 +329,12 @@ std::size_t find_once(std::string_view page, std::string_view marker) {
 
 } // namespace
 
-std::string fill_page(std::string_view page, PageParts const& parts) {
-    std::array<Place, 6> places{{{0, "@@TITLE@@", &parts.title},
-                                 {0, "@@DATA@@", &parts.data},
-                                 {0, "@@HEIGHTS@@", &parts.heights},
-                                 {0, "@@LINES@@", &parts.lines},
-                                 {0, "@@WATER@@", &parts.water},
-                                 {0, "@@STUDIO@@", &parts.studio}}};
+std::string fill_markers(std::string_view page, std::vector<PageMarker> const& markers) {
+    std::vector<Place> places;
     std::size_t size = page.size();
-    for (Place& place : places) {
-        place.at = find_once(page, place.marker);
-        size += place.part->size();
+    for (auto const& [marker, part] : markers) {
+        places.push_back({find_once(page, marker), marker, part});
+        size += part->size();
     }
     std::sort(places.begin(), places.end(), [](Place const& a, Place const& b) { return a.at < b.at; });
     std::string out;
@@ -352,6 +347,15 @@ std::string fill_page(std::string_view page, PageParts const& parts) {
     }
     out += page.substr(done);
     return out;
+}
+
+std::string fill_page(std::string_view page, PageParts const& parts) {
+    return fill_markers(page, {{"@@TITLE@@", &parts.title},
+                               {"@@DATA@@", &parts.data},
+                               {"@@HEIGHTS@@", &parts.heights},
+                               {"@@LINES@@", &parts.lines},
+                               {"@@WATER@@", &parts.water},
+                               {"@@STUDIO@@", &parts.studio}});
 }
 
 namespace {

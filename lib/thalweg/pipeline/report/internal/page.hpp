@@ -7,6 +7,7 @@
 #include <span>
 #include <string>
 #include <string_view>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -109,7 +110,14 @@ struct PageParts {
     std::string studio;  ///< for @@STUDIO@@
 };
 
-/// Replaces the markers of a page. Text in a part that looks like a marker stays.
+/// A marker of a page and what replaces it.
+using PageMarker = std::pair<std::string_view, std::string const*>;
+
+/// Replaces markers of a page. Text in a part that looks like a marker stays.
+/// \throws std::logic_error when the page does not have each of the markers exactly once: it was built wrongly
+std::string fill_markers(std::string_view page, std::vector<PageMarker> const& markers);
+
+/// Replaces the markers of the report page. Text in a part that looks like a marker stays.
 /// \throws std::logic_error when the page does not have each of its markers exactly once: it was built wrongly
 std::string fill_page(std::string_view page, PageParts const& parts);
 
