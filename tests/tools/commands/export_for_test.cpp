@@ -249,6 +249,18 @@ TEST(ExportFor, PrintersGetMillimetres) {
                    {"--print-size 1", "--print-size nan", "--base 0", "--size 65", "--tiles 2", "--masks slope"});
 }
 
+TEST(ExportFor, TheWebGetsTilesAndPages) {
+    Workplace const place;
+    expect_run(place, small + "land", 0);
+    auto const made = expect_run(place, "export land --for web -o w --json", 0).json();
+    EXPECT_TRUE(file_bytes(place / "w/index.html").starts_with("<!"));
+    EXPECT_TRUE(file_bytes(place / "w/terrain.html").starts_with("<!"));
+    EXPECT_FALSE(json::parse(file_bytes(place / "w/rivers.geojson"))["features"].empty());
+    EXPECT_EQ(made["files"].size(), 4 + made["tiles"].get<std::size_t>());
+    expect_run(place, "export land --for web -o w --overwrite", 0);
+    expect_refused(place, "export land --for web -o x", {"--size 65", "--tiles 2", "--masks slope", "--base 3"});
+}
+
 TEST(ExportFor, OnlyFilesOfAnEarlierExportAreReplaced) {
     Workplace const place;
     write_plane(place);

@@ -24,7 +24,7 @@ struct ExportFormatName {
 /// \return in the order of the enumeration
 std::vector<ExportFormatName> const& export_formats();
 
-enum class ExportPreset : std::uint8_t { unreal, unity, godot, blender, print3d };
+enum class ExportPreset : std::uint8_t { unreal, unity, godot, blender, web, print3d };
 
 /// The name of a program that takes a folder of files.
 struct ExportPresetName {
@@ -94,11 +94,12 @@ struct ExportResult {
 /// from a local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb
 /// and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a folder:
 /// heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as grey
-/// PNG; rivers with width and discharge as JSON; for godot and blender a GLB; export.json, which says all of it in
-/// numbers. \return what was written; the same bytes for any number of threads \throws BadParameter for an unknown
-/// format, preset or mask, an option of another one or a size that it cannot have; for exr in a build without OpenEXR
-/// \throws BadInput when masks of rivers are asked for and there are none, the size would stretch the DEM by more than
-/// 1 %, a solid would have holes, a file exists already; as the readers
+/// PNG; rivers with width and discharge as JSON; for godot and blender a GLB; for web tiles and pages, for print3d a
+/// solid; export.json, which says all of it in numbers. \return what was written; the same bytes for any number of
+/// threads \throws BadParameter for an unknown format, preset or mask, an option of another one or a size that it
+/// cannot have; for exr in a build without OpenEXR \throws BadInput when masks of rivers are asked for and there are
+/// none, the size would stretch the DEM by more than 1 %, a solid would have holes, a file exists already; as the
+/// readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -24,6 +24,7 @@
 #include <thalweg/pipeline/commands/internal/print_export.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
+#include <thalweg/pipeline/commands/internal/web_export.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
@@ -195,7 +196,7 @@ void require_options_for(ExportParams const& params, ExportPreset preset) {
     bool const prints = preset == ExportPreset::print3d;
     Program const* const program = program_of(preset);
     bool const has_tiles = program != nullptr && program->tiles;
-    bool const has_mesh = prints || (program != nullptr && program->mesh);
+    bool const has_mesh = prints || preset == ExportPreset::web || (program != nullptr && program->mesh);
     struct Option {
         bool is_set;
         bool applies;
@@ -635,6 +636,38 @@ ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFold
             {"crs", scene.dem->grid().crs}};
 }
 
+/// Writes what a web server takes.
+ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder const& out, ExportResult& made,
+                Run const& run) {
+    WebExportParams web;
+    web.exaggeration = params.exaggeration.value_or(1.0);
+    WebExport const written = write_web(scene, web, out, run);
+    std::ranges::copy(written.notes, std::back_inserter(made.notes));
+    made.width = scene.dem->width();
+    made.height = scene.dem->height();
+    made.min_m = written.min_m;
+    made.max_m = written.max_m;
+    made.exaggeration = web.exaggeration;
+    made.holes = written.holes;
+    io::DegreeBox const& box = written.bounds;
+    return {{"width", made.width},
+            {"height", made.height},
+            {"min_m", made.min_m},
+            {"max_m", made.max_m},
+            {"metres_per_step", 0.1},
+            {"heights", "heights/{z}/{x}/{y}.png: -10000 m + (65536 red + 256 green + blue) x 0.1 m"},
+            {"colour", "colour/{z}/{x}/{y}.png"},
+            {"axes", "tiles in EPSG:3857, y from the north; heights 256 x 256, colours 512 x 512 pixels"},
+            {"min_zoom", written.min_zoom},
+            {"max_zoom", written.max_zoom},
+            {"max_zoom_of_terrain_html", written.page_max_zoom},
+            {"bounds_degrees", {box.west, box.south, box.east, box.north}},
+            {"tiles", written.tiles},
+            {"exaggeration", made.exaggeration},
+            {"cells_without_data", written.holes},
+            {"crs", scene.dem->grid().crs}};
+}
+
 /// Files of an earlier export in a folder.
 std::vector<std::string> exported_before(std::string const& folder) {
     fs::path const path = fs::path(folder) / description_for;
@@ -657,11 +690,9 @@ std::vector<std::string> exported_before(std::string const& folder) {
 } // namespace
 
 std::vector<ExportPresetName> const& export_presets() {
-    static std::vector<ExportPresetName> const presets{{ExportPreset::unreal, "unreal"},
-                                                       {ExportPreset::unity, "unity"},
-                                                       {ExportPreset::godot, "godot"},
-                                                       {ExportPreset::blender, "blender"},
-                                                       {ExportPreset::print3d, "print3d"}};
+    static std::vector<ExportPresetName> const presets{
+        {ExportPreset::unreal, "unreal"},   {ExportPreset::unity, "unity"}, {ExportPreset::godot, "godot"},
+        {ExportPreset::blender, "blender"}, {ExportPreset::web, "web"},     {ExportPreset::print3d, "print3d"}};
     return presets;
 }
 
@@ -681,8 +712,9 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     ForJson json{
         {"thalweg", version()}, {"source", name.empty() || name == "." ? params.source : name}, {"for", params.preset}};
     Program const* const program = program_of(preset);
-    json.update(program != nullptr ? ForProgram(params, *program, read.scene, out, run).write(made)
-                                   : print_for(params, read.scene, out, made, run));
+    json.update(program != nullptr            ? ForProgram(params, *program, read.scene, out, run).write(made)
+                : preset == ExportPreset::web ? web_for(params, read.scene, out, made, run)
+                                              : print_for(params, read.scene, out, made, run));
     std::vector<std::string> files = out.files();
     files.emplace_back(description_for);
     json["files"] = files;
