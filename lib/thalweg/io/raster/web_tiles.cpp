@@ -31,6 +31,8 @@ constexpr std::int64_t colour_side = 512;
 constexpr std::int64_t web_deepest = 30;
 constexpr std::int64_t knots = 32; // intervals a tile's side; between them projections are linear to 1e-4 of a sample
 
+constexpr std::int64_t levels_above = 2; // 3D maps take heights for a whole view from there
+
 double tile_m(std::int64_t zoom) {
     return 2.0 * half_world_m / static_cast<double>(std::int64_t{1} << zoom);
 }
@@ -44,6 +46,16 @@ public:
     }
     /// digits: 1e6 rounds to 1e-6, so that the last bits of libm do not count.
     std::vector<Vec2> apply(std::span<Vec2 const> points, double digits) const {
+        std::vector<Vec2> out = apply_anywhere(points, digits);
+        for (std::size_t i = 0; i < out.size(); ++i) {
+            refuse_if<BadInput>(!std::isfinite(out[i].x) || !std::isfinite(out[i].y),
+                                "io.web_tiles: the position {}, {} cannot be projected for the web", points[i].x,
+                                points[i].y);
+        }
+        return out;
+    }
+    /// The same, not finite where a position cannot be projected.
+    std::vector<Vec2> apply_anywhere(std::span<Vec2 const> points, double digits) const {
         std::vector<double> x;
         std::vector<double> y;
         for (Vec2 const p : points) {
@@ -55,9 +67,6 @@ public:
         }
         std::vector<Vec2> out;
         for (std::size_t i = 0; i < x.size(); ++i) {
-            refuse_if<BadInput>(!std::isfinite(x[i]) || !std::isfinite(y[i]),
-                                "io.web_tiles: the position {}, {} cannot be projected for the web", points[i].x,
-                                points[i].y);
             out.push_back({std::floor(x[i] * digits + 0.5) / digits, std::floor(y[i] * digits + 0.5) / digits});
         }
         return out;
@@ -177,6 +186,8 @@ double mixed(double a, double b, double share) {
     return a + (b - a) * share;
 }
 
+constexpr double far_off = 1e9; // [cells]
+
 class WebSampler {
 public:
     WebSampler(WebGround const& ground, WebPicture const& picture, Grid const& grid)
@@ -202,8 +213,12 @@ private:
                                half_world_m - static_cast<double>(row * knots + j) * step});
             }
         }
-        net = turn_.apply(net, to_micrometres);
+        net = turn_.apply_anywhere(net, to_micrometres);
         for (Vec2& p : net) {
+            if (!std::isfinite(p.x) || !std::isfinite(p.y)) { // far off the DEM
+                p = {-far_off, -far_off};
+                continue;
+            }
             p = {(p.x - grid_.west) / grid_.cell_m, (grid_.north - p.y) / grid_.cell_m};
         }
         return net;
@@ -418,6 +433,7 @@ WebPyramid web_pyramid(Grid const& grid, WebPyramidParams const& params) {
     while (out.min_zoom < most && tile_m(out.min_zoom + 1) >= extent) {
         ++out.min_zoom;
     }
+    out.min_zoom = std::max<std::int64_t>(0, out.min_zoom - levels_above);
     out.max_zoom = out.min_zoom;
     while (out.max_zoom < most && tiles_of_levels(out, out.max_zoom + 1) <= params.most_tiles) {
         ++out.max_zoom;
@@ -432,7 +448,7 @@ std::vector<std::string> write_web_tiles(WebGround const& ground, WebPyramid con
     run.at(0.0, "tiles");
     WebPicture const picture = decoded(ground.picture);
     // Levels enough for many threads, few enough to keep their tiles.
-    std::int64_t const split = std::min(pyramid.min_zoom + 2, pyramid.max_zoom);
+    std::int64_t const split = std::min(pyramid.min_zoom + 4, pyramid.max_zoom);
     WebTileRange const parts = web_tiles_at(pyramid, split);
     std::int64_t const columns = parts.east - parts.west + 1;
     std::int64_t const count = columns * (parts.south - parts.north + 1);

@@ -28,7 +28,7 @@ struct WebPyramid {
     DegreeBox box;              ///< around its cells
     Vec2 low;                   ///< [m] EPSG:3857: south-west corner of box
     Vec2 high;                  ///< [m] EPSG:3857: north-east corner of box
-    std::int64_t min_zoom = 0;  ///< the last at which the box is no wider and higher than a tile
+    std::int64_t min_zoom = 0;  ///< two above the last at which the box is no wider and higher than a tile
     std::int64_t max_zoom = 0;  ///< the deepest written
     std::int64_t full_zoom = 0; ///< the first at which a 256th of a tile is no larger than a cell
     std::int64_t tiles = 0;     ///< heights and colours of all levels

@@ -15,7 +15,7 @@ namespace thalweg::pipeline {
 
 struct WebExportParams {
     double exaggeration = 1.0;            ///< > 0, of heights when the page opens
-    io::WebPyramidParams pyramid;         ///< its limits
+    io::WebPyramidParams pyramid = {};    ///< its limits
     std::int64_t most_bytes = 12'000'000; ///< [1, ...] of terrain.html: deeper levels of tiles are left out of it
 };
 
