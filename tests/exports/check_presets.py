@@ -97,12 +97,17 @@ def check_rivers(found, folder, says, dem):
     found.at_least("rivers", len(rivers), 5)
     cells = (SIDE - 1) / (says["width"] - 1)
     scale = says["import"]["scale"]
+    heights = picture(folder / says["heights"]["files"][0])
     off = []
     for river in rivers:
-        for x, y, z, width, discharge in river["points"]:
+        for x, y, z, width, discharge, ground in river["points"]:
             col, row = cells * x / scale[0], cells * y / scale[1]
             if 0 <= col <= SIDE - 1 and 0 <= row <= SIDE - 1:
                 off.append(abs(z / 100 - dem[round(row), round(col)]))
+                place = round(y / scale[1]), round(x / scale[0])
+                on_map = says["min_m"] + heights[place] * says["metres_per_step"]
+                around = heights[max(place[0] - 1, 0):place[0] + 2, max(place[1] - 1, 0):place[1] + 2]
+                found.unless(abs(ground / 100 - on_map) <= numpy.ptp(around) * says["metres_per_step"] + 0.01, "ground", river["id"])
             found.unless(width > 0 and discharge > 0, "a river without water", river["id"])
     off_m = float(numpy.median(off))
     found.unless(off_m < 0.01 * (says["max_m"] - says["min_m"]), "rivers off the ground [m]", off_m)

@@ -152,7 +152,10 @@ TEST(ExportFor, MasksSayWhatTheyMean) {
     auto const slopes = samples_in(place, "p/masks/slope.png");
     EXPECT_NEAR(slopes[65 * 30 + 30] / 65535.0 * mask_in(plane, "slope")["white"].get<double>(), slope, 0.002);
     auto const bends = samples_in(place, "p/masks/curvature.png");
-    EXPECT_LE(std::abs(bends[65 * 30 + 30] - 32768), 1) << "a plane is in the middle";
+    for (std::size_t const place_in : {65 * 30 + 30, 0, 64, 65 * 64 + 7}) { // the rim too
+        EXPECT_LE(std::abs(bends[place_in] - 32768), 1) << "a plane is in the middle";
+        EXPECT_EQ(slopes[place_in], slopes[65 * 30 + 30]);
+    }
     auto const flow = samples_in(place, "p/masks/flow.png");
     EXPECT_EQ(flow[65 * 30 + 64], 0) << "nothing flows to the highest column";
     double const black = mask_in(plane, "flow")["black"];
@@ -220,7 +223,10 @@ TEST(ExportFor, RiversGrowDownstreamAndLieOnTheHeightmap) {
 TEST(ExportFor, MeshAndRiversShareTheirFrame) {
     Workplace const place;
     expect_run(place, small + "land", 0);
-    auto const made = expect_run(place, "export land --for godot -o g --masks none --json", 0).json();
+    auto const made = expect_run(place, "export land --for godot -o g --masks none --exaggeration 2 --json", 0).json();
+    EXPECT_EQ(made["mesh"]["origin"][2], made["min_m"]);
+    EXPECT_NEAR(made["import"]["highest"].get<double>(),
+                2.0 * (made["max_m"].get<double>() - made["min_m"].get<double>()), 1e-6);
     EXPECT_EQ(made["mesh"]["vertices"], 64 * 48);
     auto const rivers = json::parse(file_bytes(place / "g/rivers.json"));
     for (json const& river : rivers["rivers"]) {
@@ -230,6 +236,28 @@ TEST(ExportFor, MeshAndRiversShareTheirFrame) {
         }
     }
     EXPECT_TRUE(file_bytes(place / "g/terrain.glb").starts_with("glTF"));
+}
+
+TEST(ExportFor, ThinLinesKeepTheirValueAtAnySize) {
+    Workplace const place;
+    expect_run(place, small + "land", 0);
+    for (std::string const side : {"22x17", "64x48", "127x95"}) {
+        expect_run(place,
+                   "export land --for blender --size " + side + " --masks flow,river_width,ridge -o x --overwrite", 0);
+        for (char const* const mask : {"flow", "river_width", "ridge"}) {
+            auto const seen = samples_in(place, std::string("x/masks/") + mask + ".png");
+            EXPECT_EQ(*std::ranges::max_element(seen), 255) << mask << " " << side;
+        }
+    }
+}
+
+TEST(ExportFor, FlatTerrainHasARange) {
+    Workplace const place;
+    place.write("flat.asc", "ncols 3\nnrows 3\nxllcorner 0\nyllcorner 0\ncellsize 1\n7 7 7\n7 7 7\n7 7 7\n");
+    auto const made =
+        expect_run(place, "export flat.asc --for unity -o f --masks none --json", 0, "the terrain is flat").json();
+    EXPECT_EQ(made["import"]["terrain_height"], 1.0);
+    EXPECT_EQ(made["import"]["position_of_south_west_tile"][1], 7.0);
 }
 
 TEST(ExportFor, PrintersGetMillimetres) {
@@ -282,6 +310,7 @@ TEST(ExportFor, NonsenseIsRefusedInWords) {
     std::string const begin = "export plane.asc -o x ";
     expect_run(place, begin + "--for unrael", 2, "no preset is called 'unrael'", "Did you mean 'unreal'?");
     expect_run(place, begin + "--for unreal --size 1000", 2, "1000 samples a side are no size of unreal", "use 1009");
+    expect_run(place, begin + "--for unreal --size 128x64", 2, "both of 127 and one");
     expect_run(place, begin + "--for unity --size 1000", 2, "a power of two and one, 33 to 4097", "use 1025");
     expect_run(place, begin + "--for unity --size 513x257", 2, "square tiles: --size 513");
     expect_run(place, begin + "--for godot --size 257", 2, "use 513");
@@ -293,8 +322,8 @@ TEST(ExportFor, NonsenseIsRefusedInWords) {
     expect_run(place, begin + "--for unity --tiles 64 --size 4097", 2, "more than 16385 a side");
     expect_run(place, begin + "--for unreal --masks river_width", 2, "there are no rivers");
     expect_refused(place, begin + "--for unreal",
-                   {"--tiles 0", "--tiles 65", "--tiles 2x", "--runoff 0", "--runoff nan", "--tree-line inf",
-                    "--base 3", "--exaggeration 2"});
+                   {"--tiles 0", "--tiles 65", "--tiles 2x", "--runoff 0", "--runoff nan", "--runoff 1e308",
+                    "--tree-line inf", "--base 3", "--exaggeration 2"});
     expect_refused(place, "export plane.asc -o x.png", {"--tiles 2", "--masks slope", "--runoff 300"});
     EXPECT_FALSE(fs::exists(place / "x"));
 }

@@ -101,6 +101,18 @@ struct Sides {
     std::function<bool(std::int64_t)> has;
 };
 
+/// Quads of a section that both sides of a landscape are whole numbers of; 0: there is none.
+std::int64_t section_of(ExportSize size) {
+    for (std::int64_t const quads : {63, 127}) {
+        std::int64_t const most = quads == 63 ? 4032 : 8128;
+        if ((size.width - 1) % quads == 0 && (size.height - 1) % quads == 0 &&
+            std::max(size.width, size.height) - 1 <= most) {
+            return quads;
+        }
+    }
+    return 0;
+}
+
 Sides sides_of(ExportPreset preset) {
     auto const power = [](std::int64_t least, std::int64_t most) {
         Sides sides{fmt::format("a power of two and one, {} to {}", least, most), {}, {}};
@@ -116,8 +128,7 @@ Sides sides_of(ExportPreset preset) {
                 "2017, 4033 and 8129",
                 {127, 253, 505, 1009, 2017, 4033, 8129},
                 [](std::int64_t side) {
-                    std::int64_t const quads = side - 1;
-                    return quads > 0 && ((quads % 63 == 0 && quads <= 4032) || (quads % 127 == 0 && quads <= 8128));
+                    return side > 1 && section_of({side, side}) > 0;
                 }};
     case ExportPreset::unity: return power(33, 4097);
     case ExportPreset::godot: return power(513, 4097);
@@ -178,6 +189,11 @@ Tiles tiles_of(ExportParams const& params, Program const& program, Grid const& g
                                 "pipeline.run_export: {} takes square tiles: --size {}", params.preset,
                                 std::max(*params.width, *params.height));
         tiles.one = {*params.width, *params.height};
+        refuse_if<BadParameter>(
+            program.preset == ExportPreset::unreal && section_of(tiles.one) == 0,
+            "pipeline.run_export: {} x {}: both sides of a landscape are multiples of 63 and one, or "
+            "both of 127 and one",
+            tiles.one.width, tiles.one.height);
     } else {
         tiles.one = usual_size(program, sides, grid, tiles);
     }
@@ -215,12 +231,12 @@ void require_options_for(ExportParams const& params, ExportPreset preset) {
                                 params.preset, option.name);
     }
     if (params.exaggeration) {
-        require_in("pipeline.run_export", "exaggeration", *params.exaggeration, Range::above(0.0));
+        require_in("pipeline.run_export", "exaggeration", *params.exaggeration, Range{0.0, 1000.0, false, true});
     }
     for (std::optional<std::int64_t> const count : {params.tiles_across, params.tiles_down}) {
         require_in("pipeline.run_export", "tiles", count.value_or(1), Range::between(1.0, 64.0));
     }
-    require_in("pipeline.run_export", "runoff", params.runoff_mm.value_or(300.0), Range::above(0.0), "mm/a");
+    require_in("pipeline.run_export", "runoff", params.runoff_mm.value_or(300.0), Range{0.0, 1e5, false, true}, "mm/a");
     require_in("pipeline.run_export", "tree-line", params.tree_line_m.value_or(0.0), Range::finite(), "m");
     std::int64_t const bits = params.mask_bits.value_or(8);
     refuse_if<BadParameter>(bits != 8 && bits != 16, "pipeline.run_export: masks have 8 or 16 bits, not {}", bits);
@@ -230,30 +246,33 @@ void require_options_for(ExportParams const& params, ExportPreset preset) {
 /// Where a program has places of the terrain.
 struct Frame {
     char const* axes;
+    bool y_up;
     std::function<Vec3(Vec3)> place; ///< of a place in the CRS [m]
 };
 
-Frame frame_of(ExportPreset preset, Lattice const& ground, double lowest_m) {
+Frame frame_of(ExportPreset preset, Lattice const& ground, ExportResult const& made) {
+    double const lowest_m = made.min_m;
+    double const factor = made.exaggeration;
     Vec2 const corner = ground.north_west();
     Vec2 const extent = ground.extent_m();
     Vec2 const middle{corner.x + 0.5 * extent.x, corner.y - 0.5 * extent.y};
     switch (preset) {
     case ExportPreset::unreal:
-        return {"centimetres: x east, y south from the north-west corner, z height", [=](Vec3 p) {
+        return {"centimetres: x east, y south from the north-west corner, z height", false, [=](Vec3 p) {
                     return Vec3{100.0 * (p.x - corner.x), 100.0 * (corner.y - p.y), 100.0 * p.z};
                 }};
     case ExportPreset::unity:
-        return {"metres: x east, z north from the south-west corner, y height", [=](Vec3 p) {
+        return {"metres: x east, z north from the south-west corner, y height", true, [=](Vec3 p) {
                     return Vec3{p.x - corner.x, p.z, p.y - (corner.y - extent.y)};
                 }};
     case ExportPreset::godot:
-        return {"metres: x east, z south from the middle, y height above the lowest", [=](Vec3 p) {
-                    return Vec3{p.x - middle.x, p.z - lowest_m, middle.y - p.y};
+        return {"metres: x east, z south from the middle, y height above the lowest", true, [=](Vec3 p) {
+                    return Vec3{p.x - middle.x, factor * (p.z - lowest_m), middle.y - p.y};
                 }};
     default: break;
     }
-    return {"metres: x east, y north from the middle, z height above the lowest", [=](Vec3 p) {
-                return Vec3{p.x - middle.x, p.y - middle.y, p.z - lowest_m};
+    return {"metres: x east, y north from the middle, z height above the lowest", false, [=](Vec3 p) {
+                return Vec3{p.x - middle.x, p.y - middle.y, factor * (p.z - lowest_m)};
             }};
 }
 
@@ -272,6 +291,39 @@ Raster<T> part_of(Raster<T> const& all, std::int64_t col, std::int64_t row, Expo
         auto const from = all.row(row + (from_south ? size.height - 1 - r : r))
                               .subspan(static_cast<std::size_t>(col), static_cast<std::size_t>(size.width));
         std::ranges::copy(from, out.row(r).begin());
+    }
+    return out;
+}
+
+/// Samples a mask at places of a lattice by the greatest of the cells nearest to each: thin lines keep their value.
+Raster<float> greatest_of(Raster<float> const& shares, ExportSize size, Grid const& frame) {
+    struct Span {
+        std::int64_t begin = 0;
+        std::int64_t end = 0;
+    };
+    auto const spans = [](std::int64_t cells, std::int64_t samples) {
+        std::vector<Span> out;
+        double const step = static_cast<double>(cells - 1) / static_cast<double>(samples - 1);
+        double const reach = 0.5 * std::max(1.0, step);
+        for (std::int64_t k = 0; k < samples; ++k) {
+            double const at = step * static_cast<double>(k);
+            out.push_back({std::max<std::int64_t>(0, static_cast<std::int64_t>(std::ceil(at - reach))),
+                           std::min(cells, static_cast<std::int64_t>(std::floor(at + reach)) + 1)});
+        }
+        return out;
+    };
+    std::vector<Span> const columns = spans(shares.width(), size.width);
+    std::vector<Span> const rows = spans(shares.height(), size.height);
+    Raster<float> out(frame, 0.0F);
+    for (std::int64_t i = 0; i < out.cells(); ++i) {
+        Cell const c = frame.at(i);
+        for (std::int64_t row = rows[static_cast<std::size_t>(c.row)].begin;
+             row < rows[static_cast<std::size_t>(c.row)].end; ++row) {
+            for (std::int64_t col = columns[static_cast<std::size_t>(c.col)].begin;
+                 col < columns[static_cast<std::size_t>(c.col)].end; ++col) {
+                out[i] = std::max(out[i], shares[Cell{col, row}]);
+            }
+        }
     }
     return out;
 }
@@ -296,12 +348,13 @@ std::vector<std::string> write_tiles(Raster<T> const& all, Tiles const& tiles, b
 ForJson import_of(Program const& program, ExportResult const& made, Tiles const& tiles) {
     double const across_m = static_cast<double>(tiles.one.width - 1) * made.step_m.x;
     double const down_m = static_cast<double>(tiles.one.height - 1) * made.step_m.y;
-    double const range_m = made.max_m - made.min_m;
+    double const range_m = 65535.0 * made.metres_per_step;
     switch (program.preset) {
     case ExportPreset::unreal: // 128 numbers a metre at a scale of 100
         return {{"scale", {100.0 * made.step_m.x, 100.0 * made.step_m.y, 12800.0 * made.metres_per_step}},
                 {"location_cm", {0.0, 0.0, 100.0 * (made.min_m + 32768.0 * made.metres_per_step)}},
-                {"tile_cm", {100.0 * across_m, 100.0 * down_m}}};
+                {"tile_cm", {100.0 * across_m, 100.0 * down_m}},
+                {"section_quads", section_of(tiles.one)}};
     case ExportPreset::unity:
         return {{"terrain_width", across_m},
                 {"terrain_length", down_m},
@@ -309,10 +362,14 @@ ForJson import_of(Program const& program, ExportResult const& made, Tiles const&
                 {"heightmap_resolution", tiles.one.width},
                 {"position_of_south_west_tile", {0.0, made.min_m, 0.0}}};
     case ExportPreset::godot:
-        return {{"map_scale", {made.step_m.x, 1.0, made.step_m.y}}, {"lowest", 0.0}, {"highest", range_m}};
+        return {{"map_scale", {made.step_m.x, 1.0, made.step_m.y}},
+                {"lowest", 0.0},
+                {"highest", range_m * made.exaggeration}};
     default: break;
     }
-    return {{"plane_size_m", {across_m, down_m}}, {"displacement_strength_m", range_m}, {"midlevel", 0.0}};
+    return {{"plane_size_m", {across_m, down_m}},
+            {"displacement_strength_m", range_m * made.exaggeration},
+            {"midlevel", 0.0}};
 }
 
 /// Colours of the land as from above in summer, with a little light from the north-west.
@@ -368,7 +425,12 @@ public:
         made.step_m = {ground_.z.grid().cell_m, ground_.row_step_m};
         made.north_west = ground_.north_west();
         made.crs = ground_.z.grid().crs;
-        io::HeightmapScale const scale = io::heightmap_scale(ground_.z);
+        io::HeightmapScale scale = io::heightmap_scale(ground_.z);
+        if (scale.step_m == 0.0) {
+            scale.step_m = 1.0 / 65535.0; // programs refuse a range of 0
+            made.notes.emplace_back("the terrain is flat: 16 bits are a metre");
+        }
+        made.exaggeration = params_.exaggeration.value_or(1.0);
         made.min_m = scale.min_m;
         made.max_m = scale.max_m;
         made.metres_per_step = scale.step_m;
@@ -472,12 +534,12 @@ private:
         ExportSize const all = tiles_.all();
         int const bits = static_cast<int>(params_.mask_bits.value_or(8));
         char const* const name = land_masks()[static_cast<std::size_t>(mask)].name;
-        return {{"name", name},
-                {"files", write_mask(lattice(made.share, all.width, all.height, run_).z, name, bits)},
-                {"bits", bits},
-                {"black", made.low},
-                {"white", made.high},
-                {"unit", made.unit},
+        bool const has_lines = mask == LandMask::flow || mask == LandMask::ridge || mask == LandMask::river_width;
+        Raster<float> const shares = has_lines ? greatest_of(made.share, all, ground_.z.grid())
+                                               : lattice(made.share, all.width, all.height, run_).z;
+        return {{"name", name},           {"files", write_mask(shares, name, bits)},
+                {"bits", bits},           {"black", made.low},
+                {"white", made.high},     {"unit", made.unit},
                 {"meaning", made.meaning}};
     }
     /// The share of a kind by sample, before all are made one.
@@ -536,15 +598,23 @@ private:
                 {"tree_line_m", tree_line_m()},
                 {"kinds", legend}};
     }
-    ForJson river_file(ExportResult const& made) const {
-        Frame const frame = frame_of(program_.preset, ground_, made.min_m);
+    ForJson river_file(ExportResult& made) const {
+        Frame const frame = frame_of(program_.preset, ground_, made);
+        std::int64_t outside = 0;
+        std::int64_t all = 0;
         ForJson rivers = ForJson::array();
         for (RiverSpline const& river : rivers_) {
             ForJson points = ForJson::array();
             for (std::size_t i = 0; i < river.line.size(); ++i) {
                 Vec3 const p = frame.place(river.line[i]);
+                Vec2 const at = in_plan(river.line[i]);
+                double const z = height_on_mesh(ground_, at);
+                Vec3 const ground = std::isnan(z) ? p : frame.place({at.x, at.y, z});
                 points.push_back({rounded(p.x), rounded(p.y), rounded(p.z), rounded(river.width_m[i]),
-                                  rounded(river.discharge_m3s[i], 1e6)});
+                                  rounded(river.discharge_m3s[i], 1e6), rounded(frame.y_up ? ground.y : ground.z)});
+                Grid const& grid = scene_.dem->grid();
+                ++all;
+                outside += at.x < grid.west || at.x > grid.east() || at.y < grid.south() || at.y > grid.north ? 1 : 0;
             }
             rivers.push_back(ForJson{{"id", river.arc},
                                      {"downstream", river.ds_arc},
@@ -555,7 +625,11 @@ private:
                       {"rivers", rivers.size()},
                       {"axes", frame.axes},
                       {"runoff_mm", runoff_mm()},
-                      {"point", {"x", "y", "z", "width_m", "discharge_m3s"}}};
+                      {"point", {"x", "y", "z", "width_m", "discharge_m3s", "ground"}},
+                      {"ground", "height of the heightmap there, in the unit and direction of heights"}};
+        if (outside > 0) {
+            made.notes.push_back(fmt::format("{} of {} points of rivers lie outside the DEM", outside, all));
+        }
         ForJson file = facts;
         file.erase("file");
         file["rivers"] = std::move(rivers);
@@ -565,11 +639,14 @@ private:
     ForJson mesh_file(ExportResult& made) {
         Grid const& grid = scene_.dem->grid();
         std::int64_t const longer = std::min(std::max(grid.width, grid.height), mesh_vertices_for);
-        made.exaggeration = params_.exaggeration.value_or(1.0);
         ExportResult of_mesh;
         of_mesh.format = ExportFormat::glb;
         Lattice const ground = sampled(scene_, fitting(grid, longer), of_mesh, run_);
-        LatticeMesh const mesh = surface_mesh(ground, made.exaggeration, run_);
+        LatticeMesh mesh = surface_mesh(ground, made.exaggeration, run_);
+        for (Vec3& v : mesh.vertices) { // heights above the lowest of the heightmap
+            v.z += made.exaggeration * (mesh.origin.z - made.min_m);
+        }
+        mesh.origin.z = made.min_m;
         constexpr std::int64_t most_bytes = 1 << 30;
         std::string const texture = io::read_text(out_.path(colour_), most_bytes);
         GlbScene shown{mesh, texture, {}, "thalweg " + version(), "{}"};
@@ -639,6 +716,12 @@ ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFold
 /// Writes what a web server takes.
 ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder const& out, ExportResult& made,
                 Run const& run) {
+    auto const range = height_range(*scene.dem);
+    constexpr double lowest_m = -10000.0;
+    constexpr double highest_m = lowest_m + 0.1 * 16777215.0;
+    refuse_if<BadInput>(range && (range->first < lowest_m || range->second > highest_m),
+                        "pipeline.run_export: Terrain-RGB has heights from {} to {} m, the DEM from {:.6g} to {:.6g} m",
+                        lowest_m, highest_m, range->first, range->second);
     WebExportParams web;
     web.exaggeration = params.exaggeration.value_or(1.0);
     WebExport const written = write_web(scene, web, out, run);

@@ -18,15 +18,20 @@ namespace {
 constexpr double degrees = 180.0 / portable::pi;
 constexpr double least_tangent = 0.001; // of wetness: level land is not infinitely wet
 
-/// The heights around a cell; where there are none, its own.
+/// The heights around a cell; where there are none, those of a plane through the opposite neighbour, or its own.
 class Around {
 public:
     Around(Raster<float> const& dem, Cell c) : dem_(dem), c_(c), z_(dem[c]) {}
 
     double operator()(std::int64_t east, std::int64_t south) const {
-        Cell const n{c_.col + east, c_.row + south};
-        float const z = dem_.grid().contains(n) ? dem_[n] : z_;
-        return std::isnan(z) ? z_ : z;
+        if (double const z = at(east, south); !std::isnan(z)) {
+            return z;
+        }
+        double const opposite = at(-east, -south);
+        if (!std::isnan(opposite)) {
+            return 2.0 * z_ - opposite;
+        }
+        return east == 0 || south == 0 ? z_ : (*this)(east, 0) + (*this)(0, south) - z_;
     }
     /// [m/m] by Horn's formula
     double tangent() const {
@@ -46,9 +51,14 @@ public:
     }
 
 private:
+    double at(std::int64_t east, std::int64_t south) const {
+        Cell const n{c_.col + east, c_.row + south};
+        return dem_.grid().contains(n) ? dem_[n] : std::numeric_limits<double>::quiet_NaN();
+    }
+
     Raster<float> const& dem_;
     Cell c_;
-    float z_;
+    double z_;
 };
 
 /// A number by cell with data; 0 elsewhere.
@@ -81,11 +91,11 @@ double below(Raster<float> const& dem, Raster<float> const& values, double share
     return sorted[static_cast<std::size_t>(place)];
 }
 
-void stretch(Raster<float> const& dem, LandMaskMade& mask) {
+void stretch(Raster<float> const& dem, LandMaskMade& mask, float without_data = 0.0F) {
     double const range = mask.high - mask.low;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         double const share = range > 0.0 ? (mask.share[i] - mask.low) / range : 0.0;
-        mask.share[i] = std::isnan(dem[i]) ? 0.0F : static_cast<float>(std::clamp(share, 0.0, 1.0));
+        mask.share[i] = std::isnan(dem[i]) ? without_data : static_cast<float>(std::clamp(share, 0.0, 1.0));
     }
 }
 
@@ -192,6 +202,9 @@ LandMasks::Beside const& LandMasks::beside(Run const& run) {
             double const steps = std::floor(2.0 * distance(a, b) / grid.cell_m) + 1.0;
             for (double k = 0.0; k <= steps; ++k) {
                 Cell c = grid.cell_of(a + (k / steps) * (b - a));
+                if (c.col < -1 || c.row < -1 || c.col > grid.width || c.row > grid.height) {
+                    continue; // outside; an outlet on the border is in its cell
+                }
                 c.col = std::clamp<std::int64_t>(c.col, 0, grid.width - 1);
                 c.row = std::clamp<std::int64_t>(c.row, 0, grid.height - 1);
                 double const width = river.width_m[i - 1] + (k / steps) * (river.width_m[i] - river.width_m[i - 1]);
@@ -258,7 +271,7 @@ LandMaskMade LandMasks::curvature(Run const& run) const {
     constexpr double least_range = 1e-9; // a plane is in the middle
     mask.high = std::max({-below(dem, mask.share, 0.02), below(dem, mask.share, 0.98), least_range});
     mask.low = -mask.high;
-    stretch(dem, mask);
+    stretch(dem, mask, 0.5F);
     return mask;
 }
 
@@ -284,14 +297,15 @@ LandMaskMade LandMasks::water(Run const& run) {
 LandMaskMade LandMasks::river_distance(Run const& run) {
     Grid const& grid = scene_.dem->grid();
     Raster<std::int64_t> const& nearest = beside(run).nearest;
-    LandMaskMade mask{by_cell(*scene_.dem, run,
-                              [&](std::int64_t i) {
-                                  return grid.cell_m *
-                                         std::sqrt(static_cast<double>(squared_cells(grid.at(i), grid.at(nearest[i]))));
-                              }),
-                      0.0, 0.0, "m", "distance to the nearest river"};
+    LandMaskMade mask{Raster<float>(grid), 0.0, 0.0, "m", "distance to the nearest river"};
+    for (std::int64_t i = 0; i < nearest.cells(); ++i) {
+        double const away = std::sqrt(static_cast<double>(squared_cells(grid.at(i), grid.at(nearest[i]))));
+        mask.share[i] = static_cast<float>(grid.cell_m * away);
+    }
     mask.high = *std::ranges::max_element(mask.share.values());
-    stretch(*scene_.dem, mask);
+    for (float& away : mask.share.values()) {
+        away = mask.high > 0.0 ? static_cast<float>(away / mask.high) : 0.0F;
+    }
     return mask;
 }
 

@@ -41,8 +41,8 @@ std::vector<RiverSpline> river_splines(Scene const& scene, double runoff_mm, Run
         for (ArcId const above : network.in(network.from(a))) {
             begin += ends[above];
         }
+        begin = std::max(begin, cell_m * cell_m); // no river is without water
         double const end = std::max(ends[a], begin);
-        begin = std::max(begin, std::min(cell_m * cell_m, end));
         std::vector<Vec2> const& line = network.arc(a).line;
         double const length = network.length_m(a);
         double along = 0.0;
