@@ -13,6 +13,7 @@ REFERRING = {
     "draw/wireframe.hpp": "an argument, for the time of a call",
     "io/network/write_network.hpp": "an argument, for the time of a call; names are literals",
     "io/raster/polygons.hpp": "an argument, for the time of a call",
+    "io/raster/web_tiles.hpp": "an argument, for the time of a call",
     "studio/engine.hpp": "an argument, for the time of a call",
     "core/run/run.hpp": "what the caller asks to be handed back to its own callback",
     "network/import/import_lines.hpp": "an argument, for the time of a call",
