@@ -31,6 +31,10 @@ constexpr std::int64_t colour_side = 512;
 constexpr std::int64_t web_deepest = 30;
 constexpr std::int64_t knots = 32; // intervals a tile's side; between them projections are linear to 1e-4 of a sample
 
+constexpr double rgb_lowest_m = -10000.0; // of Terrain-RGB
+constexpr double rgb_steps_a_metre = 10.0;
+constexpr double rgb_most = 16777215.0;
+
 constexpr std::int64_t levels_above = 2; // 3D maps take heights for a whole view from there
 
 double tile_m(std::int64_t zoom) {
@@ -323,8 +327,8 @@ void write_tile(WebTile& tile, std::int64_t zoom, std::int64_t column, std::int6
     std::vector<std::uint8_t> rgb;
     rgb.reserve(3 * tile.z.size());
     for (float const z : tile.z) {
-        double const steps = std::floor((static_cast<double>(z) + 10000.0) * 10.0 + 0.5);
-        auto const number = static_cast<std::uint32_t>(std::clamp(steps, 0.0, 16777215.0));
+        double const steps = std::floor((static_cast<double>(z) - rgb_lowest_m) * rgb_steps_a_metre + 0.5);
+        auto const number = static_cast<std::uint32_t>(std::clamp(steps, 0.0, rgb_most));
         for (unsigned const shift : {16U, 8U, 0U}) {
             rgb.push_back(static_cast<std::uint8_t>((number >> shift) & 0xFFU));
         }
@@ -373,8 +377,13 @@ void require_ground(WebGround const& ground, WebPyramid const& pyramid) {
                             "io.write_web_tiles: {} x {} cells for a pyramid of {} x {}", other->width, other->height,
                             grid.width, grid.height);
     }
+    constexpr double highest_m = rgb_lowest_m + rgb_most / rgb_steps_a_metre;
     for (std::int64_t i = 0; i < ground.heights.cells(); ++i) {
         Cell const c = grid.at(i);
+        refuse_if<BadInput>(ground.heights[i] < rgb_lowest_m || ground.heights[i] > highest_m,
+                            "io.write_web_tiles: the cell at column {}, row {} is {:.6g} m high: Terrain-RGB has "
+                            "heights from {} to {} m",
+                            c.col, c.row, ground.heights[i], rgb_lowest_m, highest_m);
         refuse_if<BadInput>(!std::isfinite(ground.heights[i]),
                             "io.write_web_tiles: the cell at column {}, row {} has no height", c.col, c.row);
     }

@@ -716,12 +716,6 @@ ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFold
 /// Writes what a web server takes.
 ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder const& out, ExportResult& made,
                 Run const& run) {
-    auto const range = height_range(*scene.dem);
-    constexpr double lowest_m = -10000.0;
-    constexpr double highest_m = lowest_m + 0.1 * 16777215.0;
-    refuse_if<BadInput>(range && (range->first < lowest_m || range->second > highest_m),
-                        "pipeline.run_export: Terrain-RGB has heights from {} to {} m, the DEM from {:.6g} to {:.6g} m",
-                        lowest_m, highest_m, range->first, range->second);
     WebExportParams web;
     web.exaggeration = params.exaggeration.value_or(1.0);
     WebExport const written = write_web(scene, web, out, run);

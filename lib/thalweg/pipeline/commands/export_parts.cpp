@@ -15,15 +15,9 @@
 namespace thalweg::pipeline {
 namespace {
 
-std::int64_t fill_holes(Raster<float>& heights, double level) {
-    std::int64_t filled = 0;
-    for (float& z : heights.values()) {
-        if (std::isnan(z)) {
-            z = static_cast<float>(level);
-            ++filled;
-        }
-    }
-    return filled;
+void fill_holes(Raster<float>& heights, double level) {
+    std::ranges::replace_if(
+        heights.values(), [](float z) { return std::isnan(z); }, static_cast<float>(level));
 }
 
 } // namespace

@@ -10,6 +10,7 @@
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/mesh/lattice_files.hpp>
+#include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/print_export.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 
@@ -46,12 +47,8 @@ Lattice lattice_to_print(Raster<float> const& dem, PrintParams const& params, Ru
     std::int64_t const cells = std::max(dem.width(), dem.height());
     auto const useful = static_cast<std::int64_t>(std::floor(params.longest_mm / finest_print_mm + 0.5)) + 1;
     std::int64_t const longer = std::min({params.most_vertices, useful, cells});
-    auto const side = [&](std::int64_t of) {
-        double const share = static_cast<double>(of - 1) / static_cast<double>(cells - 1);
-        return std::max<std::int64_t>(
-            2, static_cast<std::int64_t>(std::floor(share * static_cast<double>(longer - 1) + 0.5)) + 1);
-    };
-    return lattice(dem, side(dem.width()), side(dem.height()), run);
+    ExportSize const size = fitting(dem.grid(), longer);
+    return lattice(dem, size.width, size.height, run);
 }
 
 /// Two digits: what a user would type.
