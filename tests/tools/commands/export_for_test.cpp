@@ -286,6 +286,8 @@ TEST(ExportFor, TheWebGetsTilesAndPages) {
     EXPECT_FALSE(json::parse(file_bytes(place / "w/rivers.geojson"))["features"].empty());
     EXPECT_EQ(made["files"].size(), 4 + made["tiles"].get<std::size_t>());
     expect_run(place, "export land --for web -o w --overwrite", 0);
+    expect_run(place, "export land --for print3d -o w --overwrite", 0);
+    EXPECT_FALSE(fs::exists(place / "w/heights")) << "empty folders do not stay";
     place.write("trench.asc", "ncols 3\nnrows 2\nxllcorner 0\nyllcorner 0\ncellsize 9\n1 2 3\n-10785 2 1\n");
     expect_run(place, "export trench.asc --for web -o x", 2, "column 0, row 1 is -10785 m", "Terrain-RGB");
     expect_refused(place, "export land --for web -o x", {"--size 65", "--tiles 2", "--masks slope", "--base 3"});

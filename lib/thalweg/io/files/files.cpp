@@ -164,8 +164,8 @@ bool is_plain(fs::path const& name) {
 // folder.
 void require_removable(fs::path const& folder, std::string const& name) {
     if (!is_plain(name)) {
-        throw BadInput(
-            fmt::format("io.output_folder: '{}' in report.json is not a valid path within {}", name, folder.string()));
+        throw BadInput(fmt::format("io.output_folder: '{}' in the list of an earlier run is not a valid path within {}",
+                                   name, folder.string()));
     }
     fs::path place = folder;
     fs::path const relative(name);
@@ -260,10 +260,11 @@ OutputFolder::OutputFolder(std::string const& folder, Existing existing, std::ve
         require(error, "io.output_folder: " + folder_);
         refuse_if<BadInput>(!empty && existing == Existing::refuse,
                             "io.output_folder: {} already exists: name another or use --overwrite", folder_);
-        refuse_if<BadInput>(!empty && existing == Existing::replace && old_files_.empty(),
-                            "io.output_folder: {} holds files but no report.json that lists them: nothing in it may be "
-                            "replaced, name another folder",
-                            folder_);
+        refuse_if<BadInput>(
+            !empty && existing == Existing::replace && old_files_.empty(),
+            "io.output_folder: {} holds files but no report.json or export.json that lists them: nothing in it may be "
+            "replaced, name another folder",
+            folder_);
         for (std::string const& name : old_files_) {
             require_removable(place, name);
         }
@@ -357,10 +358,9 @@ void OutputFolder::commit() {
     moves.keep();
     committed_ = true;
     fs::remove_all(aside, error);
-    for (std::string const& name : old_files_) {
-        fs::path const above = (folder / name).parent_path();
-        if (above != folder) {
-            fs::remove(above, error); // removes an empty inputs/; one with content stays
+    for (std::string const& name : old_files_) { // folders that became empty, such as inputs/; those with content stay
+        for (fs::path above = (folder / name).parent_path(); above != folder && fs::remove(above, error);) {
+            above = above.parent_path();
         }
     }
 }

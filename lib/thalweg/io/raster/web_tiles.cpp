@@ -20,6 +20,7 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/raster/internal/png.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -141,26 +142,6 @@ WebPicture decoded(std::string const& png) {
     driver.check(what);
     refuse_if<IoError>(error != CE_None, "{} cannot be read", what);
     return out;
-}
-
-void write_png(std::vector<std::uint8_t>& pixels, std::int64_t side, int bands, std::string const& path) {
-    std::string const what = "io.write_web_tiles: " + path;
-    Driver const driver;
-    MemoryFile const file;
-    auto const n = static_cast<int>(side);
-    GDALDriverManager& drivers = *GetGDALDriverManager();
-    Dataset source(drivers.GetDriverByName("MEM")->Create("", n, n, bands, GDT_Byte, nullptr));
-    bool done = source != nullptr && source->RasterIO(GF_Write, 0, 0, n, n, pixels.data(), n, n, GDT_Byte, bands,
-                                                      nullptr, bands, GSpacing{bands} * n, 1, nullptr) == CE_None;
-    if (done) {
-        Dataset target(drivers.GetDriverByName("PNG")->CreateCopy(file.path().c_str(), source.get(), TRUE, nullptr,
-                                                                  nullptr, nullptr));
-        done = target != nullptr;
-    }
-    source.reset();
-    driver.check(what);
-    refuse_if<IoError>(!done, "{} could not be written", what);
-    write_text(path, file.bytes());
 }
 
 /// Heights and colours of a tile.
@@ -333,8 +314,9 @@ void write_tile(WebTile& tile, std::int64_t zoom, std::int64_t column, std::int6
             rgb.push_back(static_cast<std::uint8_t>((number >> shift) & 0xFFU));
         }
     }
-    write_png(rgb, height_side, 3, out.path(name_of_tile("heights", zoom, column, row)));
-    write_png(tile.rgba, colour_side, 4, out.path(name_of_tile("colour", zoom, column, row)));
+    auto const square = [](std::int64_t side) { return Grid{.width = side, .height = side, .crs = {}}; };
+    write_png(rgb, 3, square(height_side), png_small, out.path(name_of_tile("heights", zoom, column, row)), {});
+    write_png(tile.rgba, 4, square(colour_side), png_small, out.path(name_of_tile("colour", zoom, column, row)), {});
 }
 
 bool meets(WebPyramid const& pyramid, std::int64_t zoom, std::int64_t column, std::int64_t row) {
