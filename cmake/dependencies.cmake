@@ -16,7 +16,7 @@ thalweg_find(fmt)
 thalweg_find(nlohmann_json)
 find_package(OpenCL QUIET) # optional: --device opencl
 find_package(OpenEXR CONFIG QUIET) # optional: the format exr of `thalweg export`
-foreach(LIBRARY muparser cairo fontconfig)
+foreach(LIBRARY muparser cairo fontconfig libpng)
   if(NOT TARGET PkgConfig::${LIBRARY})
     pkg_check_modules(${LIBRARY} REQUIRED IMPORTED_TARGET GLOBAL ${LIBRARY})
   endif()

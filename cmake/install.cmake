@@ -27,7 +27,7 @@ install(FILES ${PROJECT_BINARY_DIR}/thalwegConfig.cmake ${PROJECT_BINARY_DIR}/th
 # For pkg-config: each library by name, since Requires.private would ask for all that GDAL itself was linked to.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} OUTPUT_VARIABLE LIBDIR)
 string(REGEX REPLACE "[^/]+" ".." UP "${LIBDIR}")
-set(LIBRARIES "-ltbb -lgmp -lmpfr -lmuparser -lcairo -lfontconfig -lgdal -lproj -lfmt")
+set(LIBRARIES "-ltbb -lgmp -lmpfr -lmuparser -lcairo -lfontconfig -lpng -lgdal -lproj -lfmt")
 if(TARGET libnoise::libnoise)
   string(APPEND LIBRARIES " -lnoise")
 endif()

@@ -131,7 +131,7 @@ class Terrain:
     @property
     def timings(self) -> dict[str, float]:
         """[s] By stage."""
-        return pipeline.timings_of(self.made)
+        return {time.stage: time.wall_s for time in pipeline.timings_of(self.made)}
 
     def write(self, folder: str | os.PathLike[str], overwrite: bool = False) -> list[str]:
         """Write the folder that `thalweg make` writes, completely or not at all.
@@ -403,10 +403,10 @@ def _value_of(value: object, path: str, files: list[_networks.TemporaryPath]) ->
         return value
     if isinstance(value, (list, tuple)):
         numbers = [one.item() if isinstance(one, np.generic) else one for one in value]
-        if all(isinstance(one, (int, float)) for one in numbers):
+        if all(isinstance(one, (int, float)) for one in numbers) or all(isinstance(one, str) for one in numbers):
             return numbers
-    raise TypeError(f"{path}: takes text, a number, True or False, a list of numbers, or for the name of a file a table or an "
-                    f"array, not {value!r:.80}")
+    raise TypeError(f"{path}: takes text, a number, True or False, a list of numbers or words, or for the name of a file a "
+                    f"table or an array, not {value!r:.80}")
 
 
 def _value_in_toml(value: Value) -> str:
@@ -417,7 +417,7 @@ def _value_in_toml(value: Value) -> str:
     if isinstance(value, str):
         # A basic string of TOML is JSON's but for this character.
         return json.dumps(value, ensure_ascii=False).replace("\x7f", "\\u007f")
-    return "{}" if isinstance(value, dict) else f"[{', '.join(map(repr, value))}]"
+    return "{}" if isinstance(value, dict) else f"[{', '.join(map(_value_in_toml, value))}]"
 
 
 def _toml_of(values: Mapping[str, Value]) -> str:

@@ -26,7 +26,7 @@ FOREIGN = {
     "solver": ["Eigen/", "unsupported/Eigen/", "CL/", "petsc", "mpi.h"],
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
-    "draw": ["cairo", "fontconfig/"],
+    "draw": ["cairo", "fontconfig/", "png.h"],
     "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/"],
     "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],

@@ -111,8 +111,10 @@ int make(MakeOptions& options, Session const& session) {
         }
         session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));
     }
-    session.run.tell("open", fmt::format("{}   (no internet needed)",
-                                         toned(Tone::name, options.params.output + "/report.html", stderr)));
+    if (made.recipe.output.has(pipeline::OutputFiles::page)) {
+        session.run.tell("open", fmt::format("{}   (no internet needed)",
+                                             toned(Tone::name, options.params.output + "/report.html", stderr)));
+    }
     fmt::print("{}", session.json ? io::read_text(options.params.output + "/report.json", 1 << 30)
                                   : options.params.output + "\n");
     return made.assessment.passed() ? Exit::done : Exit::check_failed;
@@ -158,6 +160,12 @@ Command add_make(CLI::App& app, Session& session) {
         app, "--schema", "output.schema", options->params.set,
         "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
         ->check(CLI::IsMember(schema_names()));
+    add_key_option<std::string>(
+        app, "--only", "output.files", options->params.set,
+        "Write only these files, with commas between them: dem, network, contours, catchments, "
+        "areas, tin, pictures, page or qgis; the same as --set output.files=FILES. recipe.toml and "
+        "report.json are always written.")
+        ->type_name("FILES");
     app.add_flag("--dry-run", options->dry_run,
                  "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
                  "time. Nothing is written.");
@@ -180,6 +188,7 @@ Command add_make(CLI::App& app, Session& session) {
         "  thalweg make samples/walker_nhdplus.gpkg -o out/walker\n"
         "  thalweg make samples/walker_nhdplus.gpkg --crs EPSG:26910 --set grid.cell=30 -o out/utm\n"
         "  thalweg make out/walker --seed 8 -o out/other\n"
+        "  thalweg make samples/walker_nhdplus.gpkg --only dem,network -o out/two\n"
         "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n"
         "  thalweg make samples/jacksboro_utm16.tif --set surface.drain=carve -o out/drained\n");
     return [options, &session] { return make(*options, session); };

@@ -8,6 +8,7 @@
 #include <cmath>
 #include <malloc.h>
 #include <memory>
+#include <mutex>
 #include <unordered_map>
 
 #include <cairo-pdf.h>
@@ -15,6 +16,7 @@
 #include <cairo.h>
 #include <fmt/format.h>
 #include <fontconfig/fontconfig.h>
+#include <png.h>
 
 #include <thalweg/core/run/refuse.hpp>
 
@@ -37,6 +39,45 @@ cairo_status_t append(void* bytes, unsigned char const* data, unsigned int lengt
     } catch (std::exception const&) { // exceptions must not cross C frames
         return CAIRO_STATUS_NO_MEMORY;
     }
+    return CAIRO_STATUS_SUCCESS;
+}
+
+void append_png(png_structp png, png_bytep data, std::size_t length) {
+    if (append(png_get_io_ptr(png), data, static_cast<unsigned int>(length)) != CAIRO_STATUS_SUCCESS) {
+        png_error(png, "out of memory");
+    }
+}
+
+void leave_png(png_structp png, png_const_charp /*message*/) {
+    png_longjmp(png, 1);
+}
+
+/// Encodes a sheet as PNG, several times as fast as Cairo does and a tenth to a quarter larger: one filter, and level 2
+/// of zlib. Nothing in it has a destructor, as libpng leaves it by a jump.
+cairo_status_t encode_png(cairo_surface_t* sheet, std::string* bytes) {
+    constexpr int level = 2;
+    png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, nullptr);
+    png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+    if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
+        png_destroy_write_struct(&png, &info);
+        return CAIRO_STATUS_NO_MEMORY;
+    }
+    png_set_write_fn(png, bytes, append_png, nullptr);
+    int const height = cairo_image_surface_get_height(sheet);
+    png_set_IHDR(png, info, static_cast<png_uint_32>(cairo_image_surface_get_width(sheet)),
+                 static_cast<png_uint_32>(height), 8, PNG_COLOR_TYPE_RGB, PNG_INTERLACE_NONE,
+                 PNG_COMPRESSION_TYPE_DEFAULT, PNG_FILTER_TYPE_DEFAULT);
+    png_set_filter(png, PNG_FILTER_TYPE_BASE, PNG_FILTER_UP);
+    png_set_compression_level(png, level);
+    png_write_info(png, info);
+    png_set_bgr(png);
+    png_set_filler(png, 0, PNG_FILLER_AFTER);
+    for (int row = 0; row < height; ++row) {
+        png_write_row(png, cairo_image_surface_get_data(sheet) +
+                               static_cast<std::ptrdiff_t>(row) * cairo_image_surface_get_stride(sheet));
+    }
+    png_write_end(png, info);
+    png_destroy_write_struct(&png, &info);
     return CAIRO_STATUS_SUCCESS;
 }
 
@@ -65,8 +106,18 @@ void load_fonts() {
 /// buffer that it never initialised: with arbitrary bytes it may block the very signal that reports the fault.
 class ZeroedBlocks {
 public:
-    ZeroedBlocks() { fill_with(0xFF); } // the complement of the fill byte
-    ~ZeroedBlocks() { fill_with(0); }   // off
+    ZeroedBlocks() {
+        std::scoped_lock const lock(guard);
+        if (alive++ == 0) {
+            fill_with(0xFF); // the complement of the fill byte
+        }
+    }
+    ~ZeroedBlocks() {
+        std::scoped_lock const lock(guard);
+        if (--alive == 0) {
+            fill_with(0); // off
+        }
+    }
     ZeroedBlocks(ZeroedBlocks const&) = delete;
     ZeroedBlocks& operator=(ZeroedBlocks const&) = delete;
 
@@ -76,6 +127,9 @@ private:
         mallopt(M_PERTURB, byte);
 #endif
     }
+
+    static inline std::mutex guard;
+    static inline int alive = 0; ///< on all threads
 };
 
 /// Cairo numbers surfaces and images by a process-wide counter: this renumbers them by their order in the text.
@@ -270,7 +324,8 @@ Picture paint(double width, double height, Format format, std::function<void(Cai
     fill(sheet.get());
     require(cairo_status(sheet.get()));
     if (format == Format::png) {
-        require(cairo_surface_write_to_png_stream(surface.get(), append, &picture.bytes));
+        cairo_surface_flush(surface.get());
+        require(encode_png(surface.get(), &picture.bytes));
     }
     cairo_surface_finish(surface.get());
     require(cairo_surface_status(surface.get()));

@@ -256,8 +256,8 @@ TEST_F(Rasters, StagesAreAsForecast) {
         recipe.folder = folder();
         Made const t = make(recipe);
         std::vector<std::string> stages;
-        for (auto const& [stage, seconds] : timings_of(t)) {
-            stages.push_back(stage);
+        for (StageTime const& time : timings_of(t)) {
+            stages.push_back(time.stage);
         }
         EXPECT_EQ(forecast(recipe).stages, stages);
         EXPECT_EQ(forecast(recipe).grid, t.terrain.grid);

@@ -42,8 +42,8 @@ void expect_as_forecast(Recipe const& recipe, std::string const& name) {
     Forecast const said = forecast(recipe);
     Made const made = make(recipe);
     std::vector<std::string> stages;
-    for (auto const& [stage, seconds] : timings_of(made)) {
-        stages.push_back(stage);
+    for (StageTime const& time : timings_of(made)) {
+        stages.push_back(time.stage);
     }
     EXPECT_EQ(said.stages, stages) << name;
     if (said.grid) {
@@ -132,7 +132,7 @@ TEST(Resolve, SettlesWhatTheRecipeLeavesOpen) {
     EXPECT_EQ(drawn.grid->cell_m, drawn.recipe.grid.cell_m);
     EXPECT_EQ(drawn.grid->crs, drawn.recipe.grid.crs);
     EXPECT_FALSE(drawn.lines.lines.empty());
-    EXPECT_EQ(drawn.timings_s.front().first, "read");
+    EXPECT_EQ(drawn.timings_s.front().stage, "read");
 }
 
 TEST(Resolve, AnIslandHasItsCoastBeforeItsRivers) {

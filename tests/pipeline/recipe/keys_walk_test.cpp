@@ -202,6 +202,7 @@ std::map<std::string, Words> const values = {
     {"patch.feather", {"4"}},
     {"output.title", {"A walk"}},
     {"output.contour_interval", {"7.5"}},
+    {"output.files", {"dem,network"}},
 };
 
 /// What a key needs beside it to have an effect, or for the effect to be seen on so small a terrain.

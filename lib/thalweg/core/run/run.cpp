@@ -3,13 +3,14 @@
 #include <thalweg/core/run/run.hpp>
 
 #include <algorithm>
-#include <cstddef>
-#include <string>
-#ifdef THALWEG_TSAN
 #include <atomic>
+#include <cstddef>
+#include <ctime>
+#include <string>
+#include <thread>
+#ifdef THALWEG_TSAN
 #include <exception>
 #include <mutex>
-#include <thread>
 #include <vector>
 #endif
 
@@ -88,7 +89,15 @@ void share(int threads, std::int64_t count, std::int64_t grain,
 }
 #endif
 
+thread_local double lent_s = 0.0; ///< CPU time of workers for this thread
+
 } // namespace
+
+double cpu_seconds() {
+    timespec now{};
+    clock_gettime(CLOCK_THREAD_CPUTIME_ID, &now);
+    return lent_s + static_cast<double>(now.tv_sec) + 1e-9 * static_cast<double>(now.tv_nsec);
+}
 
 void parallel_ranges(Run const& run, std::int64_t count, std::int64_t grain,
                      std::function<void(std::int64_t, std::int64_t)> const& body) {
@@ -100,7 +109,17 @@ void parallel_ranges(Run const& run, std::int64_t count, std::int64_t grain,
         body(0, count);
         return;
     }
-    share(run.threads, count, grain, body);
+    std::atomic<double> by_workers_s = 0.0;
+    share(run.threads, count, grain, [&, caller = std::this_thread::get_id()](std::int64_t begin, std::int64_t end) {
+        if (std::this_thread::get_id() == caller) {
+            body(begin, end);
+            return;
+        }
+        double const before_s = cpu_seconds();
+        body(begin, end);
+        by_workers_s += cpu_seconds() - before_s;
+    });
+    lent_s += by_workers_s;
     run.check();
 }
 

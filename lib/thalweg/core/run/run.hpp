@@ -65,4 +65,8 @@ inline constexpr std::int64_t cells_between_checks = 1 << 18;
 void parallel_ranges(Run const& run, std::int64_t count, std::int64_t grain,
                      std::function<void(std::int64_t, std::int64_t)> const& body);
 
+/// Measures the CPU time of this thread, and of the workers that parallel_ranges lent it.
+/// \return [s] since some moment: the difference of two calls is the CPU time between them
+double cpu_seconds();
+
 } // namespace thalweg

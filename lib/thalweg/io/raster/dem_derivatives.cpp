@@ -14,6 +14,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/table.hpp>
@@ -73,6 +74,7 @@ void require_few_levels(Raster<float> const& dem, double interval_m) {
 } // namespace
 
 std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
+    constexpr double tolerance_cells = 0.1;
     std::string const what = "io.contours";
     require_few_levels(dem, interval_m);
     Driver const driver;
@@ -102,6 +104,7 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         for (OGRPoint const& p : drawn_line) {
             line.line.push_back({p.getX(), p.getY()});
         }
+        line.line = geometry::simplify(line.line, tolerance_cells * dem.grid().cell_m);
         lines.push_back(std::move(line));
     }
     driver.check(what); // a failed allocation also ends the loop

@@ -28,7 +28,7 @@ struct ContourLine {
     std::vector<Vec2> line;
 };
 
-/// Computes GDAL's contour lines at multiples of an interval.
+/// Computes GDAL's contour lines at multiples of an interval, simplified within a tenth of a cell.
 /// \param dem [m] by cell; NaN: no data
 /// \param interval_m [m] > 0
 /// \return in GDAL's order

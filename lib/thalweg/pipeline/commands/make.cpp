@@ -62,10 +62,7 @@ Recipe recipe_of(MakeParams const& params) {
 Made run_make(MakeParams const& params, Run const& run) {
     Recipe recipe = recipe_of(params);
     UserFiles const files(recipe, run);
-    check_folder(params.output, params.existing);
-    Made made = make(recipe, run);
-    write_terrain(made, params.output, params.existing, run);
-    return made;
+    return make_folder(recipe, params.output, params.existing, run);
 }
 
 Forecast forecast_make(MakeParams const& params, Run const& run) {

@@ -90,7 +90,7 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (plan.recipe.network && plan.recipe.output.catchments) {
+    if (finds_catchments(plan.recipe)) {
         found.catchments =
             stage_log.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
     }
@@ -110,7 +110,7 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
     }
-    if (plan.recipe.output.accumulation) {
+    if (measures_areas(plan.recipe)) {
         found.water_areas = stage_log.stage("areas", [&] {
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });

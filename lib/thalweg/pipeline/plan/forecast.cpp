@@ -87,7 +87,7 @@ std::vector<std::string> stages_after(Recipe const& recipe) {
         stages.emplace_back("valleys");
     }
     stages.emplace_back("measure");
-    if (recipe.network && recipe.output.catchments) {
+    if (finds_catchments(recipe)) {
         stages.emplace_back("catchments");
     }
     if (recipe.network) {
@@ -96,7 +96,7 @@ std::vector<std::string> stages_after(Recipe const& recipe) {
     if (has_ridges(recipe)) {
         stages.emplace_back("ridges");
     }
-    if (recipe.output.accumulation) {
+    if (measures_areas(recipe)) {
         stages.emplace_back("areas");
     }
     stages.insert(stages.end(), {"laws", "relief"});

@@ -40,8 +40,8 @@ bool grown_for_land(Plan const& plan) {
 } // namespace
 
 void StageLog::say(std::string const& words) const {
-    auto const& [name, seconds] = timings_s_.back();
-    run_.tell(name, fmt::format("{:<56}{:6.1f} s", words, seconds));
+    StageTime const& last = timings_s_.back();
+    run_.tell(last.stage, fmt::format("{:<56}{:6.1f} s", words, last.wall_s));
 }
 
 bool has_coastlines(Plan const& plan) {
@@ -80,6 +80,14 @@ bool needs_tin(Recipe const& recipe) {
 
 bool conditions_dem(Recipe const& recipe) {
     return recipe.surface && *recipe.surface->drain != flow::Conditioning::none;
+}
+
+bool finds_catchments(Recipe const& recipe) {
+    return recipe.network && recipe.output.catchments && recipe.output.has(OutputFiles::catchments);
+}
+
+bool measures_areas(Recipe const& recipe) {
+    return recipe.output.accumulation && recipe.output.has(OutputFiles::areas);
 }
 
 bool adds_side_valleys(Recipe const& recipe) {

@@ -18,8 +18,15 @@
 
 namespace thalweg::pipeline {
 
-/// Times of stages [s], in order.
-using Timings = std::vector<std::pair<std::string, double>>;
+/// What a stage took.
+struct StageTime {
+    std::string stage;
+    double wall_s = 0.0;
+    double cpu_s = 0.0; ///< of all its threads
+};
+
+/// Times of stages, in order.
+using Timings = std::vector<StageTime>;
 
 /// Where a forest may grow.
 struct ForestLand {

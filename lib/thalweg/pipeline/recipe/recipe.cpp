@@ -48,6 +48,10 @@ Recipe cluster_recipe() {
     return recipe;
 }
 
+bool OutputRecipe::has(OutputFiles wanted) const {
+    return !files || std::ranges::find(*files, wanted) != files->end();
+}
+
 std::string title_of(Recipe const& recipe) {
     return recipe.output.title.empty() ? fmt::format("thalweg, seed {}", recipe.seed) : recipe.output.title;
 }

@@ -239,14 +239,31 @@ struct PatchRecipe {
     PatchRivers rivers = PatchRivers::keep;
 };
 
+/// Files of a terrain that are chosen together; recipe.toml and report.json are always written.
+enum class OutputFiles : std::uint8_t {
+    dem,
+    network, ///< network.*, network_arcs.shp, network_nodes.shp, lakes.tif
+    contours,
+    catchments,
+    areas, ///< area_d8.tif, area_dinf.tif
+    tin,
+    pictures, ///< map.png, profile.svg, curve.svg, wireframe.svg, sections.svg
+    page,     ///< report.html
+    qgis      ///< project.qgz, *.qml
+};
+
 /// The keys of section [output] of a recipe.
 struct OutputRecipe {
-    std::string title;                      ///< of the pictures and the page; "" names the seed
-    double contour_interval = 0.0;          ///< [units] 0 chooses a round number
-    bool catchments = true;                 ///< of the arcs, where there are rivers and a surface
-    bool accumulation = false;              ///< contributing areas by cell, where there is a surface
-    io::Schema schema = io::Schema::native; ///< another one: a network file more, in its words
-    HeightUnit units = HeightUnit::metre;   ///< of heights in dem.tif, networks, contours and TINs
+    std::string title;                                  ///< of the pictures and the page; "" names the seed
+    double contour_interval = 0.0;                      ///< [units] 0 chooses a round number
+    bool catchments = true;                             ///< of the arcs, where there are rivers and a surface
+    bool accumulation = false;                          ///< contributing areas by cell, where there is a surface
+    io::Schema schema = io::Schema::native;             ///< another one: a network file more, in its words
+    HeightUnit units = HeightUnit::metre;               ///< of heights in dem.tif, networks, contours and TINs
+    std::optional<std::vector<OutputFiles>> files = {}; ///< in the order of the enumeration; nothing: all
+
+    /// \return whether files are written where the recipe makes them
+    bool has(OutputFiles wanted) const;
 };
 
 /// Everything that decides a result, as one plain value.
@@ -277,7 +294,7 @@ Recipe cluster_recipe();
 /// What a key of a recipe file means.
 struct KeyHelp {
     std::string path;     ///< section.key
-    std::string type;     ///< integer | number | text | yes/no | two numbers
+    std::string type;     ///< integer | number | text | yes/no | two numbers | list of words
     std::string range;    ///< in words or the choices
     std::string unit;     ///< "" for none
     std::string standard; ///< default as TOML, or in words

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <algorithm>
+#include <set>
 #include <sstream>
 
 #include <fmt/format.h>
@@ -31,6 +32,14 @@ template <std::size_t n> std::string text_of(std::array<double, n> const& list) 
     std::string out;
     for (double const x : list) {
         out += (out.empty() ? "" : ", ") + text_of(x);
+    }
+    return "[ " + out + " ]";
+}
+
+std::string text_of(WordList const& words) {
+    std::string out;
+    for (std::string const& word : words) {
+        out += (out.empty() ? "" : ", ") + text_of(word);
     }
     return "[ " + out + " ]";
 }
@@ -91,6 +100,20 @@ int number_for(Key const& key, Value const& v) {
                                    fmt::join(words, ", ")));
 }
 
+/// The words of a list: one of TOML, or a text with commas between them.
+WordList words_in(Value const& value) {
+    if (auto const* const list = std::get_if<WordList>(&value)) {
+        return *list;
+    }
+    std::istringstream text(required<std::string>("a list of words", value));
+    WordList words;
+    for (std::string word; std::getline(text >> std::ws, word, ',');) {
+        words.push_back(word.substr(0, word.find_last_not_of(' ') + 1));
+    }
+    refuse_if<BadParameter>(words.empty(), "a list of words is required, not an empty one");
+    return words;
+}
+
 /// Puts a value into the field of its key. Throws BadParameter for one that the key may not have.
 struct Store {
     Key const& key;
@@ -100,6 +123,13 @@ struct Store {
     void operator()(double* field) const { *field = number(); }
     void operator()(std::optional<double>* field) const { *field = number(); }
     void operator()(Enumeration const& field) const { field.set(field.at, number_for(key, value)); }
+    void operator()(std::optional<std::vector<OutputFiles>>* field) const {
+        std::set<OutputFiles> files;
+        for (std::string const& word : words_in(value)) {
+            files.insert(static_cast<OutputFiles>(number_for(key, word)));
+        }
+        field->emplace(files.begin(), files.end());
+    }
     void operator()(std::string* field) const {
         std::string const& s = required<std::string>("a text in quotes", value);
         refuse_if<BadParameter>(s.size() > 4096 || s.find('\0') != std::string::npos,
@@ -150,6 +180,16 @@ struct Show {
     template <class T> std::optional<Value> operator()(std::optional<T> const* field) const {
         return *field ? std::optional<Value>(**field) : std::nullopt;
     }
+    std::optional<Value> operator()(std::optional<std::vector<OutputFiles>> const* field) const {
+        if (!*field) {
+            return std::nullopt;
+        }
+        WordList words;
+        for (OutputFiles const files : **field) {
+            words.push_back(key.help.choices.at(static_cast<std::size_t>(files)));
+        }
+        return words;
+    }
     std::optional<Value> operator()(Enumeration const& field) const {
         auto const at = std::find(key.numbers.begin(), key.numbers.end(), field.get(field.at)) - key.numbers.begin();
         auto const& words = key.help.choices;
@@ -196,8 +236,9 @@ constexpr std::array<Section, 9> sections = {
      {"output", always_one, nothing_to_begin}}};
 
 /// By KeyKind.
-constexpr std::array<char const*, 10> type_names{"yes/no",       "integer", "number", "two numbers", "three numbers",
-                                                 "four numbers", "text",    "text",   "text",        "integer or text"};
+constexpr std::array<char const*, 11> type_names{"yes/no",        "integer",         "number",       "two numbers",
+                                                 "three numbers", "four numbers",    "text",         "text",
+                                                 "text",          "integer or text", "list of words"};
 
 /// Lists the words of a key and what they stand for.
 void list_words(Key& key, Field const& field) {
@@ -222,6 +263,9 @@ void list_words(Key& key, Field const& field) {
 std::string range_text(Key const& key) {
     if (key.range) {
         return key.range->text();
+    }
+    if (key.row->kind == KeyKind::words) {
+        return fmt::format("list of {}", fmt::join(key.help.choices, " | "));
     }
     std::vector<std::string> ways = key.help.choices;
     std::string const form = key.help.is_file ? "file name" : key.row->allowed.form;

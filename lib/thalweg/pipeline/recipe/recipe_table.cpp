@@ -618,7 +618,11 @@ std::span<Row const> recipe_rows() {
             [](Recipe& r, Item) -> Field { return &r.output.accumulation; }),
         key("output.schema", word, "", schema_names, "[network]",
             "also write network_SCHEMA.gpkg in this schema, unless native",
-            [](Recipe& r, Item) -> Field { return choice(r.output.schema); })};
+            [](Recipe& r, Item) -> Field { return choice(r.output.schema); }),
+        key("output.files", words, "",
+            {"dem", "network", "contours", "catchments", "areas", "tin", "pictures", "page", "qgis"}, "",
+            "files to write beside recipe.toml and report.json; left out: all that the recipe makes",
+            [](Recipe& r, Item) -> Field { return &r.output.files; }, {.standard = "all"})};
     return rows;
 }
 

@@ -124,6 +124,13 @@ std::optional<std::size_t> line_deeper_than(std::string_view toml, std::size_t m
 namespace {
 
 std::optional<Value> value_of_array(toml::array const& array) {
+    if (!array.empty() && array.is_homogeneous<std::string>()) {
+        WordList words;
+        for (toml::node const& one : array) {
+            words.push_back(one.value_or(std::string()));
+        }
+        return words;
+    }
     std::vector<double> list;
     for (toml::node const& one : array) {
         if (auto const x = one.value<double>()) {

@@ -24,6 +24,8 @@ struct Summit {
     double z = 0.0;
 };
 
+inline constexpr std::size_t summits_named = 24; ///< by maps and the page
+
 /// Chooses the summits that a map names: those whose prominence is a twentieth of the relief or more, none nearer than
 /// a sixteenth of the longer side to a more prominent one.
 /// \param dem [m] NaN: no data

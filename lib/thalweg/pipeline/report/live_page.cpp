@@ -52,13 +52,16 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
 std::string live_scene(Made const& made, std::string const& recipe, std::string const& command, Run const& run) {
     PageParams params = page_params_of(made, recipe);
     params.command = command;
+    if (made.terrain.surface) {
+        params.summits = summits(made.terrain.surface->dem, summits_named, run);
+    }
     PageLines const lines = lines_of_page(made);
     std::optional<PageHeights> const heights =
         made.terrain.surface ? page_values(made.terrain.surface->dem, run) : std::nullopt;
     std::vector<std::uint8_t> const water = heights && made.terrain.drainage
                                                 ? page_water(*made.terrain.drainage, params.lakes, *heights)
                                                 : std::vector<std::uint8_t>{};
-    return fmt::format(R"("data":{},"lines":"{}","water":"{}")", page_data(made, params, heights, lines, run),
+    return fmt::format(R"("data":{},"lines":"{}","water":"{}")", page_data(made, params, heights, lines),
                        io::packed(lines.bytes), water.empty() ? "" : io::packed(water));
 }
 

@@ -405,7 +405,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     PageLines const lines = lines_of_page(made);
     PageParts parts;
     parts.title = html_text(title_of(made.recipe));
-    parts.data = page_data(made, params, heights, lines, run);
+    parts.data = page_data(made, params, heights, lines);
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);
     if (heights && made.terrain.drainage) {
@@ -484,6 +484,7 @@ std::string scene_page(Scene const& scene, std::vector<std::string> const& notes
     params.notes = notes;
     params.sea = scene.sea;
     params.lakes = scene.lakes;
+    params.summits = summits(*scene.dem, summits_named, run);
     return page(made, params, run);
 }
 

@@ -303,15 +303,10 @@ ordered_json profiles_array(std::vector<Stem> const& stems, Grid const& grid) {
     return out;
 }
 
-ordered_json summits_array(Made const& t, Run const& run) {
-    constexpr std::size_t most_summits = 24;
+ordered_json summits_array(std::vector<Summit> const& summits, Grid const& grid) {
     ordered_json out = ordered_json::array();
-    if (t.terrain.surface) {
-        Grid const& grid = t.terrain.grid;
-        for (Summit const& s : summits(t.terrain.surface->dem, most_summits, run)) {
-            out.push_back(
-                {(s.at.x - grid.west) / grid.cell_m, (grid.north - s.at.y) / grid.cell_m, to_millimetres(s.z)});
-        }
+    for (Summit const& s : summits) {
+        out.push_back({(s.at.x - grid.west) / grid.cell_m, (grid.north - s.at.y) / grid.cell_m, to_millimetres(s.z)});
     }
     return out;
 }
@@ -452,8 +447,8 @@ ordered_json shown(std::vector<Finding> const& findings, Grid const& grid) {
 
 ordered_json timings_array(Made const& t) {
     ordered_json out = ordered_json::array();
-    for (auto const& [stage, seconds] : timings_of(t)) {
-        out.push_back({stage, to_millimetres(seconds)});
+    for (StageTime const& time : timings_of(t)) {
+        out.push_back({time.stage, to_millimetres(time.wall_s)});
     }
     return out;
 }
@@ -500,7 +495,7 @@ std::string without_tags(std::string const& json) {
 }
 
 std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
-                      PageLines const& lines, Run const& run) {
+                      PageLines const& lines) {
     std::vector<Stem> const stems = stems_of(t.terrain.rivers);
     Figures figures;
     if (t.assessment.statistics) {
@@ -524,7 +519,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
                             {"ridges", ridges_object(t, lines)},
                             {"sea", sea_object(params.sea)},
                             {"lakes", params.lakes.cells() > 0},
-                            {"summits", summits_array(t, run)},
+                            {"summits", summits_array(params.summits, t.terrain.grid)},
                             {"profiles", profiles_array(stems, t.terrain.grid)},
                             {"curve", curve_object(t)},
                             {"hypsometry", hypsometry_object(t)},

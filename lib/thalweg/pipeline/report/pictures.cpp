@@ -47,7 +47,7 @@ draw::Picture draw_map(Scene const& scene, Look const& look, Run const& run) {
     params.contour_interval_m = sheet.contours.empty() ? 0.0 : interval;
     params.format = look.format;
     params.width_px = look.width_px > 0 ? look.width_px : params.width_px;
-    return draw_land(std::move(sheet), scene.sea, params, run);
+    return draw_land(std::move(sheet), scene.sea, summits(dem, summits_named, run), params);
 }
 
 draw::Picture draw_wireframe(Scene const& scene, Look const& look) {
@@ -115,12 +115,12 @@ std::string crs_on_map(std::string const& crs) {
 
 } // namespace
 
-draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, draw::MapParams params, Run const& run) {
-    constexpr std::size_t most_summits = 24;
+draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, std::vector<Summit> const& summits,
+                        draw::MapParams params) {
     if (sea) {
         sheet.sea = draw::Sea{sea->is_around};
     }
-    for (Summit const& summit : summits(sheet.dem, most_summits, run)) {
+    for (Summit const& summit : summits) {
         sheet.spot_heights.push_back({summit.at, summit.z});
     }
     params.crs = crs_on_map(sheet.dem.grid().crs);

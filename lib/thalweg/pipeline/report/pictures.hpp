@@ -63,11 +63,12 @@ draw::Picture draw_picture(PictureKind kind, Scene const& scene, Look const& loo
 /// Draws a map with what every map of a terrain has: the sea, heights of summits, its coordinate system in words.
 /// \param sheet the rest of the map
 /// \param sea of the terrain
+/// \param summits of the terrain
 /// \param params without crs
 /// \return the picture
 /// \throws BadInput as draw::map
-draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, draw::MapParams params,
-                        Run const& run = {});
+draw::Picture draw_land(draw::MapSheet sheet, std::optional<Sea> const& sea, std::vector<Summit> const& summits,
+                        draw::MapParams params);
 
 /// Chooses a contour interval.
 /// \param relief_m [m] > 0, height range

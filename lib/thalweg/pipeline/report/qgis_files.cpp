@@ -53,12 +53,13 @@ class Layers {
 public:
     explicit Layers(io::OutputFolder const& out) : out_(out) {}
 
+    bool has(std::string const& file) const { return fs::exists(fs::path(out_.staging()) / file); }
+
     /// A layer of a GeoPackage, with the style that it has there.
     void vector(std::string const& title, std::string const& file, std::string const& layer, bool is_shown = true,
                 bool is_expanded = false) {
         if (!styles_.contains(file)) {
-            bool const is_there = fs::exists(fs::path(out_.staging()) / file);
-            styles_[file] = is_there ? io::styles_of(out_.path(file)) : std::map<std::string, io::QgisStyle>{};
+            styles_[file] = has(file) ? io::styles_of(out_.path(file)) : std::map<std::string, io::QgisStyle>{};
         }
         auto const& styles = styles_[file];
         if (auto const found = styles.find(layer); found != styles.end()) {
@@ -98,18 +99,18 @@ void write_qgis_files(Made const& made, std::string const& title, io::OutputFold
     layers.vector("Rivers", "network.gpkg", "arcs", true, true);
     layers.vector("Lines not in the network", "network.gpkg", "secondary");
     layers.vector("Ridges", "network.gpkg", "ridges");
-    if (made.terrain.lakes > 0) {
+    if (layers.has("lakes.tif")) {
         layers.styled(Kind::raster, "Lakes", "lakes.tif", io::mask_style("Lake", "#9fc4e0"), true);
     }
     layers.vector("Basins", "catchments.gpkg", "basins", false);
     layers.vector("Catchments", "catchments.gpkg", "catchments", false);
     layers.vector("Contours", "contours.gpkg", "contours");
-    if (made.terrain.tin && made.recipe.skeleton && made.recipe.skeleton->tin) {
+    if (layers.has("tin.2dm")) {
         Tin const tin = in_unit(*made.terrain.tin, unit);
         layers.styled(Kind::mesh, "TIN", "tin.2dm", io::mesh_style(tints_of(heights_of(tin)), unit_name),
                       !made.terrain.surface, true, "Height");
     }
-    if (made.assessment.water_areas) {
+    if (layers.has("area_d8.tif")) {
         double const cell_m2 = made.terrain.grid.cell_m * made.terrain.grid.cell_m;
         auto const& areas_of = *made.assessment.water_areas;
         for (auto const& [name, file, areas] :
@@ -119,7 +120,7 @@ void write_qgis_files(Made const& made, std::string const& title, io::OutputFold
                           false, "Area drained");
         }
     }
-    if (made.terrain.surface) {
+    if (layers.has("dem.tif")) {
         if (auto heights = height_range(made.terrain.surface->dem)) {
             double const metres = metres_in(unit);
             heights->first /= metres;

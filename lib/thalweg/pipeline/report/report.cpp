@@ -16,6 +16,7 @@
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/report/internal/report.hpp>
 
 namespace thalweg::pipeline {
@@ -251,10 +252,10 @@ double metres_per_unit(Made const& t) {
 }
 
 /// Times of stages, by their names.
-ordered_json timings_object(Timings const& timings_s) {
+ordered_json timings_object(Timings const& timings, double StageTime::*seconds) {
     ordered_json out = ordered_json::object();
-    for (auto const& [stage, seconds] : timings_s) {
-        out[stage] = seconds;
+    for (StageTime const& time : timings) {
+        out[time.stage] = time.*seconds;
     }
     return out;
 }
@@ -383,10 +384,13 @@ std::string version() {
     return THALWEG_VERSION;
 }
 
-std::string write_report(Made const& t, std::vector<std::string> const& files) {
+std::string write_report(Made const& t, std::vector<std::string> const& files, Timings const& writing) {
+    Timings timings = timings_of(t);
+    append(timings, writing);
     ordered_json report{{"version", version()},
                         {"recipe", recipe_object(t.recipe)},
-                        {"timings_s", timings_object(timings_of(t))},
+                        {"timings_s", timings_object(timings, &StageTime::wall_s)},
+                        {"cpu_s", timings_object(timings, &StageTime::cpu_s)},
                         {"peak_rss_mb", static_cast<double>(peak_memory_bytes()) / 1e6}};
     add_rivers(t, report);
     add_dem(t, report);

@@ -15,11 +15,13 @@
 
 namespace thalweg::pipeline {
 
-/// Formats report.json of a terrain: version, recipe, timings_s, peak_rss_mb, network, dem, checks, repairs, files.
+/// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_rss_mb, network, dem, checks, repairs,
+/// files.
 /// \param made a terrain
 /// \param files names of the files written
+/// \param writing times of writing them
 /// \return JSON
-std::string write_report(Made const& made, std::vector<std::string> const& files);
+std::string write_report(Made const& made, std::vector<std::string> const& files, Timings const& writing = {});
 
 /// Reads the files that an earlier report.json lists.
 /// \param json its text
@@ -73,5 +75,11 @@ void check_folder(std::string const& folder, io::Existing existing);
 /// \throws Error BadInput (the folder has content), IoError, Cancelled: then nothing has changed
 std::vector<std::string> write_terrain(Made const& made, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
+
+/// Makes a terrain and writes all output of `make`, as make() and write_terrain() do; with more than one thread files
+/// are written while the terrain is assessed.
+/// \throws Error as make() and write_terrain()
+Made make_folder(Recipe const& recipe, std::string const& folder, io::Existing existing = io::Existing::refuse,
+                 Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -2,12 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
 #include <cmath>
+#include <deque>
 #include <filesystem>
+#include <functional>
 #include <map>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/run/beside.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/diagrams.hpp>
@@ -25,6 +29,7 @@
 #include <thalweg/network/planform/split_confluences.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
@@ -46,11 +51,8 @@ std::vector<std::string> files_left_in(std::string const& folder) {
 }
 
 double relief_m(Made const& t) {
-    if (!t.assessment.statistics) { // not yet measured
-        auto const heights = height_range(t.terrain.surface->dem);
-        return heights ? heights->second - heights->first : 0.0;
-    }
-    return t.assessment.statistics->max.z - t.assessment.statistics->min.z;
+    auto const heights = height_range(t.terrain.surface->dem);
+    return heights ? heights->second - heights->first : 0.0;
 }
 
 /// In the recipe's unit.
@@ -136,16 +138,28 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
     }
 }
 
-void write_water(Made const& t, io::OutputFolder const& out, Run const& run) {
-    if (t.assessment.catchments) {
-        auto const rows = catchment_rows(flow::reaches_of(t.terrain.rivers.network.planform),
-                                         t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
-        io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
-    }
-    if (t.assessment.water_areas) {
-        io::write_field(t.assessment.water_areas->d8, out.path("area_d8.tif"), run);
-        io::write_field(t.assessment.water_areas->dinf, out.path("area_dinf.tif"), run);
-    }
+void write_catchments(Made const& t, io::OutputFolder const& out, Run const& run) {
+    auto const rows = catchment_rows(flow::reaches_of(t.terrain.rivers.network.planform),
+                                     t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
+    io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
+}
+
+void write_areas(WaterAreas const& areas, io::OutputFolder const& out, Run const& run) {
+    io::write_field(areas.d8, out.path("area_d8.tif"), run);
+    io::write_field(areas.dinf, out.path("area_dinf.tif"), run);
+}
+
+void write_tin(Made const& t, io::OutputFolder const& out, Run const& run) {
+    HeightUnit const unit = t.recipe.output.units;
+    Tin const tin = in_unit(*t.terrain.tin, unit);
+    io::write_tin(tin, t.terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
+    io::write_tin(tin, t.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
+}
+
+void write_dem(Made const& t, io::OutputFolder const& out, Run const& run) {
+    HeightUnit const unit = t.recipe.output.units;
+    Raster<float> const& dem = t.terrain.surface->dem;
+    io::write_dem(unit == HeightUnit::metre ? dem : in_unit(dem, unit), out.path("dem.tif"), unit, run);
 }
 
 ElevatedNetwork const* network_of(Made const& t) {
@@ -156,55 +170,188 @@ NetworkOrders const* orders_of(Made const& t) {
     return t.recipe.network ? &t.terrain.rivers.orders : nullptr;
 }
 
-draw::Picture map_with(Made const& t, std::vector<io::ContourLine> const& contours, draw::MapParams const& map,
-                       Run const& run) {
+/// What several files of a terrain's surface need.
+class SurfaceParts {
+public:
+    explicit SurfaceParts(Made const& made) : made_(made) {}
+
+    /// In metres, for the map.
+    std::vector<io::ContourLine> const& contours(Run const& run) {
+        std::call_once(contours_made_,
+                       [&] { contours_ = io::contours(made_.terrain.surface->dem, contour_interval_m(made_), run); });
+        return contours_;
+    }
+    std::vector<Summit> const& summits(Run const& run) {
+        std::call_once(summits_made_,
+                       [&] { summits_ = pipeline::summits(made_.terrain.surface->dem, summits_named, run); });
+        return summits_;
+    }
+
+private:
+    Made const& made_;
+    std::once_flag contours_made_;
+    std::once_flag summits_made_;
+    std::vector<io::ContourLine> contours_;
+    std::vector<Summit> summits_;
+};
+
+draw::Picture map_with(Made const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
     Raster<float> const& dem = t.terrain.surface->dem;
     Raster<std::uint8_t> const shade = io::hillshade(dem);
     draw::MapSheet sheet{dem, shade, network_of(t), orders_of(t), {}, &t.terrain.ridges, t.terrain.areas.ds_area_m2};
-    for (auto const& [z, line] : contours) {
+    for (auto const& [z, line] : parts.contours(run)) {
         sheet.contours.emplace_back(z, line);
     }
     Mask const lakes = t.terrain.lakes > 0 ? lake_cells(t.terrain.channels) : Mask{};
     sheet.lakes = &lakes;
-    return draw_land(std::move(sheet), sea_of(t.terrain), map, run);
+    map.contour_interval_m = contour_interval_m(t);
+    return draw_land(std::move(sheet), sea_of(t.terrain), parts.summits(run), map);
 }
 
-void write_surface(Made const& t, std::string const& title, io::OutputFolder const& out, Run const& run) {
-    Raster<float> const& dem = t.terrain.surface->dem;
+void write_contours(Made const& t, SurfaceParts& parts, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
-    double const interval = contour_interval_m(t);
-    auto const contours = io::contours(dem, interval, run);
+    double const step = contour_interval(t);
+    auto const write = [&](std::vector<io::ContourLine> const& contours) {
+        io::write_contours(contours, step, t.terrain.grid.crs, out.path("contours.gpkg"), unit, run);
+    };
     if (unit == HeightUnit::metre) {
-        io::write_dem(dem, out.path("dem.tif"), run);
-        io::write_contours(contours, interval, t.terrain.grid.crs, out.path("contours.gpkg"), run);
+        write(parts.contours(run));
     } else {
-        Raster<float> const converted = in_unit(dem, unit);
-        double const step = contour_interval(t);
-        io::write_dem(converted, out.path("dem.tif"), unit, run);
-        io::write_contours(io::contours(converted, step, run), step, t.terrain.grid.crs, out.path("contours.gpkg"),
-                           unit, run);
+        write(io::contours(in_unit(t.terrain.surface->dem, unit), step, run));
     }
+}
 
-    draw::MapParams map;
-    map.title = title;
-    map.contour_interval_m = interval;
-    io::write_text(out.path("map.png"), map_with(t, contours, map, run).bytes);
-    ElevatedNetwork const* const network = network_of(t);
-    NetworkOrders const* const orders = orders_of(t);
-    if (!t.terrain.surface->increments.empty()) {
-        io::write_text(
-            out.path("curve.svg"),
-            draw::curve(t.terrain.surface->increments, {t.recipe.surface->dilate.increment.increment}).bytes);
-    }
-    draw::WireframeScene const land{dem, network, orders};
+draw::Picture curve_of(Made const& t) {
+    return draw::curve(t.terrain.surface->increments, {t.recipe.surface->dilate.increment.increment});
+}
+
+draw::Picture wireframe_of(Made const& t, std::string const& title) {
+    draw::WireframeScene const land{t.terrain.surface->dem, network_of(t), orders_of(t)};
     draw::WireframeParams wireframe;
     wireframe.title = title;
     wireframe.azimuth_deg = draw::azimuth_up_valley(land);
-    io::write_text(out.path("wireframe.svg"), draw::wireframe(land, wireframe).bytes);
+    return draw::wireframe(land, wireframe);
+}
+
+draw::Picture sections_of(Made const& t, std::string const& title) {
     draw::SectionsParams sections;
     sections.title = title;
-    io::write_text(out.path("sections.svg"), draw::sections(dem, network, orders, sections).bytes);
+    return draw::sections(t.terrain.surface->dem, network_of(t), orders_of(t), sections);
 }
+
+draw::Picture profile_of(Made const& t, std::string const& title) {
+    draw::ProfileParams profile;
+    profile.title = title;
+    return draw::profile(t.terrain.rivers.network, t.terrain.rivers.orders, profile);
+}
+
+/// Writes the folder of a terrain, each group of files beside the others and beside the work of the caller.
+class FolderWriter {
+public:
+    /// \param made outlives this object
+    FolderWriter(Made const& made, std::string const& folder, io::Existing existing, Run const& run)
+        : made_(made), out_(folder, existing, files_left_in(folder)), run_(run), title_(title_of(made.recipe)),
+          recipe_(keep_inputs(made.recipe, out_)), parts_(made), jobs_(run, "write") {}
+
+    /// Begins with the files that need no assessment.
+    void begin() {
+        if (made_.terrain.surface) {
+            begin_surface();
+        }
+        if (made_.recipe.network && writes(OutputFiles::pictures)) {
+            add_picture("write_profile", "profile.svg", [this] { return profile_of(made_, title_); });
+        }
+        if (made_.terrain.tin && made_.recipe.skeleton && made_.recipe.skeleton->tin && writes(OutputFiles::tin)) {
+            add("write_tin", [this](Run const& run) { write_tin(made_, out_, run); });
+        }
+    }
+
+    /// Writes the others.
+    /// \return the names of the files, report.json last
+    std::vector<std::string> finish() {
+        if (made_.recipe.network && writes(OutputFiles::network)) {
+            add("write_network", [this](Run const& run) { write_network(made_, out_, run); });
+        }
+        std::string const recipe_toml = write_recipe(recipe_);
+        if (writes(OutputFiles::page)) {
+            add("write_page", [this, &recipe_toml](Run const& run) {
+                PageParams params = page_params_of(made_, recipe_toml);
+                if (made_.terrain.surface) {
+                    params.summits = parts_.summits(run);
+                }
+                io::write_text(out_.path("report.html"), page(made_, params, run));
+            });
+        }
+        if (made_.assessment.catchments && writes(OutputFiles::catchments)) {
+            add("write_catchments", [this](Run const& run) { write_catchments(made_, out_, run); });
+        }
+        if (made_.assessment.water_areas && writes(OutputFiles::areas)) {
+            add("write_areas", [this](Run const& run) { write_areas(*made_.assessment.water_areas, out_, run); });
+        }
+        jobs_.wait();
+        if (writes(OutputFiles::qgis)) {
+            add("write_qgis", [this](Run const& /*run*/) { write_qgis_files(made_, title_, out_); });
+            jobs_.wait();
+        }
+        io::write_text(out_.path("recipe.toml"), recipe_toml);
+        std::vector<std::string> files = out_.files();
+        files.emplace_back("report.json");
+        io::write_text(out_.path("report.json"), write_report(made_, files, {times_.begin(), times_.end()}));
+        run_.at(1.0, "write");
+        out_.commit();
+        return files;
+    }
+
+private:
+    bool writes(OutputFiles files) const { return made_.recipe.output.has(files); }
+
+    void begin_surface() {
+        if (writes(OutputFiles::pictures)) {
+            add("write_map", [this](Run const& run) {
+                draw::MapParams map;
+                map.title = title_;
+                io::write_text(out_.path("map.png"), map_with(made_, parts_, map, run).bytes);
+            });
+        }
+        if (writes(OutputFiles::dem)) {
+            add("write_dem", [this](Run const& run) { write_dem(made_, out_, run); });
+        }
+        if (writes(OutputFiles::contours)) {
+            add("write_contours", [this](Run const& run) { write_contours(made_, parts_, out_, run); });
+        }
+        if (writes(OutputFiles::pictures)) {
+            if (!made_.terrain.surface->increments.empty()) {
+                add_picture("write_curve", "curve.svg", [this] { return curve_of(made_); });
+            }
+            add_picture("write_wireframe", "wireframe.svg", [this] { return wireframe_of(made_, title_); });
+            add_picture("write_sections", "sections.svg", [this] { return sections_of(made_, title_); });
+        }
+    }
+
+    /// Adds a job that is a stage.
+    void add(char const* stage, Beside::Job work) {
+        jobs_.add([stage, work = std::move(work), &time = times_.emplace_back()](Run const& run) {
+            Stopwatch const stopwatch;
+            work(run);
+            time = stopwatch.time_of(stage);
+        });
+    }
+
+    void add_picture(char const* stage, char const* name, std::function<draw::Picture()> drawn) {
+        add(stage, [this, name, drawn = std::move(drawn)](Run const& /*run*/) {
+            io::write_text(out_.path(name), drawn().bytes);
+        });
+    }
+
+    Made const& made_;
+    io::OutputFolder out_;
+    Run const& run_;
+    std::string const title_;
+    Recipe const recipe_; ///< with the names of the copies of its files
+    SurfaceParts parts_;
+    std::deque<StageTime> times_; ///< of the jobs, in their order
+    Beside jobs_;                 ///< the last member: it uses all others
+};
 
 } // namespace
 
@@ -217,12 +364,11 @@ void write_rivers(Made const& made, std::string const& path, Run const& run) {
 draw::Picture draw_map(Made const& made, DrawMapParams const& params, Run const& run) {
     refuse_if<BadInput>(!made.terrain.surface,
                         "pipeline.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
-    double const interval = contour_interval_m(made);
     draw::MapParams map;
     map.title = params.title.value_or(title_of(made.recipe));
-    map.contour_interval_m = interval;
     map.width_px = params.width_px;
-    return map_with(made, io::contours(made.terrain.surface->dem, interval, run), map, run);
+    SurfaceParts parts(made);
+    return map_with(made, parts, map, run);
 }
 
 void check_folder(std::string const& folder, io::Existing existing) {
@@ -231,41 +377,23 @@ void check_folder(std::string const& folder, io::Existing existing) {
 
 std::vector<std::string> write_terrain(Made const& made, std::string const& folder, io::Existing existing,
                                        Run const& run) {
-    io::OutputFolder out(folder, existing, files_left_in(folder));
-    run.at(0.0, "write");
-    Recipe const recipe = keep_inputs(made.recipe, out);
-    if (made.recipe.network) {
-        write_network(made, out, run);
-    }
-    if (made.terrain.tin && made.recipe.skeleton && made.recipe.skeleton->tin) {
-        HeightUnit const unit = made.recipe.output.units;
-        Tin const tin = in_unit(*made.terrain.tin, unit);
-        io::write_tin(tin, made.terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
-        io::write_tin(tin, made.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
-    }
-    run.at(0.3, "write");
-    std::string const title = title_of(made.recipe);
-    if (made.terrain.surface) {
-        write_surface(made, title, out, run);
-        write_water(made, out, run);
-    }
-    if (made.recipe.network) {
-        draw::ProfileParams profile;
-        profile.title = title;
-        io::write_text(out.path("profile.svg"),
-                       draw::profile(made.terrain.rivers.network, made.terrain.rivers.orders, profile).bytes);
-    }
-    write_qgis_files(made, title, out);
-    std::string const recipe_toml = write_recipe(recipe);
-    io::write_text(out.path("recipe.toml"), recipe_toml);
-    io::write_text(out.path("report.html"), page(made, page_params_of(made, recipe_toml), run));
-    run.at(0.9, "write");
-    std::vector<std::string> files = out.files();
-    files.emplace_back("report.json");
-    io::write_text(out.path("report.json"), write_report(made, files));
-    run.at(1.0, "write");
-    out.commit();
-    return files;
+    FolderWriter writer(made, folder, existing, run);
+    writer.begin();
+    return writer.finish();
+}
+
+Made make_folder(Recipe const& recipe, std::string const& folder, io::Existing existing, Run const& run) {
+    check_folder(folder, existing);
+    Made made;
+    made.plan = resolve(recipe, run);
+    made.planform = make_planform(made.plan, run);
+    made.terrain = make_terrain(made.plan, made.planform, run);
+    made.recipe = recipe_of(made.plan, made.terrain);
+    FolderWriter writer(made, folder, existing, run);
+    writer.begin();
+    made.assessment = assess(made.plan, made.planform, made.terrain, run);
+    writer.finish();
+    return made;
 }
 
 } // namespace thalweg::pipeline

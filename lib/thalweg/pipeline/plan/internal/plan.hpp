@@ -18,6 +18,19 @@
 
 namespace thalweg::pipeline {
 
+/// Measures what work of this thread takes.
+class Stopwatch {
+public:
+    StageTime time_of(char const* stage) const {
+        std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin_;
+        return {stage, taken.count(), cpu_seconds() - cpu_begin_s_};
+    }
+
+private:
+    std::chrono::steady_clock::time_point begin_ = std::chrono::steady_clock::now();
+    double cpu_begin_s_ = cpu_seconds();
+};
+
 /// Times the stages and logs a line for each.
 class StageLog {
 public:
@@ -25,10 +38,9 @@ public:
 
     template <class Stage> auto stage(char const* name, Stage&& work) {
         run_.at(0.0, name);
-        auto const begin = std::chrono::steady_clock::now();
+        Stopwatch const stopwatch;
         auto result = work();
-        std::chrono::duration<double> const taken = std::chrono::steady_clock::now() - begin;
-        timings_s_.emplace_back(name, taken.count());
+        timings_s_.push_back(stopwatch.time_of(name));
         run_.at(1.0, name);
         return result;
     }
@@ -70,6 +82,12 @@ bool needs_tin(Recipe const& recipe);
 
 /// Whether the terrain is conditioned hydrologically.
 bool conditions_dem(Recipe const& recipe);
+
+/// Whether the catchments of the arcs are found.
+bool finds_catchments(Recipe const& recipe);
+
+/// Whether contributing areas are measured by cell.
+bool measures_areas(Recipe const& recipe);
 
 /// Whether the terrain's own side valleys become arcs.
 bool adds_side_valleys(Recipe const& recipe);

@@ -25,7 +25,8 @@ namespace thalweg::pipeline {
 using Pair = std::array<double, 2>;
 using Triple = std::array<double, 3>;
 using Quad = std::array<double, 4>;
-using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple, Quad>;
+using WordList = std::vector<std::string>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple, Quad, WordList>;
 
 /// A value as TOML writes it.
 std::string toml_text(Value const& value);
@@ -56,11 +57,24 @@ template <class E> Enumeration choice(std::optional<E>& field) {
 }
 
 using Field = std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, std::optional<double>*,
-                           std::optional<Pair>*, std::optional<Triple>*, std::optional<Quad>*, Enumeration>;
+                           std::optional<Pair>*, std::optional<Triple>*, std::optional<Quad>*, Enumeration,
+                           std::optional<std::vector<OutputFiles>>*>;
 
 // Rows of the table.
 
-enum class KeyKind : std::uint8_t { yes_no, integer, number, pair, triple, quad, text, file, word, integer_or_word };
+enum class KeyKind : std::uint8_t {
+    yes_no,
+    integer,
+    number,
+    pair,
+    triple,
+    quad,
+    text,
+    file,
+    word,
+    integer_or_word,
+    words
+};
 
 inline constexpr bool left_open = true; ///< of a Range
 inline constexpr double endless = 9.0e15;

@@ -26,9 +26,10 @@ struct PageParams {
     std::vector<std::string> notes = {};                       ///< additional ones
     std::optional<Sea> sea = {};                               ///< cells without a height are the sea
     Mask lakes = {};                                           ///< on the grid; without cells: none
+    std::vector<Summit> summits = {};                          ///< that it names
 };
 
-/// What the page of a terrain shows beside it.
+/// What the page of a terrain shows beside it, without summits.
 /// \param recipe its text
 PageParams page_params_of(Made const& made, std::string recipe);
 
@@ -126,7 +127,7 @@ std::string fill_page(std::string_view page, PageParts const& parts);
 /// \param heights,lines as on the page; lines are the arcs by number, then the ridges
 /// \return one line of JSON without '<'
 std::string page_data(Made const& made, PageParams const& params, std::optional<PageHeights> const& heights,
-                      PageLines const& lines, Run const& run = {});
+                      PageLines const& lines);
 
 /// Makes the report page of a scene: any DEM, with or without rivers, measured and routed.
 /// \param scene with a DEM
