@@ -72,15 +72,14 @@ TEST(ParallelRanges, stops_when_asked) {
 namespace beside_test {
 
 using thalweg::Beside;
-using thalweg::Run;
 
 TEST(Beside, runs_every_job_once) {
     for (int const threads : {1, 2, 4}) {
-        Run const run = test::on_threads(threads);
+        thalweg::Run const run = test::on_threads(threads);
         std::vector<std::atomic<int>> seen(20);
         Beside jobs(run, "write");
         for (std::size_t i = 0; i < seen.size(); ++i) {
-            jobs.add([&seen, i](Run const& of_job) {
+            jobs.add([&seen, i](thalweg::Run const& of_job) {
                 EXPECT_EQ(of_job.threads, 1);
                 ++seen[i];
             });
@@ -94,11 +93,11 @@ TEST(Beside, runs_every_job_once) {
 // Whatever the number of threads, the error is that of the job which fails when they run one after another.
 TEST(Beside, throws_what_the_first_job_that_fails_has_thrown) {
     for (int const threads : {1, 2, 4}) {
-        Run const run = test::on_threads(threads);
+        thalweg::Run const run = test::on_threads(threads);
         auto const all = [&] {
             Beside jobs(run, "write");
             for (int i = 0; i < 8; ++i) {
-                jobs.add([i](Run const&) {
+                jobs.add([i](thalweg::Run const&) {
                     if (i == 2 || i == 3) {
                         std::this_thread::sleep_for(std::chrono::milliseconds(i == 2 ? 20 : 0));
                         throw thalweg::IoError("job " + std::to_string(i));
@@ -114,11 +113,11 @@ TEST(Beside, throws_what_the_first_job_that_fails_has_thrown) {
 TEST(Beside, stops_with_the_run_and_when_it_ends) {
     for (int const threads : {1, 2}) {
         std::stop_source source;
-        Run run = test::on_threads(threads);
+        thalweg::Run run = test::on_threads(threads);
         run.stop = source.get_token();
         auto const all = [&] {
             Beside jobs(run, "write");
-            jobs.add([&source](Run const& of_job) {
+            jobs.add([&source](thalweg::Run const& of_job) {
                 source.request_stop();
                 of_job.check();
             });
@@ -127,11 +126,11 @@ TEST(Beside, stops_with_the_run_and_when_it_ends) {
         EXPECT_THROW(all(), thalweg::Cancelled);
     }
     std::atomic<bool> is_stopped = false;
-    Run const run = test::on_threads(2);
+    thalweg::Run const run = test::on_threads(2);
     {
         Beside jobs(run, "write");
         std::atomic<bool> is_running = false;
-        jobs.add([&](Run const& of_job) {
+        jobs.add([&](thalweg::Run const& of_job) {
             is_running = true;
             while (!of_job.stop.stop_requested()) {
                 std::this_thread::yield();
@@ -146,7 +145,7 @@ TEST(Beside, stops_with_the_run_and_when_it_ends) {
 }
 
 TEST(CpuSeconds, counts_the_workers_of_parallel_ranges) {
-    Run const run = test::on_threads(4);
+    thalweg::Run const run = test::on_threads(4);
     double const begin_s = thalweg::cpu_seconds();
     thalweg::parallel_ranges(run, 4, 1, [](std::int64_t, std::int64_t) {
         double const before_s = thalweg::cpu_seconds();

@@ -113,7 +113,7 @@ TEST(MakeFolder, LeavesNothingWhenItIsStoppedWhileItWrites) {
     ScratchFolder const scratch;
     Recipe const recipe = recipe_of_text(rivers_of + "[surface]\n");
     for (int const threads : {1, 3}) {
-        Run run = test::on_threads(threads);
+        thalweg::Run run = test::on_threads(threads);
         run.progress = [](double, char const* what, void*) { return std::string(what) == "write" ? 0 : 1; };
         EXPECT_THROW(make_folder(recipe, scratch / "out", io::Existing::refuse, run), Cancelled);
         EXPECT_EQ(scratch.entries(), 0);
@@ -132,16 +132,18 @@ TEST(OutputFiles, AreThoseThatAreAskedFor) {
                                         "network_arcs.dbf", "network_arcs.prj", "network_arcs.shp", "network_arcs.shx",
                                         "network_nodes.cpg", "network_nodes.dbf", "network_nodes.prj",
                                         "network_nodes.shp", "network_nodes.shx", "recipe.toml", "report.json"}));
-    EXPECT_TRUE(test::has(test::bytes_of(scratch / "two/recipe.toml"), "files = [ \"dem\", \"network\" ]"));
+    EXPECT_TRUE(test::has(test::bytes_of(scratch / "two/recipe.toml"), "files = [ 'dem', 'network' ]"));
     set_key(recipe, "output.files=areas, qgis, page");
     make_folder(recipe, scratch / "three");
     EXPECT_EQ(files_in(scratch / "three"),
               (std::vector<std::string>{"area_d8.qml", "area_d8.tif", "area_dinf.qml", "area_dinf.tif", "project.qgz",
                                         "recipe.toml", "report.html", "report.json"}));
+    set_key(recipe, "output.files=tin");
+    EXPECT_TRUE(test::has(test::message_of([&] { check_recipe(recipe); }), "skeleton.tin = true"));
     unset_key(recipe, "output.files");
     EXPECT_FALSE(test::has(write_recipe(recipe), "files"));
     EXPECT_TRUE(test::has(test::message_of([&] { set_key(recipe, "output.files=dem,netwrk"); }),
-                          "\"netwrk\" is not one of its values. Did you mean 'network'?"));
+                          "'netwrk' is not one of its values. Did you mean 'network'?"));
     for (std::string const wrong : {"[]", "7", "[1, 2]", "[\"dem\", 2]", "\"\""}) {
         EXPECT_THROW(recipe_of_text(rivers_of + "[output]\nfiles = " + wrong + "\n"), BadParameter) << wrong;
     }

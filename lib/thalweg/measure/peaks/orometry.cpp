@@ -5,6 +5,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
+#include <cstdint>
+#include <limits>
 #include <tuple>
 #include <unordered_map>
 #include <vector>
@@ -29,21 +31,48 @@ bool is_higher(Raster<float> const& dem, std::int64_t a, std::int64_t b) {
     return dem[a] > dem[b] || (dem[a] == dem[b] && a < b);
 }
 
-/// -1: no neighbour is higher.
-std::int64_t highest_neighbour(Raster<float> const& dem, std::int64_t cell) {
-    Cell const at = dem.grid().at(cell);
-    std::int64_t highest = cell;
-    for (Cell const step : d8_steps) {
-        Cell const there{at.col + step.col, at.row + step.row};
-        if (dem.grid().contains(there) && !std::isnan(dem[there]) && is_higher(dem, dem.grid().index(there), highest)) {
-            highest = dem.grid().index(there);
+/// The cell itself and its neighbours in the order of their numbers, so that the first of equal heights wins.
+constexpr std::array<Cell, 9> square_of_nine = {
+    {{-1, -1}, {0, -1}, {1, -1}, {-1, 0}, {0, 0}, {1, 0}, {-1, 1}, {0, 1}, {1, 1}}};
+constexpr std::size_t itself = 4;
+
+/// By cell the place in square_of_nine of the highest cell.
+Raster<std::uint8_t> highest_around(Raster<float> const& dem, Run const& run) {
+    Raster<std::uint8_t> found(dem.grid());
+    auto const width = static_cast<std::size_t>(dem.width());
+    constexpr float nothing = std::numeric_limits<float>::quiet_NaN();
+    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+        std::vector<float> row(width + 2, nothing); // a cell beyond either end
+        std::vector<float> highest(width);
+        std::vector<std::int32_t> place(width);
+        for (std::int64_t r = begin; r < end; ++r) {
+            std::ranges::fill(highest, -std::numeric_limits<float>::infinity());
+            std::ranges::fill(place, static_cast<std::int32_t>(itself));
+            for (std::size_t k = 0; k < square_of_nine.size(); ++k) {
+                std::int64_t const there = r + square_of_nine[k].row;
+                if (there < 0 || there >= dem.height()) {
+                    continue;
+                }
+                if (k % 3 == 0) {
+                    std::ranges::copy(dem.row(there), row.begin() + 1);
+                }
+                float const* const z = row.data() + k % 3;
+                auto const number = static_cast<std::int32_t>(k);
+                for (std::size_t c = 0; c < width; ++c) {
+                    bool const wins = z[c] > highest[c]; // false for NaN
+                    highest[c] = wins ? z[c] : highest[c];
+                    place[c] = wins ? number : place[c];
+                }
+            }
+            std::ranges::transform(place, found.row(r).begin(), [](int k) { return static_cast<std::uint8_t>(k); });
         }
-    }
-    return highest == cell ? -1 : highest;
+    });
+    return found;
 }
 
 Summits climb(Raster<float> const& dem, Run const& run) {
     Summits found{Raster<PeakIndex>(dem.grid(), no_peak), {}};
+    Raster<std::uint8_t> const highest = highest_around(dem, run);
     std::vector<std::int64_t> way;
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         if (i % cells_between_checks == 0) {
@@ -56,13 +85,13 @@ Summits climb(Raster<float> const& dem, Run const& run) {
         std::int64_t top = i;
         while (found.of[top] == no_peak) {
             way.push_back(top);
-            std::int64_t const next = highest_neighbour(dem, top);
-            if (next < 0) {
+            std::size_t const next = highest[top];
+            if (next == itself) {
                 found.of[top] = static_cast<std::int32_t>(found.cell.size());
                 found.cell.push_back(top);
                 break;
             }
-            top = next;
+            top += square_of_nine[next].row * dem.width() + square_of_nine[next].col;
         }
         for (std::int64_t const cell : way) {
             found.of[cell] = found.of[top];

@@ -253,6 +253,13 @@ void check_patches(Recipe const& recipe, Faults& faults) {
            "[[patch]] needs [surface]: there is no surface to paste into");
 }
 
+void check_output(OutputRecipe const& output, bool makes_tin, Faults& faults) {
+    add_if(output.files && output.has(OutputFiles::areas) && !output.accumulation, faults,
+           "output.files names areas, which are measured with output.accumulation = true");
+    add_if(output.files && output.has(OutputFiles::tin) && !makes_tin, faults,
+           "output.files names tin, which is written with skeleton.tin = true");
+}
+
 void check_frame(Recipe const& recipe, Faults& faults) {
     add_if((recipe.grid.width > 0) != (recipe.grid.height > 0), faults,
            "grid.width and grid.height go together: give both or neither");
@@ -302,6 +309,7 @@ void check_recipe(Recipe const& recipe) {
     check_raster(recipe, faults);
     check_patches(recipe, faults);
     check_frame(recipe, faults);
+    check_output(recipe.output, recipe.skeleton && recipe.skeleton->tin, faults);
     check_use(recipe, faults);
     check_cells_of_detail(recipe, faults);
     if (!faults.empty()) {
