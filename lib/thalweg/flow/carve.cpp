@@ -34,11 +34,9 @@ class Carver {
 public:
     Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, int heights,
            Run const& run)
-        : heights_(heights), land_(framed(dem)), level_(land_), rivers_(framed(valley)), least_(framed(least)),
-          run_(run), offsets_(d8_offsets(land_.grid())), seen_(land_.grid()), cost_(land_.grid()),
-          height_(land_.grid()), back_(land_.grid()) {
-        flood(level_, rivers_, Lakes::level, run_);
-    }
+        : heights_(heights), land_(framed(dem)), level_(framed(flooded(dem, valley, Lakes::level, run))),
+          rivers_(framed(valley)), least_(framed(least)), run_(run), offsets_(d8_offsets(land_.grid())),
+          seen_(land_.grid()), cost_(land_.grid()), height_(land_.grid()), back_(land_.grid()) {}
 
     /// Breaches depressions where that is cheaper than filling.
     /// \return the terrain; remaining depressions are still to be filled
@@ -328,8 +326,7 @@ Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, 
             break;
         }
         Raster<float> cut = Carver(dem, valley.z, least, heights, run).cut();
-        flood(cut, framed(valley.z), Lakes::slope, run);
-        Raster<float> drained = unframed(cut, dem.grid());
+        Raster<float> drained = flooded(unframed(cut, dem.grid()), valley.z, Lakes::slope, run);
         double const volume = change_between(dem, drained).volume_m3();
         if (!best || volume < moved) {
             best = std::move(drained);
@@ -340,11 +337,11 @@ Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, 
 }
 
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
-    check_drainable(dem, valley);
+    check_drainable(dem, valley, run);
     refuse_if<BadInput>(least.grid() != dem.grid(),
                         "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
                         least.width(), least.height(), dem.width(), dem.height());
-    return drains(dem, valley.z, run) ? dem : carve_depressions(dem, valley, least, run);
+    return undrained_cells(dem, valley.z, run).empty() ? dem : carve_depressions(dem, valley, least, run);
 }
 
 } // namespace thalweg::flow

@@ -53,8 +53,7 @@ bool contains(Sinks const& sinks, std::int64_t cell) {
 /// \return by cell: direction towards the cell from which the flood reached it
 Raster<Direction> raise_to_spill(Raster<float>& level, Sinks const& sinks, Run const& run) {
     auto const is_sink = [&](std::int64_t i) { return contains(sinks, i); };
-    return priority_flood(
-        level, is_sink, [](float z) { return z; }, "drain", run);
+    return priority_flood(level, is_sink, "drain", run);
 }
 
 /// Directs cells with a lower neighbour to the steepest one. The other cells keep the flood's direction. There is no
