@@ -59,10 +59,13 @@ float rounded_up(double z) {
     return static_cast<double>(near) < z ? just_above(near) : near;
 }
 
-/// Calls visit(cell, least) for each cell of land beside a river cell: the least height [m] that keeps that cell's
-/// water in the river.
+enum class Banked : std::uint8_t { all, too_low };
+
+/// Calls visit(cell, least) for each cell of land, or each that is too low, beside a river cell: the least height [m]
+/// that keeps that cell's water in the river.
 template <class Visit>
-void each_bank(Raster<float> const& dem, Raster<float> const& valley, double margin_m, Run const& run, Visit visit) {
+void each_bank(Banked banks, Raster<float> const& dem, Raster<float> const& valley, double margin_m, Run const& run,
+               Visit visit) {
     Grid const& grid = dem.grid();
     auto const offsets = d8_offsets(grid);
     constexpr float no_bank = std::numeric_limits<float>::infinity();
@@ -94,7 +97,9 @@ void each_bank(Raster<float> const& dem, Raster<float> const& valley, double mar
             least[k] = std::max(rounded_up(bank + margin_m), just_above(static_cast<float>(bank)));
         }
         for (std::size_t k = 0; k < river.size(); ++k) {
-            if (std::isnan(river[k]) && !std::isnan(dem[i + offsets[k]])) {
+            float const z = dem[i + (std::isnan(river[k]) ? offsets[k] : 0)];
+            bool const is_asked = banks == Banked::all ? !std::isnan(z) : z < least[k % 2];
+            if (std::isnan(river[k]) & is_asked) { // one jump, which can be foreseen
                 visit(i + offsets[k], least[k % 2]);
             }
         }
@@ -104,7 +109,7 @@ void each_bank(Raster<float> const& dem, Raster<float> const& valley, double mar
             run.check();
         }
         auto const row = valley.row(r);
-        constexpr std::size_t together = 64; // most land is far from rivers
+        constexpr std::size_t together = 16; // most land is far from rivers
         for (std::size_t begin = 0; begin < row.size(); begin += together) {
             std::size_t const end = std::min(begin + together, row.size());
             int any = 0;
@@ -130,7 +135,7 @@ Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBank
                         "flow.confine_channels: the valley has {} x {} cells, the land {} x {}; make both on one grid",
                         valley.z.width(), valley.z.height(), grid.width, grid.height);
     Banks banks{dem, Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
-    each_bank(dem, valley.z, params.margin_m, run, [&](CellIndex i, float least) {
+    each_bank(Banked::all, dem, valley.z, params.margin_m, run, [&](CellIndex i, float least) {
         if (!(banks.least[i] >= least)) {
             banks.least[i] = least;
             banks.dem[i] = std::max(banks.dem[i], least);
@@ -209,11 +214,9 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
     check_drainable(dem, valley, run);
     double const margin_m = RaiseBanksParams{}.margin_m;
     std::vector<HeightBefore> raised;
-    each_bank(dem, valley.z, margin_m, run, [&](CellIndex i, float least) {
-        if (dem[i] < least) {
-            raised.push_back({i, dem[i]});
-            dem[i] = least;
-        }
+    each_bank(Banked::too_low, dem, valley.z, margin_m, run, [&](CellIndex i, float least) {
+        raised.push_back({i, dem[i]});
+        dem[i] = least;
     });
     out.banks = change_of(std::move(raised), dem);
     if (undrained_cells(dem, valley.z, run).empty()) {
@@ -224,7 +227,7 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
         out.dem = flooded(dem, valley.z, Lakes::slope, run);
     } else {
         Raster<float> least(dem.grid(), std::numeric_limits<float>::quiet_NaN());
-        each_bank(dem, valley.z, margin_m, run,
+        each_bank(Banked::all, dem, valley.z, margin_m, run,
                   [&](CellIndex i, float z) { least[i] = std::isnan(least[i]) ? z : std::max(least[i], z); });
         out.dem = carve_depressions(dem, valley, least, run);
     }
