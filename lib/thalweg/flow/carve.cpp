@@ -34,10 +34,16 @@ class Carver {
 public:
     Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, int heights,
            Run const& run)
-        : heights_(heights), land_(framed(dem)), level_(land_), rivers_(framed(valley)), least_(framed(least)),
-          run_(run), offsets_(d8_offsets(land_.grid())), seen_(land_.grid()), cost_(land_.grid()),
-          height_(land_.grid()), back_(land_.grid()) {
-        flood(level_, rivers_, Lakes::level, run_);
+        : heights_(heights), land_(framed(dem)), level_(framed(flooded(dem, valley, Lakes::level, run))),
+          least_(framed(least)), run_(run), offsets_(d8_offsets(land_.grid())), seen_(land_.grid()),
+          reached_(land_.grid()) {
+        for (std::int64_t r = 0; r < valley.height(); ++r) {
+            for (std::int64_t c = 0; c < valley.width(); ++c) {
+                if (Cell const inner{c, r}; !std::isnan(valley[inner])) {
+                    least_[Cell{c + 1, r + 1}] = uncuttable;
+                }
+            }
+        }
     }
 
     /// Breaches depressions where that is cheaper than filling.
@@ -69,6 +75,16 @@ public:
     }
 
 private:
+    static constexpr float uncuttable = std::numeric_limits<float>::infinity(); ///< the least height of a river cell
+
+    /// A cell that a search for a breach has reached.
+    struct Reached {
+        double cost = 0.0;
+        float height = 0.0F;                ///< to which the path through this cell is cut
+        std::uint32_t stamp = 0;            ///< of the last search that reached the cell
+        Direction back = Direction::leaves; ///< the step that reached the cell; leaves in the pit
+    };
+
     /// Values of a cell before a change, for undo.
     struct Was {
         std::int64_t cell;
@@ -169,10 +185,17 @@ private:
         return volume;
     }
 
-    /// Finds the starting height of the cheapest cut, between the pit's own height and the water level: where a river's
-    /// bank must not be cut, it is better to fill a pit below it up to the bank first.
-    std::optional<float> cheapest_cut(Lake const& lake, double full) {
-        std::optional<float> best;
+    /// A cut that drains a lake once it is filled up to a height.
+    struct Cut {
+        float from = 0.0F;
+        std::int64_t end = nowhere; ///< last cell to be cut
+        bool is_last = false;       ///< found by the last search
+    };
+
+    /// Finds the cheapest cut, which starts between the pit's own height and the water level: where a river's bank must
+    /// not be cut, it is better to fill a pit below it up to the bank first.
+    Cut cheapest_cut(Lake const& lake, double full) {
+        Cut best;
         float const bottom = land_[pit_of(lake)];
         double bound = full;
         for (int k = 0; k < heights_; ++k) {
@@ -184,9 +207,10 @@ private:
             }
             std::size_t const mark = changes_.size();
             raise_to(lake, from);
+            best.is_last = false;
             if (std::int64_t const end = find_breach(pit_of(lake), bound - filled); end != nowhere) {
-                best = from;
-                bound = filled + cost_[end];
+                best = {from, end, true};
+                bound = filled + reached_[end].cost;
             }
             take_back(mark);
         }
@@ -201,9 +225,9 @@ private:
             full += static_cast<double>(lake.level) - static_cast<double>(land_[i]);
         }
         std::size_t const mark = changes_.size();
-        if (auto const from = depth < deepest ? cheapest_cut(lake, full) : std::nullopt) {
-            double moved = raise_to(lake, *from);
-            moved += cut_back_from(find_breach(pit_of(lake), full));
+        if (Cut const cut = depth < deepest ? cheapest_cut(lake, full) : Cut{}; cut.end != nowhere) {
+            double moved = raise_to(lake, cut.from);
+            moved += cut_back_from(cut.is_last ? cut.end : find_breach(pit_of(lake), full));
             flood_again(lake.cells);
             for (Lake const& rest : lakes_among(lake.cells)) {
                 moved += drain(rest, depth + 1);
@@ -233,48 +257,36 @@ private:
         }
     }
 
-    bool leaves(std::int64_t i) const {
-        return std::any_of(offsets_.begin(), offsets_.end(),
-                           [&](std::int64_t step) { return std::isnan(land_[i + step]); });
-    }
-
     /// Finds the least-cost path from a pit to a cell that drains, if it costs less than the bound.
     /// \return the last cell to be cut
     std::int64_t find_breach(std::int64_t pit, double bound) {
         ++stamp_;
-        Lowest<double> queue;
-        seen_[pit] = stamp_;
-        cost_[pit] = 0.0;
-        height_[pit] = land_[pit];
-        back_[pit] = Direction::leaves;
-        queue.emplace(0.0, pit);
-        while (!queue.empty()) {
-            auto const [cost, i] = queue.top();
-            queue.pop();
-            if (cost > cost_[i]) {
+        queue_.clear();
+        reached_[pit] = {0.0, land_[pit], stamp_, Direction::leaves};
+        queue_.emplace_back(0.0, pit);
+        while (!queue_.empty()) {
+            std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
+            auto const [cost, i] = queue_.back();
+            queue_.pop_back();
+            if (cost > reached_[i].cost) {
                 continue;
             }
-            float const height = just_below(height_[i]);
-            bool done = leaves(i);
-            for (std::size_t k = 0; !done && k < offsets_.size(); ++k) {
-                std::int64_t const n = i + offsets_[k];
-                done = land_[n] <= height && level_[n] == land_[n];
-            }
-            if (done) {
-                return i;
-            }
+            float const height = just_below(reached_[i].height);
             for (std::size_t k = 0; k < offsets_.size(); ++k) {
                 std::int64_t const n = i + offsets_[k];
-                if (!std::isnan(rivers_[n]) || (least_[n] > height && land_[n] > height)) {
+                float const land = land_[n];
+                if (land <= height ? level_[n] == land : std::isnan(land)) {
+                    return i;
+                }
+                if (least_[n] > height && (land > height || least_[n] == uncuttable)) {
                     continue;
                 }
-                double const there = cost + std::max(0.0, static_cast<double>(land_[n]) - static_cast<double>(height));
-                if (there < bound && (seen_[n] != stamp_ || there < cost_[n])) {
-                    seen_[n] = stamp_;
-                    cost_[n] = there;
-                    height_[n] = height;
-                    back_[n] = direction_of(k);
-                    queue.emplace(there, n);
+                double const there = cost + std::max(0.0, static_cast<double>(land) - static_cast<double>(height));
+                Reached& reached = reached_[n];
+                if (there < bound && (reached.stamp != stamp_ || there < reached.cost)) {
+                    reached = {there, height, stamp_, direction_of(k)};
+                    queue_.emplace_back(there, n);
+                    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
                 }
             }
         }
@@ -285,11 +297,11 @@ private:
     /// \return volume moved [m times cells]
     double cut_back_from(std::int64_t end) {
         double moved = 0.0;
-        for (std::int64_t i = end;; i -= offsets_[index_of(back_[i])]) {
-            float const height = std::min(land_[i], height_[i]);
+        for (std::int64_t i = end;; i -= offsets_[index_of(reached_[i].back)]) {
+            float const height = std::min(land_[i], reached_[i].height);
             moved += static_cast<double>(land_[i]) - static_cast<double>(height);
             set(i, height, height);
-            if (!goes_on(back_[i])) {
+            if (!goes_on(reached_[i].back)) {
                 return moved;
             }
         }
@@ -301,16 +313,14 @@ private:
 
     Raster<float> land_;
     Raster<float> level_;
-    Raster<float> rivers_;
     Raster<float> least_;
     Run const& run_;
     std::array<std::int64_t, 8> offsets_;
     std::vector<Was> changes_;
     std::uint32_t stamp_ = 0;
     Raster<std::uint32_t> seen_; ///< stamp of the last search that reached the cell
-    Raster<double> cost_;        ///< of the last search
-    Raster<float> height_;       ///< to which the path through this cell is cut
-    Raster<Direction> back_;     ///< the step that reached the cell; leaves in the pit
+    Raster<Reached> reached_;
+    std::vector<std::pair<double, std::int64_t>> queue_; ///< of the last search, a heap by cost, then index
 };
 
 } // namespace
@@ -328,8 +338,7 @@ Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, 
             break;
         }
         Raster<float> cut = Carver(dem, valley.z, least, heights, run).cut();
-        flood(cut, framed(valley.z), Lakes::slope, run);
-        Raster<float> drained = unframed(cut, dem.grid());
+        Raster<float> drained = flooded(unframed(cut, dem.grid()), valley.z, Lakes::slope, run);
         double const volume = change_between(dem, drained).volume_m3();
         if (!best || volume < moved) {
             best = std::move(drained);
@@ -340,11 +349,11 @@ Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, 
 }
 
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
-    check_drainable(dem, valley);
+    check_drainable(dem, valley, run);
     refuse_if<BadInput>(least.grid() != dem.grid(),
                         "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
                         least.width(), least.height(), dem.width(), dem.height());
-    return drains(dem, valley.z, run) ? dem : carve_depressions(dem, valley, least, run);
+    return undrained_cells(dem, valley.z, run).empty() ? dem : carve_depressions(dem, valley, least, run);
 }
 
 } // namespace thalweg::flow

@@ -4,68 +4,39 @@
 
 #include <algorithm>
 #include <array>
+#include <atomic>
 #include <limits>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/internal/condition.hpp>
-#include <thalweg/flow/internal/priority_flood.hpp>
 
 namespace thalweg::flow {
 
-void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run const& run) {
-    auto const is_river = [&](std::int64_t i) { return !std::isnan(rivers[i]); };
-    auto const rise = [&](float z) { return lakes == Lakes::level ? z : just_above(z); };
-    priority_flood(land, is_river, rise, "carve", run);
-}
-
-bool drains(Raster<float> const& dem, Raster<float> const& rivers, Run const& run) {
-    if (dem.width() < 3) {
-        return true;
-    }
-    auto const width = static_cast<std::size_t>(dem.width());
-    std::array<std::vector<float>, 3> lows; // by row modulo 3: the lowest of a cell and those to its left and right
-    lows.fill(std::vector<float>(width));
-    std::vector<float> heights(width);
-    for (std::int64_t r = 0; r < dem.height(); ++r) {
-        if (r % 1024 == 0) {
-            run.check();
-        }
-        auto const row = dem.row(r);
-        for (std::size_t c = 0; c < width; ++c) {
-            heights[c] = std::isnan(row[c]) ? -std::numeric_limits<float>::infinity() : row[c]; // water leaves there
-        }
-        std::vector<float>& low = lows[static_cast<std::size_t>(r % 3)];
-        for (std::size_t c = 1; c + 1 < width; ++c) {
-            low[c] = std::min(std::min(heights[c - 1], heights[c + 1]), heights[c]);
-        }
-        if (r < 2) {
-            continue;
-        }
-        auto const here = dem.row(r - 1);
-        auto const river = rivers.row(r - 1);
-        bool all = true;
-        for (std::size_t c = 1; c + 1 < width; ++c) {
-            float const lowest = std::min(std::min(lows[0][c], lows[1][c]), lows[2][c]);
-            all &= just_above(lowest) <= here[c] || std::isnan(here[c]) || !std::isnan(river[c]);
-        }
-        if (!all) {
-            return false;
-        }
-    }
-    return true;
-}
-
-void check_drainable(Raster<float> const& dem, Valley const& valley) {
+void check_drainable(Raster<float> const& dem, Valley const& valley, Run const& run) {
     Grid const& grid = dem.grid();
     refuse_if<BadInput>(grid.cells() == 0, "flow.condition: the land has no cells");
     refuse_if<BadInput>(valley.z.grid() != grid,
                         "flow.condition: the valley has {} x {} cells, the land {} x {}; make both on one grid",
                         valley.z.width(), valley.z.height(), grid.width, grid.height);
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+    std::atomic<bool> all_fit = true;
+    parallel_ranges(run, grid.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
+        float const* const land = dem.values().data();
+        float const* const river = valley.z.values().data();
+        int misfits = 0;
+        for (std::int64_t i = begin; i < end; ++i) {
+            misfits |= static_cast<int>(std::isinf(land[i])) |
+                       (static_cast<int>(std::isnan(land[i])) & static_cast<int>(!std::isnan(river[i])));
+        }
+        if (misfits != 0) {
+            all_fit.store(false, std::memory_order_relaxed);
+        }
+    });
+    for (std::int64_t i = 0; !all_fit && i < grid.cells(); ++i) {
         if (std::isinf(dem[i]) || (std::isnan(dem[i]) && !std::isnan(valley.z[i]))) {
             Cell const cell = grid.at(i);
             throw BadInput(fmt::format("flow.condition: the height at column {}, row {} is {}", cell.col, cell.row,
@@ -76,41 +47,82 @@ void check_drainable(Raster<float> const& dem, Valley const& valley) {
 }
 
 Raster<float> fill(Raster<float> const& dem, Valley const& valley, Run const& run) {
-    check_drainable(dem, valley);
-    if (drains(dem, valley.z, run)) {
-        return dem;
-    }
-    Raster<float> level = framed(dem);
-    flood(level, framed(valley.z), Lakes::slope, run);
-    return unframed(level, dem.grid());
+    check_drainable(dem, valley, run);
+    return flooded(dem, valley.z, Lakes::slope, run);
 }
 
 namespace {
-
-/// The lower river neighbours of a river cell.
-struct Pull {
-    double slope = 0.0; ///< [m/cell] the steepest
-    double lowest = std::numeric_limits<double>::infinity();
-};
-
-Pull pull_at(Raster<float> const& valley, Cell at) {
-    Pull pull;
-    double const here = valley[at];
-    for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-        Cell const n{at.col + d8_steps[k].col, at.row + d8_steps[k].row};
-        if (valley.grid().contains(n) && valley[n] < valley[at]) { // never NaN
-            double const there = valley[n];
-            pull.slope = std::max(pull.slope, (here - there) * d8_per_length[k]);
-            pull.lowest = std::min(pull.lowest, there);
-        }
-    }
-    return pull;
-}
 
 /// The float at or next above a height.
 float rounded_up(double z) {
     auto const near = static_cast<float>(z);
     return static_cast<double>(near) < z ? just_above(near) : near;
+}
+
+enum class Banked : std::uint8_t { all, too_low };
+
+/// Calls visit(cell, least) for each cell of land, or each that is too low, beside a river cell: the least height [m]
+/// that keeps that cell's water in the river.
+template <class Visit>
+void each_bank(Banked banks, Raster<float> const& dem, Raster<float> const& valley, double margin_m, Run const& run,
+               Visit visit) {
+    Grid const& grid = dem.grid();
+    auto const offsets = d8_offsets(grid);
+    constexpr float no_bank = std::numeric_limits<float>::infinity();
+    auto const look_around = [&](Cell at) {
+        std::int64_t const i = grid.index(at);
+        float const here = valley[i];
+        std::array<float, 8> river{};
+        if (!grid.on_border(at)) {
+            for (std::size_t k = 0; k < river.size(); ++k) {
+                river[k] = valley[i + offsets[k]];
+            }
+        } else {
+            for (std::size_t k = 0; k < river.size(); ++k) {
+                Cell const n{at.col + d8_steps[k].col, at.row + d8_steps[k].row};
+                river[k] = grid.contains(n) ? valley[n] : no_bank;
+            }
+        }
+        double slope = 0.0; // [m/cell] the steepest to a lower river neighbour
+        float lowest = here;
+        for (std::size_t k = 0; k < river.size(); ++k) {
+            float const lower = river[k] < here ? river[k] : here; // never NaN
+            slope = std::max(slope, (static_cast<double>(here) - static_cast<double>(lower)) * d8_per_length[k]);
+            lowest = std::min(lowest, lower);
+        }
+        std::array<float, 2> least{}; // of direct and of diagonal neighbours
+        for (std::size_t k = 0; k < least.size(); ++k) {
+            double const bank =
+                slope > 0.0 ? std::max<double>(lowest, static_cast<double>(here) - slope / d8_per_length[k]) : here;
+            least[k] = std::max(rounded_up(bank + margin_m), just_above(static_cast<float>(bank)));
+        }
+        for (std::size_t k = 0; k < river.size(); ++k) {
+            float const z = dem[i + (std::isnan(river[k]) ? offsets[k] : 0)];
+            bool const is_asked = banks == Banked::all ? !std::isnan(z) : z < least[k % 2];
+            if (std::isnan(river[k]) & is_asked) { // one jump, which can be foreseen
+                visit(i + offsets[k], least[k % 2]);
+            }
+        }
+    };
+    for (std::int64_t r = 0; r < grid.height; ++r) {
+        if (r % 1024 == 0) {
+            run.check();
+        }
+        auto const row = valley.row(r);
+        constexpr std::size_t together = 16; // most land is far from rivers
+        for (std::size_t begin = 0; begin < row.size(); begin += together) {
+            std::size_t const end = std::min(begin + together, row.size());
+            int any = 0;
+            for (std::size_t c = begin; c < end; ++c) {
+                any |= static_cast<int>(!std::isnan(row[c]));
+            }
+            for (std::size_t c = begin; any != 0 && c < end; ++c) {
+                if (!std::isnan(row[c])) {
+                    look_around({static_cast<std::int64_t>(c), r});
+                }
+            }
+        }
+    }
 }
 
 } // namespace
@@ -123,29 +135,12 @@ Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBank
                         "flow.confine_channels: the valley has {} x {} cells, the land {} x {}; make both on one grid",
                         valley.z.width(), valley.z.height(), grid.width, grid.height);
     Banks banks{dem, Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (i % (1 << 20) == 0) {
-            run.check();
+    each_bank(Banked::all, dem, valley.z, params.margin_m, run, [&](CellIndex i, float least) {
+        if (!(banks.least[i] >= least)) {
+            banks.least[i] = least;
+            banks.dem[i] = std::max(banks.dem[i], least);
         }
-        if (std::isnan(valley.z[i])) {
-            continue;
-        }
-        Cell const at = grid.at(i);
-        double const here = valley.z[i];
-        Pull const pull = pull_at(valley.z, at);
-        for (std::size_t k = 0; k < d8_steps.size(); ++k) {
-            Cell const n{at.col + d8_steps[k].col, at.row + d8_steps[k].row};
-            if (!grid.contains(n) || std::isnan(dem[n]) || !std::isnan(valley.z[n])) {
-                continue;
-            }
-            double const bank = pull.slope > 0.0 ? std::max(pull.lowest, here - pull.slope / d8_per_length[k]) : here;
-            float const least = std::max(rounded_up(bank + params.margin_m), just_above(static_cast<float>(bank)));
-            if (!(banks.least[n] >= least)) {
-                banks.least[n] = least;
-                banks.dem[n] = std::max(banks.dem[n], least);
-            }
-        }
-    }
+    });
     return banks;
 }
 
@@ -175,18 +170,68 @@ DemChange change_between(Raster<float> const& before, Raster<float> const& after
     return change;
 }
 
+namespace {
+
+struct HeightBefore {
+    CellIndex cell = 0;
+    float z = 0.0F; ///< [m]
+};
+
+/// As change_between(), from a list of the cells that were raised; of several heights of a cell the lowest counts.
+DemChange change_of(std::vector<HeightBefore> raised, Raster<float> const& after) {
+    std::sort(raised.begin(), raised.end(), [](HeightBefore const& a, HeightBefore const& b) {
+        return a.cell != b.cell ? a.cell < b.cell : a.z < b.z;
+    });
+    DemChange change;
+    double const cell_m2 = after.grid().cell_m * after.grid().cell_m;
+    double raised_m = 0.0; // by row, as there
+    for (std::size_t k = 0; k < raised.size(); ++k) {
+        auto const [cell, z] = raised[k];
+        if (k > 0 && raised[k - 1].cell == cell) {
+            continue;
+        }
+        if (k > 0 && raised[k - 1].cell / after.width() != cell / after.width()) {
+            change.raised_m3 += raised_m * cell_m2;
+            raised_m = 0.0;
+        }
+        double const rise = static_cast<double>(after[cell]) - static_cast<double>(z);
+        ++change.raised_cells;
+        change.max_raise_m = std::max(change.max_raise_m, rise);
+        raised_m += rise;
+    }
+    change.raised_m3 += raised_m * cell_m2;
+    return change;
+}
+
+} // namespace
+
 ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParams const& params, Run const& run) {
     ConditionedDem out;
     if (params.method == Conditioning::none) {
         out.dem = std::move(dem);
         return out;
     }
-    check_drainable(dem, valley);
-    Banks const banks = confine_channels(dem, valley, {}, run);
-    out.dem =
-        params.method == Conditioning::fill ? fill(banks.dem, valley, run) : carve(banks.dem, valley, banks.least, run);
-    out.banks = change_between(dem, banks.dem);
-    out.depressions = change_between(banks.dem, out.dem);
+    check_drainable(dem, valley, run);
+    double const margin_m = RaiseBanksParams{}.margin_m;
+    std::vector<HeightBefore> raised;
+    each_bank(Banked::too_low, dem, valley.z, margin_m, run, [&](CellIndex i, float least) {
+        raised.push_back({i, dem[i]});
+        dem[i] = least;
+    });
+    out.banks = change_of(std::move(raised), dem);
+    if (undrained_cells(dem, valley.z, run).empty()) {
+        out.dem = std::move(dem);
+        return out;
+    }
+    if (params.method == Conditioning::fill) {
+        out.dem = flooded(dem, valley.z, Lakes::slope, run);
+    } else {
+        Raster<float> least(dem.grid(), std::numeric_limits<float>::quiet_NaN());
+        each_bank(Banked::all, dem, valley.z, margin_m, run,
+                  [&](CellIndex i, float z) { least[i] = std::isnan(least[i]) ? z : std::max(least[i], z); });
+        out.dem = carve_depressions(dem, valley, least, run);
+    }
+    out.depressions = change_between(dem, out.dem);
     return out;
 }
 

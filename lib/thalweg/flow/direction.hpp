@@ -83,9 +83,9 @@ template <class HeightOf> Descent steepest_descent(float here, HeightOf height_o
     Descent best;
     for (std::size_t k = 0; k < d8_steps.size(); ++k) {
         double const slope = (static_cast<double>(here) - static_cast<double>(height_of(k))) * d8_per_length[k];
-        if (slope > best.slope) { // never towards NaN
-            best = {direction_of(k), slope};
-        }
+        bool const better = slope > best.slope; // never towards NaN; by selection, as nobody can foresee it
+        best.direction = better ? direction_of(k) : best.direction;
+        best.slope = better ? slope : best.slope;
     }
     return best;
 }

@@ -19,11 +19,14 @@ namespace {
 // without donors as long as all donors have arrived. The directions must stay on the grid and form no cycle. Source:
 // Braun and Willett 2013.
 template <class Visit> void each_downstream(Raster<Direction> const& direction, Run const& run, Visit visit) {
-    constexpr std::int8_t done = -1;
-    Raster<std::int8_t> awaited(direction.grid()); // donors whose water has not arrived yet
+    constexpr std::uint8_t done = 255;
+    auto const offsets = d8_offsets(direction.grid());
+    Raster<std::uint8_t> awaited_by(direction.grid()); // donors whose water has not arrived yet
+    std::uint8_t* const awaited = awaited_by.values().data();
+    Direction const* const way = direction.values().data();
     for (std::int64_t i = 0; i < direction.cells(); ++i) {
-        if (std::int64_t const next = receiver(direction, i); next >= 0) {
-            ++awaited[next];
+        if (goes_on(way[i])) {
+            ++awaited[i + offsets[index_of(way[i])]];
         }
     }
     for (std::int64_t i = 0; i < direction.cells(); ++i) {
@@ -32,10 +35,10 @@ template <class Visit> void each_downstream(Raster<Direction> const& direction, 
         }
         for (std::int64_t at = i; awaited[at] == 0;) {
             awaited[at] = done;
-            std::int64_t const next = receiver(direction, at);
-            if (next < 0) {
+            if (!goes_on(way[at])) {
                 break;
             }
+            std::int64_t const next = at + offsets[index_of(way[at])];
             visit(at, next);
             --awaited[next];
             at = next;
@@ -53,8 +56,7 @@ bool contains(Sinks const& sinks, std::int64_t cell) {
 /// \return by cell: direction towards the cell from which the flood reached it
 Raster<Direction> raise_to_spill(Raster<float>& level, Sinks const& sinks, Run const& run) {
     auto const is_sink = [&](std::int64_t i) { return contains(sinks, i); };
-    return priority_flood(
-        level, is_sink, [](float z) { return z; }, "drain", run);
+    return priority_flood(level, is_sink, "drain", run);
 }
 
 /// Directs cells with a lower neighbour to the steepest one. The other cells keep the flood's direction. There is no

@@ -4,6 +4,7 @@
 
 #include <bit>
 #include <cstdint>
+#include <vector>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -31,20 +32,26 @@ inline float just_below(float z) {
 
 enum class Lakes : std::uint8_t { level, slope };
 
-/// Fills a framed DEM up to the water level of its lakes, level or sloping by small steps towards their outlets. Water
-/// leaves at the border, into no data and into river cells (those with a height in the framed valley).
-void flood(Raster<float>& land, Raster<float> const& rivers, Lakes lakes, Run const& run);
-
-/// Tells, by one look at each cell, whether flood() with sloping lakes would change nothing.
-/// \param dem [m] without a frame; NaN: no data; no height is infinite
+/// Finds, by one look at each cell, those from which water does not fall.
+/// \param dem [m] by cell; NaN: no data; no height is infinite
 /// \param rivers [m] on its grid; NaN: no river
-/// \return true: each cell with data is a river cell, lies at the grid's border or beside no data, or is at least
-/// just_above() its lowest neighbour
-bool drains(Raster<float> const& dem, Raster<float> const& rivers, Run const& run);
+/// \return ascending: no river cells, not at the grid's border, not beside no data, and lower than just_above() their
+/// lowest neighbour. None: flooded() with sloping lakes changes nothing.
+std::vector<CellIndex> undrained_cells(Raster<float> const& dem, Raster<float> const& rivers, Run const& run);
+
+/// Fills a DEM up to the water level of its lakes, level or sloping by small steps towards their outlets. Water leaves
+/// at the border, into no data and into river cells.
+/// \param dem,rivers as for undrained_cells()
+/// \param cells_per_lake where there are fewer cells for each undrained one, all are flooded; otherwise only those that
+/// the lakes of undrained cells can reach. Changes nothing but the time.
+///
+/// Source: \cite barnes2014.
+Raster<float> flooded(Raster<float> const& dem, Raster<float> const& rivers, Lakes lakes, Run const& run,
+                      std::int64_t cells_per_lake = 16);
 
 /// Checks the input of fill(), carve() and confine_channels().
 /// \throws BadInput when frames differ, there are no cells, a height is infinite, or a river cell has no height
-void check_drainable(Raster<float> const& dem, Valley const& valley);
+void check_drainable(Raster<float> const& dem, Valley const& valley, Run const& run = {});
 
 /// Fills depressions to their spill level, and above it by the least that lets water run.
 /// \param dem [m] river cells have the valley's heights

@@ -8,7 +8,6 @@
 #include <cmath>
 #include <cstddef>
 #include <cstdint>
-#include <deque>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
@@ -25,18 +24,16 @@ public:
 
     /// \return the lowest cell; -1: empty.
     std::int64_t pop() {
-        if (lowest_.empty() && !advance()) {
+        if (next_ == lowest_.size() && !advance()) {
             return -1;
         }
-        std::int64_t const cell = lowest_.front();
-        lowest_.pop_front();
-        return cell;
+        return lowest_[next_++].cell;
     }
 
 private:
     struct Entry {
-        std::uint32_t rank;
-        std::int64_t cell;
+        std::uint32_t rank = 0;
+        std::int64_t cell = 0;
     };
 
     /// Maps floats to unsigned numbers in the same order.
@@ -48,18 +45,28 @@ private:
 
     void put(Entry entry) {
         if (entry.rank == last_) {
-            lowest_.push_back(entry.cell);
+            lowest_.push_back(entry);
         } else {
-            above_[static_cast<std::size_t>(std::bit_width(entry.rank ^ last_)) - 1].push_back(entry);
+            auto const bucket = static_cast<std::uint32_t>(std::bit_width(entry.rank ^ last_)) - 1;
+            above_[bucket].push_back(entry);
+            filled_ |= 1U << bucket;
         }
     }
 
     bool advance() {
-        auto const bucket = std::find_if(above_.begin(), above_.end(), [](auto const& b) { return !b.empty(); });
-        if (bucket == above_.end()) {
+        lowest_.clear();
+        next_ = 0;
+        if (filled_ == 0) {
             return false;
         }
-        moving_.swap(*bucket);
+        auto const bucket = static_cast<std::uint32_t>(std::countr_zero(filled_));
+        filled_ ^= 1U << bucket;
+        if (bucket == 0) { // all of one rank
+            lowest_.swap(above_[0]);
+            last_ = lowest_.front().rank;
+            return true;
+        }
+        moving_.swap(above_[bucket]);
         last_ =
             std::min_element(moving_.begin(), moving_.end(), [](Entry a, Entry b) { return a.rank < b.rank; })->rank;
         std::for_each(moving_.begin(), moving_.end(), [this](Entry e) { put(e); });
@@ -68,20 +75,20 @@ private:
     }
 
     std::uint32_t last_ = 0;
-    std::deque<std::int64_t> lowest_;
+    std::vector<Entry> lowest_;                ///< of rank last_
+    std::size_t next_ = 0;                     ///< in lowest_
     std::vector<Entry> moving_;                ///< keeps its memory between calls
+    std::uint32_t filled_ = 0;                 ///< bit by bucket: not empty
     std::array<std::vector<Entry>, 32> above_; ///< by the highest bit in which a rank differs from last_
 };
 
 /// Fills a framed DEM to its spill levels.
 /// \param is_outlet called with a cell; true: water leaves there, besides at the border and beside no data
-/// \param rise called with a level; returns the least level of a cell that the flood reaches from there
 /// \return by cell: direction towards the cell from which the flood reached it
 ///
 /// Source: \cite barnes2014.
-template <class IsOutlet, class Rise>
-Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, Rise rise, char const* stage,
-                                 Run const& run) {
+template <class IsOutlet>
+Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, char const* stage, Run const& run) {
     constexpr auto unreached = static_cast<Direction>(253);
     Raster<Direction> direction(level.grid(), unreached);
     auto const offsets = d8_offsets(level.grid());
@@ -100,7 +107,7 @@ Raster<Direction> priority_flood(Raster<float>& level, IsOutlet is_outlet, Rise 
         if (++popped % cells_between_checks == 0) {
             run.at(static_cast<double>(popped) / static_cast<double>(level.cells()), stage);
         }
-        float const least = rise(level[i]);
+        float const least = level[i];
         for (std::size_t k = 0; k < offsets.size(); ++k) {
             std::int64_t const n = i + offsets[k];
             if (direction[n] == unreached) {
