@@ -40,7 +40,12 @@ Raster<float> const& mountains() {
         for (std::int64_t i = 0; i < coarse.cells(); ++i) {
             coarse[i] = static_cast<float>(1000.0 * unit(random_word(3, static_cast<std::uint64_t>(i))));
         }
-        return fractal::midpoint(coarse, {.levels = 6, .width = 2048, .height = 2048, .hurst = 0.9}).dem;
+        fractal::MidpointParams params;
+        params.levels = 6;
+        params.width = 2048;
+        params.height = 2048;
+        params.hurst = 0.9;
+        return fractal::midpoint(coarse, params).dem;
     }();
     return dem;
 }
