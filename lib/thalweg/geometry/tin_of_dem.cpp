@@ -4,17 +4,18 @@
 
 #include <algorithm>
 #include <array>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
 #include <limits>
-#include <numeric>
-#include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
 
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
@@ -28,15 +29,33 @@ namespace {
 // with three.
 class DemLand {
 public:
-    explicit DemLand(Raster<float> const& dem) : dem_(dem) {}
+    explicit DemLand(Raster<float> const& dem)
+        : dem_(dem), width_(dem.width() + 1), corners_(static_cast<std::size_t>(width_ * (dem.height() + 1)), 0) {
+        for (std::int64_t row = 0; row < dem.height(); ++row) {
+            std::uint8_t* const north = &corners_[static_cast<std::size_t>(row * width_)];
+            std::uint8_t* const south = north + width_;
+            for (std::int64_t col = 0; float const z : dem.row(row)) {
+                if (!std::isnan(z)) {
+                    ++north[col];
+                    ++north[col + 1];
+                    ++south[col];
+                    ++south[col + 1];
+                }
+                ++col;
+            }
+        }
+    }
 
     bool has(std::int64_t col, std::int64_t row) const {
         return dem_.grid().contains({col, row}) && !std::isnan(dem_[Cell{col, row}]);
     }
-    // Number of centres with data at the corners of the square south-east of a centre.
+    // Number of centres with data at the corners of the square south-east of a centre; from column and row -1 on.
     int corners(std::int64_t col, std::int64_t row) const {
-        return (has(col, row) ? 1 : 0) + (has(col + 1, row) ? 1 : 0) + (has(col, row + 1) ? 1 : 0) +
-               (has(col + 1, row + 1) ? 1 : 0);
+        return corners_[static_cast<std::size_t>((row + 1) * width_ + col + 1)];
+    }
+    // Whether all four squares at a centre are whole.
+    bool is_inner(std::int64_t col, std::int64_t row) const {
+        return (corners(col, row) & corners(col - 1, row) & corners(col, row - 1) & corners(col - 1, row - 1)) == 4;
     }
     bool holds(std::int64_t col, std::int64_t row) const {
         return has(col, row) && (corners(col, row) >= 3 || corners(col - 1, row) >= 3 || corners(col, row - 1) >= 3 ||
@@ -91,6 +110,8 @@ public:
 
 private:
     Raster<float> const& dem_;
+    std::int64_t width_;
+    std::vector<std::uint8_t> corners_;
 };
 
 // The outline as straight lines between its corners, with heights. x: column, y: minus the row.
@@ -103,6 +124,9 @@ std::vector<std::vector<Vec3>> outlines_of(Raster<float> const& dem, DemLand con
     for (std::int64_t row = 0; row < dem.height(); ++row) {
         run.check();
         for (std::int64_t col = 0; col < dem.width(); ++col) {
+            if (land.is_inner(col, row)) {
+                continue;
+            }
             for (auto const& [dx, dy] : directions) {
                 if (!land.outline(col, row, dx, dy) ||
                     (land.outline(col, row, -dx, -dy) && land.degree(col, row) == 2)) {
@@ -125,65 +149,144 @@ constexpr std::int64_t most_cells_a_side = 1 << 20; // so that areas fit 64 bits
 constexpr std::uint32_t nobody = std::numeric_limits<std::uint32_t>::max();
 
 struct Spot {
-    std::int64_t x = 0; // column
-    std::int64_t y = 0; // minus the row
+    std::int32_t col = 0;
+    std::int32_t row = 0;
+    float z = 0.0F;
 };
 
-std::int64_t turn(Spot a, Spot b, Spot c) {
-    return (b.x - a.x) * (c.y - a.y) - (c.x - a.x) * (b.y - a.y);
+// Twice the area of a triangle; positive: counterclockwise on the map.
+std::int64_t turn(Spot const& a, Spot const& b, Spot const& c) {
+    return std::int64_t{b.col - a.col} * (a.row - c.row) - std::int64_t{c.col - a.col} * (a.row - b.row);
 }
 
-bool within_circle(Spot a, Spot b, Spot c, Spot p) {
+bool within_circle(Spot const& a, Spot const& b, Spot const& c, Spot const& p) {
     __extension__ using Wide = __int128;
-    auto const square = [&](Spot s) { return (s.x - p.x) * (s.x - p.x) + (s.y - p.y) * (s.y - p.y); };
+    auto const square = [&](Spot const& s) {
+        std::int64_t const x = s.col - p.col;
+        std::int64_t const y = s.row - p.row;
+        return x * x + y * y;
+    };
     return Wide{turn(p, b, c)} * square(a) + Wide{turn(p, c, a)} * square(b) + Wide{turn(p, a, b)} * square(c) > 0;
 }
 
-// Division towards minus infinity; b > 0.
-std::int64_t floor_of(std::int64_t a, std::int64_t b) {
-    return a >= 0 ? a / b : -((-a + b - 1) / b);
-}
-std::int64_t ceil_of(std::int64_t a, std::int64_t b) {
-    return -floor_of(-a, b);
-}
+// Where a side of a face crosses the rows, from its upper end down: at column + rest / rows.
+class SideOfFace {
+public:
+    SideOfFace(Spot const& from, Spot const& to) : column_(from.col), rows_(to.row - from.row) {
+        if (rows_ > 0) {
+            step_ = (to.col - from.col) / rows_;
+            rest_step_ = (to.col - from.col) % rows_;
+            if (rest_step_ < 0) {
+                --step_;
+                rest_step_ += rows_;
+            }
+        }
+    }
+    void go_down() {
+        column_ += step_;
+        rest_ += rest_step_;
+        if (rest_ >= rows_) {
+            rest_ -= rows_;
+            ++column_;
+        }
+    }
+    std::int32_t first() const { return column_ + (rest_ > 0 ? 1 : 0); }
+    std::int32_t last() const { return column_; }
 
-// A fraction, denominator > 0.
-struct Fraction {
-    std::int64_t over = 0;
-    std::int64_t under = 1;
+private:
+    std::int32_t column_;
+    std::int32_t rows_;
+    std::int32_t rest_ = 0;
+    std::int32_t step_ = 0;
+    std::int32_t rest_step_ = 0;
 };
+
+// The plane of a triangle along a row.
+struct PlaneAlongRow {
+    double at_row = 0.0;
+    double east = 0.0;
+    std::int32_t col = 0; // where the height is at_row
+
+    double error(float const* heights, std::int32_t x) const {
+        return std::fabs(at_row + east * static_cast<double>(x - col) - static_cast<double>(heights[x]));
+    }
+};
+
+// The greatest error in columns first to last, or least if that is more.
+double greatest_error(PlaneAlongRow const& plane, float const* heights, std::int32_t first, std::int32_t last,
+                      double least) {
+    double most = least;
+    std::int32_t x = first;
+    if (last - first >= 7) { // two vectors at once: the maxima are independent
+        using Pair [[gnu::vector_size(16)]] = double;
+        using Bits [[gnu::vector_size(16)]] = std::int64_t;
+        auto const error = [&](Pair const& along, std::int32_t at) {
+            Pair const z{static_cast<double>(heights[at]), static_cast<double>(heights[at + 1])};
+            return std::bit_cast<Pair>(std::bit_cast<Bits>(plane.at_row + plane.east * along - z) & 0x7fffffffffffffff);
+        };
+        double const from = static_cast<double>(x - plane.col);
+        Pair along{from, from + 1.0};
+        Pair one = Pair{} + least;
+        Pair two = one;
+        for (; x + 3 <= last; x += 4) {
+            Pair const a = error(along, x);
+            Pair const b = error(along + 2.0, x + 2);
+            one = a > one ? a : one;
+            two = b > two ? b : two;
+            along += 4.0;
+        }
+        most = std::max({one[0], one[1], two[0], two[1]});
+    }
+    for (; x <= last; ++x) {
+        double const error = plane.error(heights, x);
+        most = error > most ? error : most;
+    }
+    return most;
+}
 
 class Mesh {
 public:
     Mesh(Raster<float> const& dem, double error_m, Tin const& first, DemLand const& land)
         : dem_(dem), error_m_(error_m) {
         for (Vec3 const& v : first.vertices) {
-            spots_.push_back({static_cast<std::int64_t>(v.x), static_cast<std::int64_t>(v.y)});
+            add_spot({static_cast<std::int64_t>(v.x), static_cast<std::int64_t>(-v.y)});
         }
         for (auto const& t : first.triangles) {
-            std::int64_t const x = spots_[t[0]].x + spots_[t[1]].x + spots_[t[2]].x;
-            std::int64_t const y = spots_[t[0]].y + spots_[t[1]].y + spots_[t[2]].y;
-            if (land.is_inside(x, -y)) {
-                faces_.push_back({t, {nobody, nobody, nobody}});
+            std::int64_t const col3 = spots_[t[0]].col + spots_[t[1]].col + spots_[t[2]].col;
+            std::int64_t const row3 = spots_[t[0]].row + spots_[t[1]].row + spots_[t[2]].row;
+            if (land.is_inside(col3, row3)) {
+                faces_[new_face()] = {t, {nobody, nobody, nobody}};
             }
         }
         join();
-        stamps_.resize(faces_.size(), 0);
         for (std::uint32_t f = 0; f < faces_.size(); ++f) {
             scan(f);
         }
     }
 
+    // Inserts the worst cell until all are near enough. Only candidates within a tenth of the greatest error wait in
+    // the queue: it stays in the cache, and most faces change again before their turn comes.
     void refine(Run const& run) {
         constexpr std::int64_t between_checks = 256;
-        for (std::int64_t done = 0; !queue_.empty(); ++done) {
-            if (done % between_checks == 0) {
-                run.check();
+        for (;;) {
+            double const greatest = *std::ranges::max_element(errors_);
+            if (!(greatest > error_m_)) {
+                return;
             }
-            Candidate const worst = queue_.top();
-            queue_.pop();
-            if (stamps_[worst.face] == worst.stamp) {
-                insert(worst.face, worst.cell);
+            least_m_ = 0.9 * greatest;
+            for (std::uint32_t f = 0; f < faces_.size(); ++f) {
+                enqueue(f);
+            }
+            for (std::int64_t done = 0; !queue_.empty(); ++done) {
+                if (done % between_checks == 0) {
+                    run.check();
+                }
+                Candidate const worst = queue_.front();
+                std::pop_heap(queue_.begin(), queue_.end());
+                queue_.pop_back();
+                if (errors_[worst.face] == worst.error_m && cells_[worst.face] == worst.cell) {
+                    insert(worst.face, worst.cell);
+                }
             }
         }
     }
@@ -191,20 +294,24 @@ public:
     SimplifiedDem result() const {
         SimplifiedDem simplified;
         Grid const& grid = dem_.grid();
-        std::vector<std::uint32_t> order(spots_.size());
-        std::iota(order.begin(), order.end(), 0U);
-        std::ranges::sort(order, {}, [&](std::uint32_t v) { return std::pair(-spots_[v].y, spots_[v].x); });
-        std::vector<std::uint32_t> number(spots_.size());
-        for (std::uint32_t const v : order) {
-            Cell const cell{spots_[v].x, -spots_[v].y};
-            Vec2 const at = grid.centre(cell);
-            number[v] = static_cast<std::uint32_t>(simplified.tin.vertices.size());
-            simplified.tin.vertices.push_back({at.x, at.y, static_cast<double>(dem_[cell])});
+        std::vector<std::pair<std::int64_t, std::uint32_t>> order;
+        order.reserve(spots_.size());
+        for (Spot const& s : spots_) {
+            order.emplace_back(grid.index({s.col, s.row}), static_cast<std::uint32_t>(order.size()));
         }
+        std::ranges::sort(order);
+        std::vector<std::uint32_t> number(spots_.size());
+        simplified.tin.vertices.reserve(spots_.size());
+        for (auto const& [cell, v] : order) {
+            Vec2 const at = grid.centre({spots_[v].col, spots_[v].row});
+            number[v] = static_cast<std::uint32_t>(simplified.tin.vertices.size());
+            simplified.tin.vertices.push_back({at.x, at.y, static_cast<double>(spots_[v].z)});
+        }
+        simplified.tin.triangles.reserve(faces_.size());
         for (Face const& f : faces_) {
             simplified.tin.triangles.push_back({number[f.corner[0]], number[f.corner[1]], number[f.corner[2]]});
-            simplified.error_m = std::max(simplified.error_m, f.error_m);
         }
+        simplified.error_m = *std::ranges::max_element(errors_);
         put_in_order(simplified.tin);
         return simplified;
     }
@@ -213,17 +320,15 @@ private:
     struct Face {
         std::array<std::uint32_t, 3> corner;
         std::array<std::uint32_t, 3> beyond; // the neighbouring face opposite each corner
-        double error_m = 0.0;
     };
     struct Candidate {
         double error_m = 0.0;
         std::int64_t cell = 0;
         std::uint32_t face = 0;
-        std::uint32_t stamp = 0;
 
         // Orders by time of insertion: the lesser is inserted later.
         friend bool operator<(Candidate const& a, Candidate const& b) {
-            return std::tie(a.error_m, b.cell, b.face) < std::tie(b.error_m, a.cell, a.face);
+            return a.error_m != b.error_m ? a.error_m < b.error_m : std::tie(b.cell, b.face) < std::tie(a.cell, a.face);
         }
     };
 
@@ -246,33 +351,28 @@ private:
         }
     }
 
+    std::uint32_t add_spot(Cell cell) {
+        spots_.push_back({static_cast<std::int32_t>(cell.col), static_cast<std::int32_t>(cell.row), dem_[cell]});
+        return static_cast<std::uint32_t>(spots_.size() - 1);
+    }
+    std::uint32_t new_face() {
+        faces_.push_back({});
+        errors_.push_back(0.0);
+        cells_.push_back(-1);
+        return static_cast<std::uint32_t>(faces_.size() - 1);
+    }
     std::size_t side_towards(std::uint32_t face, std::uint32_t other) const {
         auto const& beyond = faces_[face].beyond;
         return beyond[0] == other ? 0 : beyond[1] == other ? 1 : 2;
-    }
-
-    void set(std::uint32_t face, std::array<std::uint32_t, 3> corner, std::array<std::uint32_t, 3> beyond) {
-        faces_[face].corner = corner;
-        faces_[face].beyond = beyond;
-        changed_.push_back(face);
     }
     void relink(std::uint32_t face, std::uint32_t before, std::uint32_t now) {
         if (face != nobody) {
             faces_[face].beyond[side_towards(face, before)] = now;
         }
     }
-    std::uint32_t new_face() {
-        faces_.push_back({});
-        stamps_.push_back(0);
-        return static_cast<std::uint32_t>(faces_.size() - 1);
-    }
 
     void insert(std::uint32_t face, std::int64_t cell) {
-        auto const p = static_cast<std::uint32_t>(spots_.size());
-        Cell const at = dem_.grid().at(cell);
-        spots_.push_back({at.col, -at.row});
-        changed_.clear();
-        loose_.clear();
+        std::uint32_t const p = add_spot(dem_.grid().at(cell));
         std::size_t const side = side_through(face, p);
         if (side == 3) {
             split_face(face, p);
@@ -283,12 +383,6 @@ private:
             std::uint32_t const f = loose_.back();
             loose_.pop_back();
             make_delaunay(f, p);
-        }
-        std::ranges::sort(changed_);
-        changed_.erase(std::unique(changed_.begin(), changed_.end()), changed_.end());
-        for (std::uint32_t const f : changed_) {
-            ++stamps_[f];
-            scan(f);
         }
     }
 
@@ -304,15 +398,15 @@ private:
         return on;
     }
 
-    // Splits a face into three around the new vertex.
+    // Splits a face into three around the new vertex, which is the first corner of each.
     void split_face(std::uint32_t face, std::uint32_t p) {
         auto const [a, b, c] = faces_[face].corner;
         auto const [to_a, to_b, to_c] = faces_[face].beyond;
         std::uint32_t const second = new_face();
         std::uint32_t const third = new_face();
-        set(face, {p, b, c}, {to_a, second, third});
-        set(second, {p, c, a}, {to_b, third, face});
-        set(third, {p, a, b}, {to_c, face, second});
+        faces_[face] = {{p, b, c}, {to_a, second, third}};
+        faces_[second] = {{p, c, a}, {to_b, third, face}};
+        faces_[third] = {{p, a, b}, {to_c, face, second}};
         relink(to_b, face, second);
         relink(to_c, face, third);
         loose_ = {face, second, third};
@@ -331,106 +425,136 @@ private:
         if (other != nobody) {
             std::size_t const j = side_towards(other, face);
             std::uint32_t const tip = faces_[other].corner[j];
+            // The corners of `other` were (tip, to, from): side from-tip is opposite `to`.
             std::uint32_t const along_from = faces_[other].beyond[(j + 1) % 3]; // across side from-tip
             std::uint32_t const along_to = faces_[other].beyond[(j + 2) % 3];   // across side tip-to
             other_sister = new_face();
-            set(other, {p, from, tip}, {nobody, other_sister, nobody});
-            set(other_sister, {p, tip, to}, {along_to, nobody, other});
-            // The corners of `other` were (tip, to, from): side from-tip is opposite `to`.
-            faces_[other].beyond = {along_from, other_sister, face};
-            faces_[other_sister].beyond = {along_to, sister, other};
+            faces_[other] = {{p, from, tip}, {along_from, other_sister, face}};
+            faces_[other_sister] = {{p, tip, to}, {along_to, sister, other}};
             relink(along_to, other, other_sister);
             loose_.push_back(other);
             loose_.push_back(other_sister);
         }
-        set(face, {p, apex, from}, {to_to, other, sister});
-        set(sister, {p, to, apex}, {to_from, face, other_sister});
+        faces_[face] = {{p, apex, from}, {to_to, other, sister}};
+        faces_[sister] = {{p, to, apex}, {to_from, face, other_sister}};
         relink(to_from, face, sister);
         loose_.push_back(face);
         loose_.push_back(sister);
     }
 
-    // p is a corner of the face; flips the side opposite it if the corner beyond lies in the circumcircle.
+    // p is the first corner of the face; flips the side opposite it if the corner beyond lies in the circumcircle, else
+    // the face stays.
     void make_delaunay(std::uint32_t f, std::uint32_t p) {
-        std::size_t const k = faces_[f].corner[0] == p ? 0 : faces_[f].corner[1] == p ? 1 : 2;
-        std::uint32_t const g = faces_[f].beyond[k];
+        auto const [to_g, bp, pa] = faces_[f].beyond;
+        std::uint32_t const g = to_g;
         if (g == nobody) {
+            scan(f);
             return;
         }
-        std::uint32_t const a = faces_[f].corner[(k + 1) % 3];
-        std::uint32_t const b = faces_[f].corner[(k + 2) % 3];
+        std::uint32_t const a = faces_[f].corner[1];
+        std::uint32_t const b = faces_[f].corner[2];
         std::size_t const j = side_towards(g, f);
         std::uint32_t const q = faces_[g].corner[j];
         if (!within_circle(spots_[p], spots_[a], spots_[b], spots_[q])) {
+            scan(f);
             return;
         }
-        std::uint32_t const pa = faces_[f].beyond[(k + 2) % 3];
-        std::uint32_t const bp = faces_[f].beyond[(k + 1) % 3];
         std::uint32_t const aq = faces_[g].beyond[(j + 1) % 3]; // corners of g: (q, b, a)
         std::uint32_t const qb = faces_[g].beyond[(j + 2) % 3];
-        set(f, {p, a, q}, {aq, g, pa});
-        set(g, {p, q, b}, {qb, bp, f});
+        faces_[f] = {{p, a, q}, {aq, g, pa}};
+        faces_[g] = {{p, q, b}, {qb, bp, f}};
         relink(aq, g, f);
         relink(bp, f, g);
         loose_.push_back(f);
         loose_.push_back(g);
     }
 
-    // Finds the worst cell of a face, its sides included.
+    // Finds the worst cell of a face, its sides included, its corners not: rounding must not insert them again.
     void scan(std::uint32_t face) {
         auto const& corner = faces_[face].corner;
-        std::array<Spot, 3> s{spots_[corner[0]], spots_[corner[1]], spots_[corner[2]]};
-        auto const z = [&](Spot v) { return static_cast<double>(dem_[Cell{v.x, -v.y}]); };
-        Spot const at = s[0];
-        double const z0 = z(s[0]);
-        double const z1 = z(s[1]) - z0;
-        double const z2 = z(s[2]) - z0;
+        std::array<Spot, 3> const s{spots_[corner[0]], spots_[corner[1]], spots_[corner[2]]};
+        double const z0 = static_cast<double>(s[0].z);
+        double const z1 = static_cast<double>(s[1].z) - z0;
+        double const z2 = static_cast<double>(s[2].z) - z0;
         auto const area = static_cast<double>(turn(s[0], s[1], s[2]));
-        auto const d = [](std::int64_t v) { return static_cast<double>(v); };
-        double const east = (z1 * d(s[2].y - at.y) - z2 * d(s[1].y - at.y)) / area;
-        double const north = (d(s[1].x - at.x) * z2 - d(s[2].x - at.x) * z1) / area;
-        std::ranges::sort(s, {}, &Spot::y);
-        Candidate worst{0.0, -1, face, stamps_[face]};
-        for (std::int64_t y = s[2].y; y >= s[0].y; --y) {
-            auto const crossing = [&](Spot low, Spot high) {
-                return Fraction{low.x * (high.y - low.y) + (y - low.y) * (high.x - low.x), high.y - low.y};
-            };
-            Fraction const whole = crossing(s[0], s[2]);
-            Fraction const broken = y == s[1].y  ? Fraction{s[1].x, 1}
-                                    : y < s[1].y ? crossing(s[0], s[1])
-                                                 : crossing(s[1], s[2]);
-            bool const whole_first = d(whole.over) * d(broken.under) <= d(broken.over) * d(whole.under);
-            Fraction const left = whole_first ? whole : broken;
-            Fraction const right = whole_first ? broken : whole;
-            std::int64_t const end = floor_of(right.over, right.under);
-            float const* const heights = dem_.row(-y).data();
-            double const at_row = z0 + north * d(y - at.y);
-            for (std::int64_t x = ceil_of(left.over, left.under); x <= end; ++x) {
-                double const error = std::fabs(at_row + east * d(x - at.x) - static_cast<double>(heights[x]));
-                // Rounding at a corner must not insert it again.
-                if (error > worst.error_m && !is_corner(s, x, y)) {
-                    worst.error_m = error;
-                    worst.cell = dem_.grid().index({x, -y});
-                }
+        auto const d = [](std::int32_t v) { return static_cast<double>(v); };
+        double const east = (z1 * d(s[0].row - s[2].row) - z2 * d(s[0].row - s[1].row)) / area;
+        double const north = (d(s[1].col - s[0].col) * z2 - d(s[2].col - s[0].col) * z1) / area;
+
+        // Counterclockwise from the uppermost corner: down its west, up its east.
+        std::size_t const k = s[0].row <= s[1].row ? (s[0].row <= s[2].row ? 0 : 2) : (s[1].row <= s[2].row ? 1 : 2);
+        Spot const& top = s[k];
+        Spot const& west = s[(k + 1) % 3];
+        Spot const& east_corner = s[(k + 2) % 3];
+        double worst = 0.0;
+        std::int32_t worst_row = -1;
+        std::int32_t worst_first = 0;
+        auto const look = [&](std::int32_t row, std::int32_t first, std::int32_t last) {
+            if (first > last) {
+                return;
             }
+            PlaneAlongRow const plane{z0 + north * d(s[0].row - row), east, s[0].col};
+            double const most = greatest_error(plane, dem_.row(row).data(), first, last, worst);
+            if (most > worst) {
+                worst = most;
+                worst_row = row;
+                worst_first = first;
+            }
+        };
+        SideOfFace left(top, west);
+        SideOfFace right(top, east_corner);
+        if (west.row == top.row) {
+            look(top.row, west.col + 1, top.col - 1);
+            left = SideOfFace(west, east_corner);
+        } else if (east_corner.row == top.row) {
+            look(top.row, top.col + 1, east_corner.col - 1);
+            right = SideOfFace(east_corner, west);
         }
-        faces_[face].error_m = worst.error_m;
-        if (worst.error_m > error_m_) {
-            queue_.push(worst);
+        std::int32_t const bottom = std::max(west.row, east_corner.row);
+        for (std::int32_t row = top.row + 1; row <= bottom; ++row) {
+            left.go_down();
+            right.go_down();
+            std::int32_t first = left.first();
+            std::int32_t last = right.last();
+            if (row == west.row) {
+                first = west.col + 1;
+                left = SideOfFace(west, east_corner);
+            }
+            if (row == east_corner.row) {
+                last = east_corner.col - 1;
+                right = SideOfFace(east_corner, west);
+            }
+            look(row, first, last);
         }
+        std::int64_t cell = -1;
+        if (worst_row >= 0) {
+            PlaneAlongRow const plane{z0 + north * d(s[0].row - worst_row), east, s[0].col};
+            float const* const heights = dem_.row(worst_row).data();
+            while (plane.error(heights, worst_first) != worst) {
+                ++worst_first;
+            }
+            cell = dem_.grid().index({worst_first, worst_row});
+        }
+        errors_[face] = worst;
+        cells_[face] = cell;
+        enqueue(face);
     }
 
-    static bool is_corner(std::array<Spot, 3> const& s, std::int64_t x, std::int64_t y) {
-        return std::ranges::any_of(s, [&](Spot v) { return v.x == x && v.y == y; });
+    void enqueue(std::uint32_t face) {
+        if (errors_[face] >= least_m_ && errors_[face] > error_m_) {
+            queue_.push_back({errors_[face], cells_[face], face});
+            std::push_heap(queue_.begin(), queue_.end());
+        }
     }
 
     Raster<float> const& dem_;
     double error_m_;
-    std::vector<Spot> spots_;
-    std::vector<Face> faces_;
-    std::vector<std::uint32_t> stamps_; // number of changes of each face: invalidates older candidates
-    std::priority_queue<Candidate> queue_;
-    std::vector<std::uint32_t> changed_;
+    std::vector<Spot, LargePages<Spot>> spots_;
+    std::vector<Face, LargePages<Face>> faces_;
+    std::vector<double, LargePages<double>> errors_;            // of each face
+    std::vector<std::int64_t, LargePages<std::int64_t>> cells_; // where that is
+    double least_m_ = std::numeric_limits<double>::infinity();  // candidates below wait
+    std::vector<Candidate> queue_;
     std::vector<std::uint32_t> loose_; // faces whose side opposite the new vertex is still to be checked
 };
 
@@ -454,11 +578,12 @@ SimplifiedDem tin_of_dem(Raster<float> const& dem, TinOfDemParams const& params,
     DemLand const land(dem);
     std::int64_t data = 0;
     std::int64_t left_out = 0;
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = dem.grid().at(i);
-        bool const has = !std::isnan(dem[i]);
-        data += has ? 1 : 0;
-        left_out += has && !land.holds(c.col, c.row) ? 1 : 0;
+    for (std::int64_t row = 0; row < dem.height(); ++row) {
+        for (std::int64_t col = 0; col < dem.width(); ++col) {
+            bool const has = land.is_inner(col, row) || land.has(col, row);
+            data += has ? 1 : 0;
+            left_out += has && !land.holds(col, row) ? 1 : 0;
+        }
     }
     auto const lines = outlines_of(dem, land, run);
     refuse_if<BadInput>(

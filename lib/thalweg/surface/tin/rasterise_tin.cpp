@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <cstddef>
+#include <cstring>
 #include <limits>
 #include <utility>
 #include <vector>
@@ -184,8 +185,8 @@ void extend_tin(Tin const& tin, Raster<float>& dem, Run const& run = {}) {
     });
 }
 
-// Few enough that a band of a wide raster fits the cache, enough that few triangles lie in two bands.
-constexpr std::int64_t band_rows = 32;
+// Enough that few triangles lie in two bands, few enough that there is a band for every worker.
+constexpr std::int64_t band_rows = 64;
 
 // The grid's centres as doubles, which the tests below treat as exact.
 struct Centres {
@@ -265,8 +266,8 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
         for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
             fetch(tin, std::min(i + ahead, bands.size() - 1));
             auto const& t = tin.triangles[i];
-            auto const [south, north] = std::minmax({tin.vertices[t[0]].y, tin.vertices[t[1]].y, tin.vertices[t[2]].y});
-            bands[i] = bands_of(south, north, grid);
+            std::array const y{tin.vertices[t[0]].y, tin.vertices[t[1]].y, tin.vertices[t[2]].y};
+            bands[i] = bands_of(std::min(std::min(y[0], y[1]), y[2]), std::max(std::max(y[0], y[1]), y[2]), grid);
         }
     });
     Binned binned;
@@ -289,13 +290,23 @@ Binned bin(Tin const& tin, Grid const& grid, Run const& run) {
     return binned;
 }
 
-// A side of a triangle from its lower to its upper end.
-struct Side {
-    Vec2 from;
-    Vec2 to;
-    double column = 0.0; // of its lower end
-    double slope = 0.0;  // [columns/m] to the east as it goes north
+using Pair [[gnu::vector_size(16)]] = double;
+using PairOfFloats [[gnu::vector_size(8)]] = float;
+
+// The long side of a triangle and one of the others, whose crossings of a row are computed together.
+struct Sides {
+    std::array<Vec3 const*, 2> low{};
+    std::array<Vec3 const*, 2> high{};
+    Pair low_y{};
+    Pair column{}; // of the lower ends
+    Pair slope{};  // [columns/m] to the east as they go north
 };
+
+// The corners of a triangle from south to north, by which of (0 > 1, 0 > 2, 1 > 2) are true of their y; the last number
+// is 1 if the middle one is west of the long side. A table, since the order is random to a predictor of branches.
+using Order = std::array<std::uint8_t, 4>;
+constexpr std::array<Order, 8> orders{Order{0, 1, 2, 0}, {1, 0, 2, 1}, {},           {1, 2, 0, 0},
+                                      {0, 2, 1, 1},      {},           {2, 0, 1, 0}, {2, 1, 0, 1}};
 
 struct Column {
     std::int64_t first = 0; // first column whose centre lies on the side or east of it
@@ -307,14 +318,15 @@ class Band {
 public:
     Band(Tin const& tin, Centres const& centres, double reach_columns, std::int64_t first_row, std::int64_t end_row,
          Raster<float>& dem)
-        : tin_(tin), centres_(centres), per_m_(1.0 / centres.grid.cell_m), reach_(reach_columns), first_row_(first_row),
+        : tin_(tin), centres_(centres), per_m_(1.0 / centres.grid.cell_m), reach_(Pair{} + reach_columns),
+          most_past_(1.0 - reach_), width_(Pair{} + static_cast<double>(centres.grid.width)), first_row_(first_row),
           end_row_(end_row), dem_(dem) {}
 
     void draw(std::uint32_t triangle) {
         auto const& t = tin_.triangles[triangle];
-        Vec3 a = tin_.vertices[t[0]];
-        Vec3 b = tin_.vertices[t[1]];
-        Vec3 c = tin_.vertices[t[2]];
+        Vec3 const& a = tin_.vertices[t[0]];
+        Vec3 const& b = tin_.vertices[t[1]];
+        Vec3 const& c = tin_.vertices[t[2]];
         double const forward = (b.x - a.x) * (c.y - a.y);
         double const back = (c.x - a.x) * (b.y - a.y);
         double const area = forward - back;
@@ -328,36 +340,26 @@ public:
         plane_ = {a, ((b.z - a.z) * (c.y - a.y) - (c.z - a.z) * (b.y - a.y)) * by_area,
                   ((b.x - a.x) * (c.z - a.z) - (c.x - a.x) * (b.z - a.z)) * by_area, std::min({a.z, b.z, c.z}),
                   std::max({a.z, b.z, c.z})};
-        // Sorted from south to north, b in the middle: west of the long side a-c after an odd number of swaps.
-        bool b_is_west = false;
-        auto const order = [&](Vec3& p, Vec3& q) {
-            if (p.y > q.y) {
-                std::swap(p, q);
-                b_is_west = !b_is_west;
-            }
-        };
-        order(a, b);
-        order(b, c);
-        order(a, b);
-        auto [row, end] = rows(a.y, c.y);
-        if (row > first_row_ && centres_.y[row - 1] == c.y) {
-            claim_top(row - 1, b.y == c.y ? std::min(b.x, c.x) : c.x, b.y == c.y ? std::max(b.x, c.x) : c.x);
+        Order const& order = orders[(a.y > b.y ? 1U : 0U) + (a.y > c.y ? 2U : 0U) + (b.y > c.y ? 4U : 0U)];
+        Vec3 const* const low = &tin_.vertices[t[order[0]]];
+        Vec3 const* const middle = &tin_.vertices[t[order[1]]];
+        Vec3 const* const high = &tin_.vertices[t[order[2]]];
+        part_is_west_ = order[3] == 1;
+        auto const [first, end] = rows(low->y, high->y);
+        if (first > first_row_ && centres_.y[first - 1] == high->y) {
+            bool const flat = middle->y == high->y;
+            claim_top(first - 1, flat ? std::min(middle->x, high->x) : high->x,
+                      flat ? std::max(middle->x, high->x) : high->x);
         }
-        if (row == end) {
-            return;
-        }
-        Side const whole = side(a, c);
-        if (b.y < c.y) {
-            Side const upper = side(b, c);
-            for (; row < end && centres_.y[row] >= b.y; ++row) {
-                draw_row(row, b_is_west ? upper : whole, b_is_west ? whole : upper);
-            }
-        }
-        if (row < end) {
-            Side const lower = side(a, b);
-            for (; row < end; ++row) {
-                draw_row(row, b_is_west ? lower : whole, b_is_west ? whole : lower);
-            }
+        double const whole = (high->x - low->x) / (high->y - low->y) * per_m_;
+        Pair const slopes =
+            Pair{middle->x - low->x, high->x - middle->x} / Pair{middle->y - low->y, high->y - middle->y} * per_m_;
+        Pair const columns = (Pair{low->x, middle->x} - centres_.grid.west) * per_m_ - 0.5;
+        std::array<Sides, 2> const parts{
+            Sides{{low, low}, {high, middle}, {low->y, low->y}, {columns[0], columns[0]}, {whole, slopes[0]}},
+            Sides{{low, middle}, {high, high}, {low->y, middle->y}, columns, {whole, slopes[1]}}};
+        for (std::int64_t row = first; row < end; ++row) {
+            draw_row(row, parts[centres_.y[row] >= middle->y ? 1 : 0]);
         }
     }
 
@@ -371,11 +373,6 @@ public:
     }
 
 private:
-    Side side(Vec3 const& low, Vec3 const& high) const {
-        return {in_plan(low), in_plan(high), (low.x - centres_.grid.west) * per_m_ - 0.5,
-                (high.x - low.x) / (high.y - low.y) * per_m_};
-    }
-
     // Rows of this band whose centres lie in [south, north).
     std::pair<std::int64_t, std::int64_t> rows(double south, double north) const {
         Grid const& grid = centres_.grid;
@@ -397,23 +394,30 @@ private:
         return {first, end};
     }
 
-    Column column(Side const& side, std::int64_t row) const {
+    // Where a row crosses the west and the east side.
+    std::pair<Column, Column> columns(Sides const& sides, std::int64_t row) const {
         double const y = centres_.y[row];
-        double const past_west = side.column + (y - side.from.y) * side.slope + 1.0; // columns from -1 on
-        std::int64_t const width = centres_.grid.width;
-        std::int64_t const c = clamped(past_west, 0, width);
-        double const past = past_west - static_cast<double>(c);
-        if ((past > reach_ && past < 1.0 - reach_) || past < -reach_ || past > 1.0 + reach_) {
-            return {c, false};
+        Pair const past_west = sides.column + (y - sides.low_y) * sides.slope + 1.0; // columns from -1 on
+        constexpr double rounder = 0x1.8p52; // added and subtracted, leaves a whole number
+        Pair const whole = past_west - 0.5 + rounder - rounder;
+        Pair const past = past_west - whole;
+        auto const is_sure = (past > reach_) & (past < most_past_);
+        Pair const not_west = whole > Pair{} ? whole : Pair{};
+        Pair const held = not_west < width_ ? not_west : width_;
+        Column of_whole{static_cast<std::int64_t>(held[0]), false};
+        Column of_part{static_cast<std::int64_t>(held[1]), false};
+        if ((is_sure[0] & is_sure[1]) == 0) {
+            of_whole = exact_column(*sides.low[0], *sides.high[0], of_whole.first, y);
+            of_part = exact_column(*sides.low[1], *sides.high[1], of_part.first, y);
         }
-        return exact_column(side, c, y);
+        return part_is_west_ ? std::pair(of_part, of_whole) : std::pair(of_whole, of_part);
     }
 
     // Finds the exact column, starting from a guess.
-    Column exact_column(Side const& side, std::int64_t c, double y) const {
+    Column exact_column(Vec3 const& low, Vec3 const& high, std::int64_t c, double y) const {
         std::int64_t const width = centres_.grid.width;
         auto const turn = [&](std::int64_t col) {
-            return geometry::side_of_line(side.from, side.to, {centres_.x[col], y});
+            return geometry::side_of_line(in_plan(low), in_plan(high), {centres_.x[col], y});
         };
         while (c > 0 && turn(c - 1) <= 0) {
             --c;
@@ -436,18 +440,52 @@ private:
                                                             tin_.vertices[t[2]], {centres_.x[col], centres_.y[row]}));
     }
 
-    void draw_row(std::int64_t row, Side const& west, Side const& east) {
-        Column const begin = column(west, row);
-        Column const end = column(east, row);
-        double const at_a = base(row);
+    void draw_row(std::int64_t row, Sides const& sides) {
+        auto const [begin, end] = columns(sides, row);
         float* const cells = dem_.row(row).data();
-        double const* const x = centres_.x.data();
-        for (std::int64_t c = begin.first; c < end.first; ++c) {
-            cells[c] = sliver_ == nullptr ? height(x[c], at_a) : height_in_sliver(row, c);
+        if (sliver_ != nullptr) {
+            for (std::int64_t c = begin.first; c < end.first; ++c) {
+                cells[c] = height_in_sliver(row, c);
+            }
+        } else {
+            double const at_a = base(row);
+            std::int64_t c = begin.first;
+            std::int64_t const last_four = centres_.grid.width - 4;
+            if (c <= last_four) { // most rows of triangles are shorter than four cells: no branch tells 0 from 3
+                do {
+                    draw_four(cells + c, centres_.x.data() + c, at_a, end.first - c);
+                    c += 4;
+                } while (c < end.first && c <= last_four);
+            }
+            for (; c < end.first; ++c) {
+                cells[c] = height(centres_.x[c], at_a);
+            }
         }
         if (end.is_on) {
             claim(row, end.first);
         }
+    }
+
+    // The first `count` of four cells, those that are fewer too.
+    void draw_four(float* cells, double const* x, double base, std::int64_t count) const {
+        using Four [[gnu::vector_size(16)]] = float;
+        using Numbers [[gnu::vector_size(16)]] = std::int32_t;
+        auto const two = [&](double const* at) {
+            Pair const z = base + plane_.east * (Pair{at[0], at[1]} - plane_.at.x);
+            Pair const most = Pair{} + plane_.highest;
+            Pair const least = Pair{} + plane_.lowest;
+            Pair const not_below = least > z ? least : z;
+            Pair const held = most < not_below ? most : not_below;
+            return __builtin_convertvector(held, PairOfFloats);
+        };
+        PairOfFloats const west = two(x);
+        PairOfFloats const east = two(x + 2);
+        Four const heights{west[0], west[1], east[0], east[1]};
+        Four before;
+        std::memcpy(&before, cells, sizeof before);
+        Numbers const drawn = Numbers{0, 1, 2, 3} < static_cast<std::int32_t>(std::min<std::int64_t>(count, 4));
+        Four const now = drawn ? heights : before;
+        std::memcpy(cells, &now, sizeof now);
     }
 
     void claim(std::int64_t row, std::int64_t col) {
@@ -472,11 +510,14 @@ private:
     Tin const& tin_;
     Centres const& centres_;
     double per_m_; // cells a metre
-    double reach_;
+    Pair reach_;
+    Pair most_past_;
+    Pair width_;
     std::int64_t first_row_;
     std::int64_t end_row_;
     Raster<float>& dem_;
     Plane plane_;
+    bool part_is_west_ = false;                            // of the long side
     std::array<std::uint32_t, 3> const* sliver_ = nullptr; // the current triangle, if it is a sliver
     std::vector<std::pair<std::int64_t, float>> claims_;
 };
