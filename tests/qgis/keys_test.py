@@ -65,7 +65,7 @@ class WhatTheProgramTakes(Case):
         kinds = {"integer": {"number"}, "number": {"number"}, "yes/no": {"enum"},
                  "text": {"string", "enum", "layer", "file", "field", "crs"},
                  "integer or text": {"enum"}, "two numbers": {"string"}, "three numbers": {"string"},
-                 "four numbers": {"string"}}
+                 "four numbers": {"string"}, "list of words": {"string"}}
         for key in KEYS:
             if key["key"] in make.LEFT_OUT:
                 self.assertTrue(make.LEFT_OUT[key["key"]])

@@ -4,7 +4,7 @@
 
 #include <algorithm>
 #include <cmath>
-#include <limits>
+#include <mutex>
 
 #include <thalweg/network/planform/internal/segment_grid.hpp>
 
@@ -12,7 +12,6 @@ namespace thalweg::network {
 namespace {
 
 constexpr double kept_share = 0.6; // of a distance below the gap
-constexpr std::uint32_t no_entry = std::numeric_limits<std::uint32_t>::max();
 
 double inside(Vec2 p, Grid const& grid) {
     return std::min({p.x - grid.west, grid.east() - p.x, grid.north - p.y, p.y - grid.south()});
@@ -23,8 +22,8 @@ bool is_sea(Vec2 p, Mask const& land) {
     return land.grid().contains(c) && land[c] == 0;
 }
 
-std::size_t slot(double at, std::size_t count) {
-    return at < 0.0 ? 0 : std::min(static_cast<std::size_t>(at), count - 1);
+std::uint16_t slot(double at, std::size_t count) {
+    return at < 0.0 ? std::uint16_t{0} : static_cast<std::uint16_t>(std::min(static_cast<std::size_t>(at), count - 1));
 }
 
 } // namespace
@@ -51,22 +50,21 @@ bool leaves_land(Stems const& stems, std::vector<Vec2> const& at, std::size_t i,
 Crowding::Crowding(Stems const& stems, std::vector<Vec2> const& was, Grid const& grid, Mask const& land, Gap const& gap)
     : stems_(stems), stem_of_(stems.stem_of.begin(), stems.stem_of.end()), was_(was), grid_(grid), land_(land),
       gap_(gap), reach_m_(1.001 * gap.gap_m), moved_(was.size()), off_(was.size()), off_land_(was.size()),
-      free_(no_entry) {}
+      spans_(was.size()) {}
 
 /// Lays out the index for the first positions.
-void Crowding::cover(std::vector<Vec2> const& is) {
-    low_ = is.front();
-    Vec2 high = is.front();
-    for (Vec2 const p : is) {
+void Crowding::cover() {
+    constexpr double most_cells = 2000.0; // a side
+    low_ = is_.front();
+    Vec2 high = is_.front();
+    for (Vec2 const p : is_) {
         low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
         high = {std::max(high.x, p.x), std::max(high.y, p.y)};
     }
     double const extent_m = std::max(high.x - low_.x, high.y - low_.y);
-    per_m_ = 1.0 / std::max(gap_.gap_m, extent_m / 2000.0);
+    per_m_ = 1.0 / std::max(gap_.gap_m, extent_m / most_cells);
     width_ = static_cast<std::size_t>((high.x - low_.x) * per_m_) + 1;
     height_ = static_cast<std::size_t>((high.y - low_.y) * per_m_) + 1;
-    first_.assign(width_ * height_, no_entry);
-    entries_.reserve(2 * is.size());
 }
 
 Crowding::Span Crowding::span_of(Vec2 a, Vec2 b, double margin_m) const {
@@ -76,54 +74,33 @@ Crowding::Span Crowding::span_of(Vec2 a, Vec2 b, double margin_m) const {
             slot((std::max(a.y, b.y) + margin_m - low_.y) * per_m_, height_)};
 }
 
-void Crowding::add(std::size_t segment) {
-    Span const span = span_of(is_[segment], is_[segment + 1], 0.0);
-    for (std::size_t row = span.first_row; row <= span.last_row; ++row) {
-        for (std::size_t col = span.first_col; col <= span.last_col; ++col) {
-            std::uint32_t& first = first_[row * width_ + col];
-            std::uint32_t entry = free_;
-            if (entry == no_entry) {
-                entry = static_cast<std::uint32_t>(entries_.size());
-                entries_.emplace_back();
-            } else {
-                free_ = entries_[entry].next;
-            }
-            entries_[entry] = {static_cast<std::uint32_t>(segment), first};
-            first = entry;
-        }
+/// Puts the segments into the index: a row's cells side by side, so that a search reads on.
+void Crowding::fill() {
+    for (std::size_t const segment : segments_moved_) {
+        spans_[segment] = span_of(is_[segment], is_[segment + 1], 0.0);
     }
-}
-
-void Crowding::remove(std::size_t segment) {
-    Span const span = span_of(is_[segment], is_[segment + 1], 0.0);
-    for (std::size_t row = span.first_row; row <= span.last_row; ++row) {
-        for (std::size_t col = span.first_col; col <= span.last_col; ++col) {
-            std::uint32_t* link = &first_[row * width_ + col];
-            while (entries_[*link].segment != segment) {
-                link = &entries_[*link].next;
-            }
-            std::uint32_t const entry = *link;
-            *link = entries_[entry].next;
-            entries_[entry].next = free_;
-            free_ = entry;
-        }
-    }
-}
-
-/// Calls visit(segment), once or more, for each segment that may be within the gap of the box between two positions.
-template <class Visit> void Crowding::each_near(Vec2 a, Vec2 b, Visit const& visit) const {
-    Span const span = span_of(a, b, reach_m_);
-    for (std::size_t row = span.first_row; row <= span.last_row; ++row) {
-        for (std::size_t col = span.first_col; col <= span.last_col; ++col) {
-            for (std::uint32_t k = first_[row * width_ + col]; k != no_entry; k = entries_[k].next) {
-                visit(std::size_t{entries_[k].segment});
+    first_.assign(width_ * height_ + 1, 0);
+    auto const each_cell = [&](auto const& visit) {
+        for (std::size_t i = 0; i < is_.size(); ++i) {
+            for (std::size_t row = spans_[i].first_row; is_segment(i) && row <= spans_[i].last_row; ++row) {
+                for (std::size_t col = spans_[i].first_col; col <= spans_[i].last_col; ++col) {
+                    visit(row * width_ + col, i);
+                }
             }
         }
+    };
+    each_cell([&](std::size_t cell, std::size_t) { ++first_[cell]; });
+    std::uint32_t entries = 0;
+    for (std::uint32_t& first : first_) {
+        entries += first;
+        first = entries; // its end, until it is filled from there
     }
+    segments_.resize(entries);
+    each_cell([&](std::size_t cell, std::size_t i) { segments_[--first_[cell]] = static_cast<std::uint32_t>(i); });
 }
 
 /// Notes a point and a segment that are too close.
-void Crowding::compare(std::size_t point, std::size_t segment) {
+void Crowding::compare(std::size_t point, std::size_t segment, Pairs& close) const {
     if (segment == point || segment + 1 == point ||
         (stem_of_[point] == stem_of_[segment] &&
          std::fabs(stems_.way_m[point] - stems_.way_m[segment]) < gap_.along_m)) {
@@ -136,73 +113,78 @@ void Crowding::compare(std::size_t point, std::size_t segment) {
     }
     double const before = squared_distance(was_[point], {was_[segment], was_[segment + 1]});
     if (now < (before >= gap_m2 ? gap_m2 : kept_share * kept_share * before)) {
-        close_.emplace_back(static_cast<std::uint32_t>(point), static_cast<std::uint32_t>(segment));
+        close.emplace_back(static_cast<std::uint32_t>(point), static_cast<std::uint32_t>(segment));
     }
 }
 
-void Crowding::look_around(std::size_t point) {
-    Vec2 const p = is_[point];
-    off_[point] = inside(p, grid_) < std::min(grid_.cell_m, inside(was_[point], grid_)) ? 1 : 0;
-    each_near(p, p, [&](std::size_t segment) {
-        if (is_in_reach(p, is_[segment], is_[segment + 1])) {
-            compare(point, segment);
-        }
-    });
-}
-
-/// Looks for the points beside a segment that have not moved themselves.
-void Crowding::look_around_segment(std::size_t segment) {
+/// Compares a segment that moved, or its ends, with what is near.
+void Crowding::look_around(std::size_t segment, Pairs& close) const {
     Vec2 const a = is_[segment];
     Vec2 const b = is_[segment + 1];
-    each_near(a, b, [&](std::size_t other) {
-        if (moved_[other] == 0 && is_in_reach(is_[other], a, b)) {
-            compare(other, segment);
+    bool const compare_a = moved_[segment] != 0;
+    bool const compare_b = moved_[segment + 1] != 0 && !is_segment(segment + 1); // a river's last
+    Span const span = span_of(a, b, reach_m_);
+    for (std::size_t row = span.first_row; row <= span.last_row; ++row) {
+        std::uint32_t const end = first_[row * width_ + span.last_col + 1];
+        for (std::uint32_t k = first_[row * width_ + span.first_col]; k < end; ++k) {
+            std::size_t const other = segments_[k];
+            Vec2 const c = is_[other];
+            Vec2 const d = is_[other + 1];
+            if (compare_a && is_in_reach(a, c, d)) {
+                compare(segment, other, close);
+            }
+            if (compare_b && is_in_reach(b, c, d)) {
+                compare(segment + 1, other, close);
+            }
+            if (moved_[other] == 0 && is_in_reach(c, a, b)) {
+                compare(other, segment, close);
+            }
+            if (moved_[other + 1] == 0 && !is_segment(other + 1) && is_in_reach(d, a, b)) {
+                compare(other + 1, segment, close);
+            }
         }
-        if (moved_[other + 1] == 0 && !is_segment(other + 1) && is_in_reach(is_[other + 1], a, b)) { // a river's last
-            compare(other + 1, segment);
-        }
-    });
+    }
 }
 
-std::vector<std::size_t> Crowding::points(std::vector<Vec2> const& is) {
+/// Takes new positions, and forgets what was too close there.
+void Crowding::note_moves(std::vector<Vec2> const& is) {
     bool const first = is_.empty();
-    std::vector<std::size_t> points;
-    std::vector<std::size_t> segments;
     for (std::size_t i = 0; i < is.size(); ++i) {
         moved_[i] = first || !(is[i] == is_[i]) ? 1 : 0;
     }
+    is_ = is;
+    segments_moved_.clear();
     for (std::size_t i = 0; i < is.size(); ++i) {
         if (moved_[i] != 0) {
-            points.push_back(i);
+            off_[i] = inside(is[i], grid_) < std::min(grid_.cell_m, inside(was_[i], grid_)) ? 1 : 0;
         }
         if (is_segment(i) && (moved_[i] | moved_[i + 1]) != 0) {
-            segments.push_back(i);
+            segments_moved_.push_back(static_cast<std::uint32_t>(i));
         }
     }
+    std::erase_if(close_, [&](auto const& pair) {
+        auto const& [point, segment] = pair;
+        return (moved_[point] | moved_[segment] | moved_[segment + 1]) != 0;
+    });
     if (first) {
-        cover(is);
-        is_ = is;
-    } else {
-        std::erase_if(close_, [&](auto const& pair) {
-            auto const& [point, segment] = pair;
-            return (moved_[point] | moved_[segment] | moved_[segment + 1]) != 0;
-        });
-        for (std::size_t const segment : segments) {
-            remove(segment);
-        }
-        for (std::size_t const point : points) {
-            is_[point] = is[point];
-        }
+        cover();
     }
-    for (std::size_t const segment : segments) {
-        add(segment);
-    }
-    for (std::size_t const point : points) {
-        look_around(point);
-    }
-    for (std::size_t k = 0; !first && k < segments.size(); ++k) {
-        look_around_segment(segments[k]);
-    }
+}
+
+std::vector<std::size_t> Crowding::points(std::vector<Vec2> const& is, Run const& run) {
+    constexpr std::int64_t least_segments = 2048; // that are worth a thread
+    note_moves(is);
+    fill();
+    std::mutex mutex;
+    parallel_ranges(run, static_cast<std::int64_t>(segments_moved_.size()), least_segments,
+                    [&](std::int64_t begin, std::int64_t end) {
+                        Pairs close;
+                        for (std::int64_t k = begin; k < end; ++k) {
+                            look_around(segments_moved_[static_cast<std::size_t>(k)], close);
+                        }
+                        std::scoped_lock const lock(mutex);
+                        close_.insert(close_.end(), close.begin(), close.end());
+                    });
     std::vector<std::uint8_t> found = off_;
     for (auto const& [point, segment] : close_) {
         found[point] = found[segment] = 1;

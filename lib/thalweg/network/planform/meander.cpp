@@ -215,7 +215,7 @@ private:
                 at[i] = round > 0 && loose[i] == last[i] ? at[i] : settled(i, loose[i]);
             }
             std::swap(loose, last);
-            std::vector<std::size_t> bad = crowding.points(at);
+            std::vector<std::size_t> bad = crowding.points(at, run_);
             if (bad.empty()) {
                 bad = meeting_points(lines_through(stems_, network_, at), network_, run_);
             }

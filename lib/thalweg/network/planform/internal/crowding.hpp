@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/network/planform/internal/meander.hpp>
 
 namespace thalweg::network {
@@ -37,37 +38,32 @@ public:
 
     /// \param is positions by point, now
     /// \return ascending: points too close, and the upper points of the segments to which they are
-    std::vector<std::size_t> points(std::vector<Vec2> const& is);
+    std::vector<std::size_t> points(std::vector<Vec2> const& is, Run const& run = {});
 
 private:
     /// The cells of the index that a box touches.
     struct Span {
-        std::size_t first_col;
-        std::size_t last_col;
-        std::size_t first_row;
-        std::size_t last_row;
+        std::uint16_t first_col = 0;
+        std::uint16_t last_col = 0;
+        std::uint16_t first_row = 0;
+        std::uint16_t last_row = 0;
     };
 
-    /// A segment in a cell of the index.
-    struct Entry {
-        std::uint32_t segment;
-        std::uint32_t next; ///< number of the cell's next entry
-    };
+    /// A point and a segment.
+    using Pairs = std::vector<std::pair<std::uint32_t, std::uint32_t>>;
 
     bool is_segment(std::size_t i) const { return i + 1 < stem_of_.size() && stem_of_[i] == stem_of_[i + 1]; }
-    void cover(std::vector<Vec2> const& is);
+    void cover();
+    void fill();
     Span span_of(Vec2 a, Vec2 b, double margin_m) const;
-    void add(std::size_t segment);
-    void remove(std::size_t segment);
-    template <class Visit> void each_near(Vec2 a, Vec2 b, Visit const& visit) const;
+    void note_moves(std::vector<Vec2> const& is);
     /// Whether a position is within the gap of the box around a segment. Most segments that the index gives are not.
     bool is_in_reach(Vec2 p, Vec2 a, Vec2 b) const {
         return std::min(a.x, b.x) - p.x <= reach_m_ && p.x - std::max(a.x, b.x) <= reach_m_ &&
                std::min(a.y, b.y) - p.y <= reach_m_ && p.y - std::max(a.y, b.y) <= reach_m_;
     }
-    void compare(std::size_t point, std::size_t segment);
-    void look_around(std::size_t point);
-    void look_around_segment(std::size_t segment);
+    void compare(std::size_t point, std::size_t segment, Pairs& close) const;
+    void look_around(std::size_t segment, Pairs& close) const;
 
     Stems const& stems_;
     std::vector<std::uint32_t> stem_of_; ///< as in stems_, in half the memory
@@ -77,19 +73,20 @@ private:
     Gap gap_;
     double reach_m_; ///< the gap, and a little for rounding
     std::vector<Vec2> is_;
-    std::vector<std::uint8_t> moved_;                            ///< by point, in this round
-    std::vector<std::uint8_t> off_;                              ///< by point: it left the grid
-    std::vector<std::uint8_t> off_land_;                         ///< by point: it or what follows left the land
-    std::vector<std::pair<std::uint32_t, std::uint32_t>> close_; ///< point and segment too close; may repeat
+    std::vector<std::uint8_t> moved_;           ///< by point, in this round
+    std::vector<std::uint32_t> segments_moved_; ///< ascending: segments with an end that moved
+    std::vector<std::uint8_t> off_;             ///< by point: it left the grid
+    std::vector<std::uint8_t> off_land_;        ///< by point: it or what follows left the land
+    Pairs close_;                               ///< too close, in any order; may repeat
 
     // The index: segments by cells as wide as the gap. Outside, the nearest cell counts.
     Vec2 low_;
     double per_m_ = 0.0; ///< cells per metre
     std::size_t width_ = 0;
     std::size_t height_ = 0;
-    std::vector<std::uint32_t> first_; ///< by cell: number of its first entry
-    std::vector<Entry> entries_;
-    std::uint32_t free_; ///< first of the entries not in use
+    std::vector<Span> spans_;             ///< by point: of the segment that begins there
+    std::vector<std::uint32_t> first_;    ///< by cell: its first entry, and after the last cell the end
+    std::vector<std::uint32_t> segments_; ///< by entry
 };
 
 } // namespace thalweg::network
