@@ -19,4 +19,4 @@ static void BM_memcpy(benchmark::State& state) {
     }
     state.SetItemsProcessed(state.iterations() * static_cast<std::int64_t>(cells));
 }
-BENCHMARK(BM_memcpy)->Arg(1024)->Arg(4096)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_memcpy)->Arg(1024)->Arg(2048)->Arg(4096)->Unit(benchmark::kMillisecond);

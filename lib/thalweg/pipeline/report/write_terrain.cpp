@@ -274,7 +274,7 @@ public:
         }
         std::string const recipe_toml = write_recipe(recipe_);
         if (writes(OutputFiles::page)) {
-            add("write_page", [this, &recipe_toml](Run const& run) {
+            add("write_page", [this, recipe_toml](Run const& run) {
                 PageParams params = page_params_of(made_, recipe_toml);
                 if (made_.terrain.surface) {
                     params.summits = parts_.summits(run);

@@ -10,8 +10,9 @@
 namespace thalweg::pipeline {
 
 /// Writes project.qgz, which shows the files that a folder has in QGIS, and the styles of its rasters and meshes
-/// (dem.qml
-/// ...). \param out holds every other layer already \throws IoError
+/// (dem.qml ...).
+/// \param out holds every other layer already
+/// \throws IoError
 void write_qgis_files(Made const& made, std::string const& title, io::OutputFolder const& out);
 
 } // namespace thalweg::pipeline
