@@ -41,7 +41,8 @@ class WhatTheProgramTakes(Case):
     def test_every_option_of_a_command_is_offered_or_left_out_with_a_reason(self):
         left_out = {"--help", "--threads", "--quiet", "--verbose", "--progress", "--json", "--overwrite", "--output",
                     "--device",  # the program's own default
-                    "--set", "--seed", "--crs", "--units", "--schema", "--field", "--dry-run",  # of make: keys, or no run
+                    "--set", "--seed", "--crs", "--units", "--schema", "--field", "--only",  # of make: keys
+                    "--dry-run",  # no run
                     "--source-crs", "--layer", "--arcs-layer", "--nodes-layer",  # of the layer
                     "--from", "--table"}  # FROM; a database is no file
         for command in runner.STAGES:
