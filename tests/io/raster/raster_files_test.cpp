@@ -18,6 +18,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -242,6 +243,20 @@ TEST(Contours, DegenerateInput) {
     EXPECT_TRUE(io::contours(raster(4, 4, [](Cell) { return 5.5; }), 1.0).empty());
     EXPECT_TRUE(io::contours(raster(4, 4, [](Cell) { return none; }), 1.0).empty());
     EXPECT_TRUE(io::contours(raster(1, 1, [](Cell) { return 5.5; }), 1.0).empty());
+}
+
+TEST(Contours, TheSmallestRingsStayRings) {
+    for (double const above : {0.001, 0.01, 0.1, 0.5, 2.0}) {
+        auto const lines = io::contours(raster(9, 9,
+                                               [&](Cell c) {
+                                                   return c == Cell{4, 4} ? 10.0 + above : 5.0;
+                                               }),
+                                        10.0);
+        ASSERT_EQ(lines.size(), 1U) << above;
+        auto const& ring = lines[0].line;
+        EXPECT_EQ(ring.front(), ring.back()) << above;
+        EXPECT_GT(std::fabs(geometry::signed_area(ring)), 0.0) << above;
+    }
 }
 
 TEST(Contours, PlaneHasStraightLinesAtMultiples) {

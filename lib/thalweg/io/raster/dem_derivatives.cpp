@@ -104,7 +104,11 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         for (OGRPoint const& p : drawn_line) {
             line.line.push_back({p.getX(), p.getY()});
         }
-        line.line = geometry::simplify(line.line, tolerance_cells * dem.grid().cell_m);
+        auto few = geometry::simplify(line.line, tolerance_cells * dem.grid().cell_m);
+        bool const is_closed = line.line.front() == line.line.back();
+        if (!is_closed || few.size() > 3) { // the smallest rings would be points
+            line.line = std::move(few);
+        }
         lines.push_back(std::move(line));
     }
     driver.check(what); // a failed allocation also ends the loop

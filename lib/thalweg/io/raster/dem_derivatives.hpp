@@ -28,7 +28,8 @@ struct ContourLine {
     std::vector<Vec2> line;
 };
 
-/// Computes GDAL's contour lines at multiples of an interval, simplified within a tenth of a cell.
+/// Computes GDAL's contour lines at multiples of an interval, simplified within a tenth of a cell; rings stay
+/// rings.
 /// \param dem [m] by cell; NaN: no data
 /// \param interval_m [m] > 0
 /// \return in GDAL's order

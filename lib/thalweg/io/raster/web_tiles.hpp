@@ -71,7 +71,8 @@ struct WebGround {
 /// \param out receives the files
 /// \return the files' names, sorted
 /// \throws BadInput when a height is not a number or beyond what the encoding has, the rasters differ in size or the
-/// picture is none \throws IoError when a file cannot be written
+/// picture is none
+/// \throws IoError when a file cannot be written
 ///
 /// Source: Mapbox, Terrain-RGB v1 (the encoding); OGC 17-083r4, WebMercatorQuad (the numbers of tiles).
 std::vector<std::string> write_web_tiles(WebGround const& ground, WebPyramid const& pyramid, OutputFolder const& out,
