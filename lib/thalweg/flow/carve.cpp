@@ -5,7 +5,6 @@
 #include <cstddef>
 #include <limits>
 #include <optional>
-#include <queue>
 #include <tuple>
 #include <utility>
 #include <vector>
@@ -24,11 +23,6 @@ struct Lake {
     std::vector<std::int64_t> cells;
     float level = 0.0F;
 };
-
-/// A queue that returns the lowest height first; ties by index.
-template <class Key>
-using Lowest =
-    std::priority_queue<std::pair<Key, std::int64_t>, std::vector<std::pair<Key, std::int64_t>>, std::greater<>>;
 
 class Carver {
 public:
@@ -129,7 +123,7 @@ private:
         for (std::int64_t const i : cells) {
             seen_[i] = stamp_; // still dry
         }
-        Lowest<float> queue;
+        LowestCell queue;
         for (std::int64_t const i : cells) {
             float lowest = std::numeric_limits<float>::infinity();
             for (std::int64_t const step : offsets_) {

@@ -3,10 +3,8 @@
 #include <algorithm>
 #include <array>
 #include <cmath>
-#include <functional>
 #include <limits>
 #include <mutex>
-#include <queue>
 #include <utility>
 #include <vector>
 
@@ -61,10 +59,6 @@ void search_rows(Raster<float> const& dem, Raster<float> const& rivers, std::int
         }
     }
 }
-
-/// A queue that returns the lowest cell first; ties by index.
-using LowestCell =
-    std::priority_queue<std::pair<float, CellIndex>, std::vector<std::pair<float, CellIndex>>, std::greater<>>;
 
 /// Fills a DEM cell by cell from where water leaves, but only where a flood may raise it: in lakes grown from undrained
 /// cells.

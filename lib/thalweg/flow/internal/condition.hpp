@@ -4,6 +4,9 @@
 
 #include <bit>
 #include <cstdint>
+#include <functional>
+#include <queue>
+#include <utility>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -29,6 +32,10 @@ inline float just_above(float z) {
 inline float just_below(float z) {
     return -just_above(-z);
 }
+
+/// A queue that returns the lowest cell first; ties by index.
+using LowestCell =
+    std::priority_queue<std::pair<float, CellIndex>, std::vector<std::pair<float, CellIndex>>, std::greater<>>;
 
 enum class Lakes : std::uint8_t { level, slope };
 
