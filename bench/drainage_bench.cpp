@@ -19,33 +19,13 @@
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 
+#include "inputs.hpp"
+
 namespace {
 
 using namespace thalweg;
 
-/// Relief of waves that halve in length and height: valleys of every size, and a rough ground that makes depressions.
-Raster<float> relief(std::int64_t side) {
-    Raster<float> dem(Grid{side, side, 10.0, 0.0, 10.0 * static_cast<double>(side), ""});
-    for (std::int64_t i = 0; i < dem.cells(); ++i) {
-        Cell const c = dem.grid().at(i);
-        double z = 0.0;
-        std::uint64_t octave = 0;
-        for (std::int64_t wave = side / 2; wave > 0; wave /= 2, ++octave) {
-            // Value noise: bilinear between the chances of lattice points.
-            auto const corner = [&](std::int64_t col, std::int64_t row) {
-                return unit(random_word(1, octave, static_cast<std::uint64_t>(col), static_cast<std::uint64_t>(row)));
-            };
-            std::int64_t const col = c.col / wave;
-            std::int64_t const row = c.row / wave;
-            double const u = static_cast<double>(c.col % wave) / static_cast<double>(wave);
-            double const v = static_cast<double>(c.row % wave) / static_cast<double>(wave);
-            z += static_cast<double>(wave) * ((corner(col, row) * (1 - u) + corner(col + 1, row) * u) * (1 - v) +
-                                              (corner(col, row + 1) * (1 - u) + corner(col + 1, row + 1) * u) * v);
-        }
-        dem[i] = static_cast<float>(z);
-    }
-    return dem;
-}
+using inputs::relief;
 
 void set_cells(benchmark::State& state) {
     state.SetItemsProcessed(state.iterations() * state.range(0) * state.range(0));
@@ -80,7 +60,7 @@ void BM_route_drained(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(BM_route_drained)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_route_drained)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 /// The yardstick of BM_route_drained: steepest descent in float inside the border, and areas by counts of donors.
 void BM_plain_d8(benchmark::State& state) {
@@ -118,7 +98,7 @@ void BM_plain_d8(benchmark::State& state) {
     }
     set_cells(state);
 }
-BENCHMARK(BM_plain_d8)->Arg(2048)->Unit(benchmark::kMillisecond);
+BENCHMARK(BM_plain_d8)->Arg(1024)->Arg(2048)->Unit(benchmark::kMillisecond);
 
 void BM_route_dinf(benchmark::State& state) {
     Raster<float> const dem = relief(state.range(0));
@@ -202,7 +182,7 @@ void BM_condition_drained(benchmark::State& state) {
     set_cells(state);
 }
 BENCHMARK(BM_condition_drained)
-    ->ArgsProduct({{2048}, {0, 1}})
+    ->ArgsProduct({{1024, 2048}, {0, 1}})
     ->ArgNames({"side", "rivers"})
     ->Unit(benchmark::kMillisecond);
 

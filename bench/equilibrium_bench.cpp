@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstdint>
 #include <fstream>
+#include <string_view>
 #include <unistd.h>
 
 #include <benchmark/benchmark.h>
@@ -31,14 +32,23 @@ std::int64_t held_bytes() {
     return pages * sysconf(_SC_PAGESIZE);
 }
 
+/// Counts rounds, which the solver reports as "fill".
+int count_round(double, char const* what, void* rounds) {
+    *static_cast<double*>(rounds) += std::string_view(what) == "fill" ? 1.0 : 0.0;
+    return 1;
+}
+
 /// On one core; bytes_per_cell: what the process has held at most less what it held before, the rivers among it, where
-/// no benchmark before it held more.
+/// no benchmark before it held more; rounds: on all levels.
 void BM_equilibrium(benchmark::State& state) {
     Channels const channels = rivers(state.range(0));
     surface::EquilibriumParams params;
     params.roughness = state.range(1) == 0 ? 0.0 : params.roughness;
     Run run;
     run.threads = 1;
+    double rounds = 0.0;
+    run.progress = count_round;
+    run.progress_arg = &rounds;
     std::int64_t const before = held_bytes();
     std::int64_t const peak = peak_memory_bytes();
     for (auto _ : state) {
@@ -48,9 +58,11 @@ void BM_equilibrium(benchmark::State& state) {
         state.counters["bytes_per_cell"] =
             static_cast<double>(peak_memory_bytes() - before) / static_cast<double>(channels.grid.cells());
     }
+    state.counters["rounds"] = rounds / static_cast<double>(state.iterations());
     state.SetItemsProcessed(state.iterations() * channels.grid.cells());
 }
 BENCHMARK(BM_equilibrium)
+    ->Args({512, 1})
     ->Args({1024, 1})
     ->Args({2048, 1})
     ->Args({4096, 1})

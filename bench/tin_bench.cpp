@@ -3,11 +3,11 @@
 #include <benchmark/benchmark.h>
 #include <tins.hpp>
 
-#include <thalweg/core/numbers/random.hpp>
-#include <thalweg/fractal/midpoint.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
+
+#include "inputs.hpp"
 
 // Triangulation, and beside it the raster of 4096² cells of the same TIN: goal 0.3 of its time. Allocation counts.
 // BM_tin_of_dem/ERROR: 2048² cells of 10 m, one thread.
@@ -35,18 +35,7 @@ void BM_rasterise_tin(benchmark::State& state) {
 }
 
 Raster<float> const& mountains() {
-    static Raster<float> const dem = [] {
-        Raster<float> coarse(Grid{33, 33, 640.0, 0.0, 0.0, ""});
-        for (std::int64_t i = 0; i < coarse.cells(); ++i) {
-            coarse[i] = static_cast<float>(1000.0 * unit(random_word(3, static_cast<std::uint64_t>(i))));
-        }
-        fractal::MidpointParams params;
-        params.levels = 6;
-        params.width = 2048;
-        params.height = 2048;
-        params.hurst = 0.9;
-        return fractal::midpoint(coarse, params).dem;
-    }();
+    static Raster<float> const dem = inputs::mountains(6);
     return dem;
 }
 
