@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// hmm, the TIN of a DEM at an error of 1 m: hmm SIDE MOUNTAINS
+// hmm, the TIN of a DEM at an error of 5 m: hmm SIDE MOUNTAINS
 #include <heightmap.h>
 #include <triangulator.h>
 
@@ -14,6 +14,6 @@ int main(int, char** words) {
         "hmm", side, 3, [] { return 0; },
         [&](int) {
             Triangulator triangulator(map);
-            triangulator.Run(1.0F, 0, 0);
+            triangulator.Run(5.0F, 0, 0);
         });
 }
