@@ -12,12 +12,12 @@
 namespace thalweg::solver {
 namespace {
 
-/// Numbers row by row, padded with zeros to an even width and height, plus one more row and column.
+/// Numbers row by row, padded with zeros to an even width and height, plus one more column and two more rows.
 template <class T> class Padded {
 public:
     explicit Padded(Board const& board)
         : stride_((board.width + 1) / 2 * 2 + 1),
-          values_(static_cast<std::size_t>(stride_ * ((board.height + 1) / 2 * 2 + 1))) {}
+          values_(static_cast<std::size_t>(stride_ * ((board.height + 1) / 2 * 2 + 2))) {}
     T* row(std::int64_t y) { return values_.data() + y * stride_; }
     T const* row(std::int64_t y) const { return values_.data() + y * stride_; }
 
@@ -26,11 +26,11 @@ private:
     std::vector<T, LargePages<T>> values_;
 };
 
-/// The equations of a level, row by row: edges to the east and south, and the diagonal.
+/// The equations of a level, row by row: weights of the edges to the east, to the south and to fixed cells.
 struct Equations {
-    explicit Equations(Board const& level) : board(level), east(level), south(level), diagonal(level) {}
+    explicit Equations(Board const& level) : board(level), east(level), south(level), fixed(level) {}
     Board board;
-    Padded<float> east, south, diagonal;
+    Padded<float> east, south, fixed;
 };
 
 Padded<std::uint8_t> degrees(Raster<std::uint8_t> const& kind, Board const& board, Run const& run) {
@@ -71,32 +71,37 @@ template <class T> void split(T const* from, std::int64_t y, Board const& board,
     }
 }
 
-/// Factor of the coarser levels' edges between 2 x 2 cells: a piecewise constant correction makes differences look
-/// steeper than they are. With 1/2, the Laplacian is that of the coarser grid; edges to fixed cells keep their weight.
-/// A power of two rounds nothing off, so that the diagonal minus all edges is exactly the edges to fixed cells.
-constexpr float share_of_edges = 0.5F;
+/// Weight of the edge between two coarse cells: a piecewise constant correction makes differences look steeper than
+/// they are, so the edges on the way from the middle of one cell to that of the other are resistors in series. On an
+/// open grid that is half the edges between them, the Laplacian of the coarser grid; where only a gap connects two wide
+/// parts, halves of halves would correct them many times too much. Less than half would correct too little.
+/// \param between sum of the edges between the cells
+/// \param one, other sums of the edges along the same direction within each
+float in_series(float one, float between, float other) {
+    return std::max(0.5F * between, 1.0F / (0.5F / one + 1.0F / between + 0.5F / other));
+}
 
-/// Combines the equations of 2 x 2 cells into a coarse cell's equation. east(x, y), south(x, y), diagonal(x, y): of the
+/// Number of coarser levels, the finest first, that make two cycles for one of the level above. More change nothing.
+constexpr std::size_t levels_solved_twice = 2;
+
+/// Combines the equations of 2 x 2 cells into a coarse cell's equation. east(x, y), south(x, y), fixed(x, y): of the
 /// finer level.
-template <class Edge, class South, class Diagonal>
-Equations sums(Board const& fine, Run const& run, Edge const& east, South const& south, Diagonal const& diagonal) {
+template <class East, class South, class Fixed>
+Equations sums(Board const& fine, Run const& run, East const& east, South const& south, Fixed const& fixed) {
     Equations coarse(fine.coarser());
     parallel_ranges(run, coarse.board.height, 64, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             float* __restrict const to_east = coarse.east.row(row);
             float* __restrict const to_south = coarse.south.row(row);
-            float* __restrict const to_diagonal = coarse.diagonal.row(row);
+            float* __restrict const to_fixed = coarse.fixed.row(row);
             std::int64_t const y = 2 * row;
             for (std::int64_t col = 0; col < coarse.board.width; ++col) {
                 std::int64_t const x = 2 * col;
-                float const inner = (east(x, y) + east(x, y + 1)) + (south(x, y) + south(x + 1, y));
-                float const all = (diagonal(x, y) + diagonal(x + 1, y)) + (diagonal(x, y + 1) + diagonal(x + 1, y + 1));
-                float const to_west = x > 0 ? east(x - 1, y) + east(x - 1, y + 1) : 0.0F;
-                float const to_north = y > 0 ? south(x, y - 1) + south(x + 1, y - 1) : 0.0F;
-                to_east[col] = share_of_edges * (east(x + 1, y) + east(x + 1, y + 1));
-                to_south[col] = share_of_edges * (south(x, y + 1) + south(x + 1, y + 1));
-                to_diagonal[col] =
-                    (all - 2.0F * inner) - share_of_edges * (to_west + to_north) - (to_east[col] + to_south[col]);
+                to_east[col] = in_series(east(x, y) + east(x, y + 1), east(x + 1, y) + east(x + 1, y + 1),
+                                         east(x + 2, y) + east(x + 2, y + 1));
+                to_south[col] = in_series(south(x, y) + south(x + 1, y), south(x, y + 1) + south(x + 1, y + 1),
+                                          south(x, y + 2) + south(x + 1, y + 2));
+                to_fixed[col] = (fixed(x, y) + fixed(x + 1, y)) + (fixed(x, y + 1) + fixed(x + 1, y + 1));
             }
         }
     });
@@ -108,6 +113,7 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
     CoarseLevel level{board,
                       TwoColours<float>(board),
                       TwoColours<float>(board),
+                      {},
                       TwoColours<float>(board),
                       Plane<float>(board),
                       Plane<float>(board),
@@ -115,18 +121,23 @@ CoarseLevel level_of(Equations const& from, Run const& run) {
                       Plane<float>(board)};
     parallel_ranges(run, board.height, 64, [&](std::int64_t begin, std::int64_t end) {
         std::vector<float> inverse(2 * board.half());
+        std::vector<float> const none(board.width);
         for (std::int64_t y = begin; y < end; ++y) {
-            float const* const diagonal = from.diagonal.row(y);
+            float const* const east = from.east.row(y);
+            float const* const south = from.south.row(y);
+            float const* const north = y > 0 ? from.south.row(y - 1) : none.data();
             for (std::int64_t x = 0; x < board.width; ++x) {
-                inverse[x] = diagonal[x] > 0.0F ? 1.0F / diagonal[x] : 0.0F;
+                float const sides = (x > 0 ? east[x - 1] : 0.0F) + east[x];
+                float const diagonal = from.fixed.row(y)[x] + (sides + (north[x] + south[x]));
+                inverse[x] = diagonal > 0.0F ? 1.0F / diagonal : 0.0F;
             }
             split(inverse.data(), y, board, level.inverse);
             for (std::int64_t x = Board::first(y, 0); x < board.width; x += 2) {
                 std::int64_t const k = x / 2;
-                level.above.row(y)[k] = y > 0 ? from.south.row(y - 1)[x] : 0.0F;
-                level.left.row(y)[k] = x > 0 ? from.east.row(y)[x - 1] : 0.0F;
-                level.right.row(y)[k] = from.east.row(y)[x];
-                level.below.row(y)[k] = from.south.row(y)[x];
+                level.above.row(y)[k] = north[x];
+                level.left.row(y)[k] = x > 0 ? east[x - 1] : 0.0F;
+                level.right.row(y)[k] = east[x];
+                level.below.row(y)[k] = south[x];
             }
         }
     });
@@ -154,10 +165,12 @@ std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run con
     Equations equations = [&] {
         Padded<std::uint8_t> const degree = degrees(kind, top, run);
         auto const both = [](std::uint8_t a, std::uint8_t b) { return a > 0 && b > 0 ? 1.0F : 0.0F; };
-        return sums(
-            top, run, [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); },
-            [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); },
-            [&](std::int64_t x, std::int64_t y) { return static_cast<float>(degree.row(y)[x]); });
+        auto const east = [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y)[x + 1]); };
+        auto const south = [&](std::int64_t x, std::int64_t y) { return both(degree.row(y)[x], degree.row(y + 1)[x]); };
+        return sums(top, run, east, south, [&](std::int64_t x, std::int64_t y) {
+            float const back = (x > 0 ? east(x - 1, y) : 0.0F) + (y > 0 ? south(x, y - 1) : 0.0F);
+            return static_cast<float>(degree.row(y)[x]) - (east(x, y) + south(x, y) + back);
+        });
     }();
     levels.push_back(level_of(equations, run));
     while (equations.board.width > 1 || equations.board.height > 1) {
@@ -165,15 +178,18 @@ std::vector<CoarseLevel> coarse_levels(Raster<std::uint8_t> const& kind, Run con
         equations = sums(
             fine.board, run, [&](std::int64_t x, std::int64_t y) { return fine.east.row(y)[x]; },
             [&](std::int64_t x, std::int64_t y) { return fine.south.row(y)[x]; },
-            [&](std::int64_t x, std::int64_t y) { return fine.diagonal.row(y)[x]; });
+            [&](std::int64_t x, std::int64_t y) { return fine.fixed.row(y)[x]; });
         levels.push_back(level_of(equations, run));
+    }
+    for (std::size_t i = 0; i < std::min(levels_solved_twice, levels.size()); ++i) {
+        levels[i].next = TwoColours<float>(levels[i].board);
     }
     return levels;
 }
 
 namespace {
 
-constexpr float over_correction = 1.0F; // none: the coarser levels' edges are halved instead
+constexpr float over_correction = 1.0F; // none: the coarser levels' edges are weaker instead
 constexpr int red = 0;
 constexpr int black = 1;
 
@@ -222,6 +238,14 @@ private:
     std::array<float*, 4> rows_{};
 };
 
+/// Adds up two rows of the finer level's residual.
+void restrict_rows(std::array<std::vector<float>, 2> const& rest, std::int64_t row, CoarseLevel& coarse,
+                   GridRows const& rows) {
+    std::int64_t const even = Board::first(row, red);
+    rows.split_sum(coarse.r.of[even].row(row), coarse.r.of[1 - even].row(row), rest[0].data(), rest[1].data(),
+                   coarse.board.half());
+}
+
 /// Sweeps red, then black, from zero, and restricts the residual to the coarser level. After the sweep the residual is
 /// 0 in black cells; in red ones it is the sum of the changes of their black neighbours.
 template <class Level>
@@ -241,21 +265,42 @@ void down(Level const& level, TwoColours<float> const& r, CoarseLevel& coarse, G
             if (std::int64_t const q = y - 2; q >= 2 * begin) {
                 loop.rest(rest[q & 1].data(), equations(level, q, red), e_black.around(q, red), n);
                 if ((q & 1) != 0) {
-                    std::int64_t const row = q / 2;
-                    std::int64_t const even = Board::first(row, red);
-                    rows.split_sum(coarse.r.of[even].row(row), coarse.r.of[1 - even].row(row), rest[0].data(),
-                                   rest[1].data(), coarse.board.half());
+                    restrict_rows(rest, q / 2, coarse, rows);
                 }
             }
         }
     });
 }
 
-/// Adds the coarser level's correction and sweeps black, then red.
+/// As down, from the values that up left instead of zero: red cells are solved, so only black ones change.
+void down_again(CoarseLevel const& level, CoarseLevel& coarse, GridRows const& rows, Run const& run) {
+    std::int64_t const n = level.board.half();
+    parallel_ranges(run, coarse.board.height, rows_a_range(coarse.board), [&](std::int64_t begin, std::int64_t end) {
+        Window change(level.board);
+        std::vector<float> black_row(level.board.stride());
+        std::array<std::vector<float>, 2> rest;
+        rest.fill(std::vector<float>(level.board.stride()));
+        for (std::int64_t y = 2 * begin - 1; y <= 2 * end; ++y) {
+            std::copy_n(level.e.of[black].row(y), n, change.row(y));
+            rows.coarse.relax(black_row.data(), level.r.of[black].row(y), equations(level, y, black),
+                              around(level.e.of[red], y, black), n);
+            rows.direct(change.row(y), black_row.data(), -1.0F, n);
+            if (std::int64_t const q = y - 1; q >= 2 * begin) {
+                rows.coarse.rest(rest[q & 1].data(), equations(level, q, red), change.around(q, red), n);
+                if ((q & 1) != 0) {
+                    restrict_rows(rest, q / 2, coarse, rows);
+                }
+            }
+        }
+    });
+}
+
+/// Adds the coarser level's correction and sweeps black, then red. corrected(to, y, correction): a row's red cells
+/// before these sweeps, with their correction.
 /// \return the sum of r e
-template <class Level>
+template <class Level, class Corrected>
 double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, CoarseLevel const& coarse,
-          GridRows const& rows, Run const& run) {
+          GridRows const& rows, Run const& run, Corrected const& corrected) {
     SmoothingRows<std::remove_cvref_t<decltype(equations(level, 0, red))>> const& loop = loops(rows, level);
     std::int64_t const n = level.board.half();
     std::vector<double> sums(coarse.board.height);
@@ -270,7 +315,7 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
                 rows.merge(correction.data(), coarse.e.of[even].row(row), coarse.e.of[1 - even].row(row),
                            over_correction, coarse.board.half());
             }
-            loop.corrected(e_red.row(y), r.of[red].row(y), equations(level, y, red), correction.data(), n);
+            corrected(e_red.row(y), y, correction.data());
             if (std::int64_t const b = y - 1; b >= 2 * begin - 1) {
                 // This range also computes rows of the next range, but only the next range may write them.
                 b >= 2 * begin&& b < 2 * end ? e_black.lend(b, e.of[black].row(b)) : e_black.keep(b);
@@ -290,6 +335,25 @@ double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, 
     return sum;
 }
 
+/// The second half of a cycle, after down.
+template <class Level>
+double up(Level const& level, TwoColours<float> const& r, TwoColours<float>& e, CoarseLevel const& coarse,
+          GridRows const& rows, Run const& run) {
+    return up(level, r, e, coarse, rows, run, [&](float* to, std::int64_t y, float const* correction) {
+        loops(rows, level).corrected(to, r.of[red].row(y), equations(level, y, red), correction, level.board.half());
+    });
+}
+
+/// The second half of a cycle, after down_again.
+void up_again(CoarseLevel& level, CoarseLevel const& coarse, GridRows const& rows, Run const& run) {
+    std::int64_t const n = level.board.half();
+    up(level, level.r, level.next, coarse, rows, run, [&](float* to, std::int64_t y, float const* correction) {
+        std::copy_n(correction, n, to);
+        rows.direct(to, level.e.of[red].row(y), 1.0F, n); // cells that are not free have no edges
+    });
+    std::swap(level.e, level.next);
+}
+
 /// Approximately solves the level's equations for its own right-hand side.
 void solve(std::vector<CoarseLevel>& levels, std::size_t index, GridRows const& rows, Run const& run) {
     CoarseLevel& level = levels[index];
@@ -301,16 +365,23 @@ void solve(std::vector<CoarseLevel>& levels, std::size_t index, GridRows const& 
     down(level, level.r, coarser, rows, run);
     solve(levels, index + 1, rows, run);
     up(level, level.r, level.e, coarser, rows, run);
+    if (index < levels_solved_twice) {
+        down_again(level, coarser, rows, run);
+        solve(levels, index + 1, rows, run);
+        up_again(level, coarser, rows, run);
+    }
 }
 
-// z = M r with M one V(1,1) cycle: symmetric and positive definite, close to the inverse of the problem's matrix. Each
-// level makes one red-black Gauss-Seidel sweep from zero, adds the coarser level's correction, and sweeps backwards;
-// the coarser levels' edges are halved because corrections are piecewise constant. Sweeps are fused in one pass over
-// the rows per leg, so that only z is stored. Returns the sum of r z. The same bytes for any number of threads: each
-// range of rows recomputes the rows around it. Source: Braess 1995, Towards algebraic multigrid for elliptic problems
-// of second order (aggregation).
-double v_cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
-               GridRows const& rows, Run const& run) {
+// z = M r with M one cycle: symmetric, close to the inverse of the problem's matrix, and positive definite as long as
+// one cycle of a level that makes two corrects nothing twice too much (in_series). Each level makes one red-black
+// Gauss-Seidel sweep from zero, adds the coarser level's correction, and sweeps backwards; the coarser levels' edges
+// are weaker because corrections are piecewise constant. The first coarser levels make two cycles each: their errors,
+// not those of the grid itself, decide how often to iterate. Sweeps are fused in one pass over the rows per leg, so
+// that only z is stored. Returns the sum of r z. The same bytes for any number of threads: each range of rows
+// recomputes the rows around it. Source: Braess 1995, Towards algebraic multigrid for elliptic problems of second order
+// (aggregation).
+double cycle(TopLevel const& top, std::vector<CoarseLevel>& coarse, TwoColours<float> const& r, TwoColours<float>& z,
+             GridRows const& rows, Run const& run) {
     down(top, r, coarse.front(), rows, run);
     solve(coarse, 0, rows, run);
     return up(top, r, z, coarse.front(), rows, run);
@@ -352,7 +423,7 @@ public:
     }
 
     /// Computes z, the correction that a cycle would add to x.
-    void precondition() { rz_ = v_cycle(problem_.top, levels_, r_, z_, rows_, run_); }
+    void precondition() { rz_ = cycle(problem_.top, levels_, r_, z_, rows_, run_); }
 
     double greatest_correction() const { return greatest(z_, board_, run_); }
 

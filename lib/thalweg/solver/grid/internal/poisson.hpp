@@ -79,7 +79,7 @@ template <class T> Around<T> around(Plane<T> const& other, std::int64_t row, std
     return {other.row(row - 1), other.row(row) + shift - 1, other.row(row) + shift, other.row(row + 1)};
 }
 
-// The inner loops of v_cycle, conjugate_gradients and relax_explicit: one colour of one row. n: cells of that colour in
+// The inner loops of cycle, conjugate_gradients and relax_explicit: one colour of one row. n: cells of that colour in
 // the row; floats up to the next multiple of Board::lanes are also written, as 0.
 
 /// Equations of a row of the finest level: weights 1.
@@ -131,11 +131,13 @@ struct GridRows {
 
 GridRows const& grid_rows(Lanes lanes);
 
-/// A coarser grid: each cell represents 2 x 2 of the finer one, its equations are the sums of theirs (Galerkin).
+/// A coarser grid: each cell represents 2 x 2 of the finer one, its equations are the sums of theirs (Galerkin), with
+/// weaker edges.
 struct CoarseLevel {
     Board board;
     TwoColours<float> r;       ///< right-hand side
     TwoColours<float> e;       ///< solution
+    TwoColours<float> next;    ///< the next one, while it is computed
     TwoColours<float> inverse; ///< 1 / diagonal; 0 without free cells
     /// Weights of the edges from each red cell; black cells share them.
     Plane<float> above, left, right, below;
@@ -243,7 +245,7 @@ struct Convergence {
 };
 
 /// Improves x until the norm of the residual is at most tolerance * zero, and four times the largest correction of
-/// another cycle is at most tolerance times the largest value: conjugate gradients preconditioned by v_cycle. x is
+/// another cycle is at most tolerance times the largest value: conjugate gradients preconditioned by cycle. x is
 /// stored in double, everything else in float; the residual is recomputed from x after each reduction by a factor of
 /// 1000 and before returning, so that float rounding does not limit the accuracy.
 /// \param levels of the problem
