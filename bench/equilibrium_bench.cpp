@@ -32,14 +32,18 @@ std::int64_t held_bytes() {
     return pages * sysconf(_SC_PAGESIZE);
 }
 
-/// Counts rounds, which the solver reports as "fill".
-int count_round(double, char const* what, void* rounds) {
-    *static_cast<double*>(rounds) += std::string_view(what) == "fill" ? 1.0 : 0.0;
+/// Counts rounds, which the solver reports as "fill", by their cells: each coarser level ends at a quarter of the
+/// progress of the next finer one, and has a quarter of its cells.
+int count_round(double done, char const* what, void* rounds) {
+    double cells = 1.0;
+    for (; done > 0.0 && done < 0.25 * cells; cells *= 0.25) {
+    }
+    *static_cast<double*>(rounds) += std::string_view(what) == "fill" ? cells : 0.0;
     return 1;
 }
 
 /// On one core; bytes_per_cell: what the process has held at most less what it held before, the rivers among it, where
-/// no benchmark before it held more; rounds: on all levels.
+/// no benchmark before it held more; rounds: of all cells, those on coarser levels by their share.
 void BM_equilibrium(benchmark::State& state) {
     Channels const channels = rivers(state.range(0));
     surface::EquilibriumParams params;
