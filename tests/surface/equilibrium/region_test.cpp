@@ -221,7 +221,7 @@ TEST(OrderCells, AddsInflowsDownstream) {
         level.direction[i] = i < 10 ? std::int8_t{0} : std::int8_t{-1};
     }
     level.inflow = {{8, 100}};
-    set_stack_order(level);
+    accumulate_areas(level, {});
     EXPECT_EQ(level.area[7], 1U);
     EXPECT_EQ(level.area[8], 102U);
     EXPECT_EQ(level.area[9], 103U);

@@ -139,7 +139,7 @@ struct EquilibriumRecipe {
     std::optional<double> mean_slope_deg; ///< none: 25, where no relief is asked
     double hillslope_m = 15.0;            ///< [m] this and what follows as surface::EquilibriumParams
     double debris_area_km2 = 0.045;
-    double floor_width = 0.0425; ///< [0, 1] 0.0425: floors 18 m wide where 1 km² drains, in proportion
+    double floor_width = 0.04; ///< [0, 1] 0.04: floors 17 m wide where 1 km² drains, in proportion
     double roughness = 0.22;
     double longest_wave_m = 10'800.0;
     double grain = 5.0;

@@ -425,9 +425,9 @@ std::span<Row const> recipe_rows() {
             "drainage area below which debris flows cut hillsides, whose slopes hardly depend on area",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.debris_area_km2; }),
         key("surface.floor_width", number, "", {0, 1}, "by_equilibrium",
-            "width of valley floors: 0.0425 is 18 m where 1 km2 drains, in proportion; it grows with drainage area ^ "
+            "width of valley floors: 0.04 is 17 m where 1 km2 drains, in proportion; it grows with drainage area ^ "
             "0.42, up to 200 km2",
-            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.floor_width; }, {.earlier = {0.04}}),
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.floor_width; }, {.earlier = {0.0425}}),
         key("surface.roughness", number, "", {0, 1}, "by_equilibrium",
             "standard deviation of the logarithm of erodibility",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.roughness; }, {.earlier = {0.4, 0.25}}),

@@ -267,8 +267,7 @@ void free_finished_memory(TerrainLevel& level) {
 class Solver {
 public:
     Solver(EquilibriumParams const& params, Channels const& rivers, Window const& window, Run const& run)
-        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params, window.grid.cell_m),
-          per_length_(jittered_per_length()) {}
+        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params, window.grid.cell_m) {}
 
     /// The frame is set from the nearest rivers where the region has no information.
     void solve(TerrainLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
@@ -278,6 +277,7 @@ public:
                       : BoundaryCells{};
         set_boundary_heights(level, edge);
         run_.check();
+        Cells<Relaxation> steps;
         flood_terrain(level);
         int const rounds = rounds_of(number, levels);
         bool const given = params_.heights != RiverHeights::graded && !level.rivers.asked.empty();
@@ -287,18 +287,21 @@ public:
         for (int round = 0; round < rounds; ++round) {
             run_.at(share_done(number, round, rounds), "fill");
             if (round > 0) {
+                if (number == 0 && !given) {
+                    remove_tips_late(level, rounds - round);
+                }
                 set_boundary_heights(level, edge);
                 lift_frame(level, frame);
                 if (!shortened_.empty()) {
-                    slide_terrain(level);
+                    slide_terrain(level, run_);
                 }
-                set_steepest_receivers(level, per_length_, run_);
+                set_steepest_receivers(level, run_);
             }
             if (number == 0 && round == floors_after && params_.floor_width_km > 0.0) {
                 valley_floors(level, {params_.floor_width_km, window_.grid.cell_m, params_.seed});
             }
             run_.check();
-            set_stack_order(level);
+            accumulate_areas(level, run_);
             run_.check();
             if (given) {
                 relax_given_rivers(level, law_, params_.heights);
@@ -308,7 +311,7 @@ public:
                 relax_finest_rivers(level, rounds - round);
             }
             run_.check();
-            relax_terrain(level, law_);
+            relax_terrain(level, law_, steps, run_);
             if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
                 reduce_erodibility(level, law_);
             }
@@ -324,9 +327,9 @@ public:
 private:
     /// Few at the finest level, many at the coarsest.
     static int rounds_of(std::size_t number, std::size_t levels) {
-        return levels == 1 ? coarse_rounds
-                           : fine_rounds + (coarse_rounds - fine_rounds) * static_cast<int>(number) /
-                                               static_cast<int>(levels - 1);
+        auto const part = static_cast<int>(number * number);
+        auto const all = static_cast<int>((levels - 1) * (levels - 1));
+        return all == 0 ? coarse_rounds : fine_rounds + (coarse_rounds - fine_rounds) * part / all;
     }
 
     /// A level takes a quarter of the time of the next finer one.
@@ -338,11 +341,15 @@ private:
         return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
     }
 
-    /// Relaxes rivers with the constraints of the grid's own rivers: no perched head, and water that follows them.
-    void relax_finest_rivers(TerrainLevel& level, int rounds_left) {
+    /// Removes tips as late as the terrain can still come down where they were.
+    void remove_tips_late(TerrainLevel& level, int rounds_left) {
         if (rounds_left == to_come_down || rounds_left == to_come_down + 1) {
             remove_tips(level);
         }
+    }
+
+    /// Relaxes rivers with the constraints of the grid's own rivers: no perched head, and water that follows them.
+    void relax_finest_rivers(TerrainLevel& level, int rounds_left) {
         relax_rivers(level, law_);
         if (rounds_left <= to_come_down) {
             lower_perched(level, perched_, least_tangent);
@@ -352,19 +359,19 @@ private:
 
     /// Where divides moved in the last round, terrain slides and may leave tips of rivers perched.
     void slide_and_remove_tips(TerrainLevel& level, bool given) {
-        slide_terrain(level);
+        slide_terrain(level, run_);
         run_.check();
         if (!given) {
             remove_tips(level);
-            slide_terrain(level);
+            slide_terrain(level, run_);
             run_.check();
         }
-        set_steepest_receivers(level, per_length_, run_);
-        set_stack_order(level);
+        set_steepest_receivers(level, run_);
+        accumulate_areas(level, run_);
     }
 
     void remove_tips(TerrainLevel& level) {
-        HeightConversion const raise = height_conversion_for(level, rivers_, window_, params_);
+        HeightConversion const raise = height_conversion_for(level, rivers_, window_, params_, run_);
         perched_ = static_cast<float>(raise.mean_tangent * window_.grid.cell_m / raise.metres);
         if (params_.heads == Heads::kept) {
             return;
@@ -384,7 +391,6 @@ private:
     Window const& window_;
     Run const& run_;
     EquilibriumLaw law_;
-    JitteredPerLength per_length_;
     float perched_ = 0.0F; ///< tangent above which river cells count as perched, in the solver's units
     std::vector<std::int64_t> shortened_;
 };
@@ -434,7 +440,7 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
             around.z.empty() || !params.inflow ? RegionFrame{} : frame_by_region(level, around, params.seed);
         solver.solve(level, number, levels.size(), frame);
         if (run.preview && shows_terrain(level, rivers.grid)) {
-            run.preview(coarse_terrain(level, window, conversion, params), false);
+            run.preview(coarse_terrain(level, window, conversion, params, run), false);
         }
         if (region.level > 0 && number == region.level) {
             around = level;
@@ -549,13 +555,13 @@ Held solved_terrain(Channels const& rivers, EquilibriumFields const& fields, Equ
 /// \param solve the terrain for metres per unit
 template <class Solve>
 Held terrain_at_target(Grid const& grid, Mask const& land, EquilibriumParams const& params, double metres,
-                       Solve solve_with) {
+                       Run const& run, Solve solve_with) {
     constexpr int most_solves = 6;
     constexpr double near_enough = 0.01;
     constexpr double widest = 2.0;              // [log] of one step
     auto const off_by = [&](Held const& held) { // [log]
         Window const window{grid, land, held.land.margin};
-        double const share = share_of_target(held.land.level, window, held.metres, params);
+        double const share = share_of_target(held.land.level, window, held.metres, params, run);
         return portable::log(std::max(share, 1e-6));
     };
     Held best = solve_with(metres);
@@ -641,7 +647,7 @@ EquilibriumTerrain graded_terrain(Solved&& land, Channels const& rivers, Equilib
         extract_terrain(std::move(land.level), rivers, window, raise, std::move(land.shortened), params.heads, run);
     out.inflows = std::move(land.inflows);
     out.in_region = land.in_region;
-    out.target_share = share_of_target(out.dem, 1.0 / rivers.grid.cell_m, params);
+    out.target_share = share_of_target(out.dem, 1.0 / rivers.grid.cell_m, params, run);
     return out;
 }
 
@@ -657,7 +663,7 @@ EquilibriumTerrain terrain_with_levels(Channels const& rivers, EquilibriumFields
         HeightConversion const conversion = lakes.conversion(metres);
         return Held{solved(lakes.in_units(metres), fields, params, &conversion, run), metres};
     };
-    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, solve)
+    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
                                        : solve(raise.metres);
     return graded_terrain(std::move(held.land), lakes.in_metres(held.metres), fields, params,
                           lakes.conversion(held.metres), run);
@@ -672,13 +678,13 @@ EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumField
     auto const solve = [&](double metres) {
         return solved_terrain(rivers, fields, params, std::max(metres, least), run);
     };
-    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, solve)
+    Held held = params.bring_to_target ? terrain_at_target(rivers.grid, fields.land, params, raise.metres, run, solve)
                                        : solve(raise.metres);
     HeightConversion const given{held.metres, static_cast<double>(base_of(rivers, params.edge)), raise.mean_tangent};
     Window const window{rivers.grid, fields.land, held.land.margin};
     EquilibriumTerrain land =
         extract_terrain_with_heights(std::move(held.land.level), rivers, window, given, params.heights, run);
-    land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params);
+    land.target_share = share_of_target(land.dem, 1.0 / rivers.grid.cell_m, params, run);
     return land;
 }
 
@@ -702,7 +708,7 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
     Solved graded = solved(drawn, fields, wanted, nullptr, quiet);
     Window const window{rivers.grid, fields.land, graded.margin};
     run.check();
-    HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params);
+    HeightConversion const raise = height_conversion_for(graded.level, rivers, window, params, run);
     run.check();
     // The scale of heights is known only now, so that prescribed metres can be converted to solver units.
     if (is_asked) {

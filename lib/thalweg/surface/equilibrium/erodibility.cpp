@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 namespace thalweg::surface {
@@ -13,6 +14,20 @@ constexpr double shortest_wave = 2.0;
 constexpr double to_unit_variance = 5.0;
 constexpr double stronger = 1.1; // from octave to octave: gullies need more amplitude than the long waves leave them
 constexpr int counted_octaves = 8;
+
+/// A row of cells in an octave's lattice: the place of its first cell and the steps to the next ones.
+struct OctaveRow {
+    float const* nodes;
+    std::int64_t width; ///< of the lattice
+    double x;
+    double y;
+    double x_per_col;
+    double y_per_col;
+    float weight;
+};
+
+#define THALWEG_KERNELS <thalweg/surface/equilibrium/internal/octave_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
 
 /// One octave: its lattice, rotated and shifted against the grid, and the random numbers at the nodes in use.
 class Octave {
@@ -38,21 +53,10 @@ public:
     }
 
     void add_to_row(std::int64_t row, double weight, float* out, std::int64_t count) const {
-        double const x = x0_ - x_per_row_ * static_cast<double>(row);
-        double const y = y0_ + y_per_row_ * static_cast<double>(row);
-        auto const w = static_cast<float>(weight);
-        for (std::int64_t col = 0; col < count; ++col) {
-            double const at_x = x + x_per_col_ * static_cast<double>(col);
-            double const at_y = y + y_per_col_ * static_cast<double>(col);
-            auto const ix = static_cast<std::int32_t>(at_x);
-            auto const iy = static_cast<std::int32_t>(at_y);
-            float const u = eased(static_cast<float>(at_x - ix));
-            float const v = eased(static_cast<float>(at_y - iy));
-            float const* const n = &nodes_[iy * width_ + ix];
-            float const upper = n[0] + (n[1] - n[0]) * u;
-            float const lower = n[width_] + (n[width_ + 1] - n[width_]) * u;
-            out[col] += w * (upper + (lower - upper) * v);
-        }
+        auto* const add = widest_lanes() == Lanes::avx2 ? &avx2::octave_row : &plain::octave_row;
+        add({nodes_.data(), width_, x0_ - x_per_row_ * static_cast<double>(row),
+             y0_ + y_per_row_ * static_cast<double>(row), x_per_col_, y_per_col_, static_cast<float>(weight)},
+            out, count);
     }
 
 private:
@@ -67,12 +71,11 @@ private:
         return stretch > 1.0 ? 0.15 * (static_cast<double>(number * 7919 % 5) - 2.0)
                              : 0.7 * static_cast<double>(number);
     }
-    static float eased(float t) { return t * t * t * (t * (t * 6.0F - 15.0F) + 10.0F); }
 
     void draw(std::uint64_t seed, std::uint64_t number, std::int64_t left, std::int64_t top, std::int64_t rows,
               Run const& run) {
         constexpr std::int64_t a_block = 8;
-        parallel_ranges(run, rows, 16, [&](std::int64_t begin, std::int64_t end) {
+        parallel_ranges(run, rows, least_rows(width_), [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t row = begin; row < end; ++row) {
                 std::array<std::uint64_t, 4> words{};
                 std::int64_t held = -1;
@@ -117,7 +120,7 @@ Cells<float> erodibility_noise(TerrainLevel const& level, ErodibilityNoise const
     double const shortest = std::max(shortest_wave, 1.5 * static_cast<double>(level.side));
     for (std::uint64_t number = 0; wave >= shortest; ++number, wave /= 2.0, weight *= stronger) {
         Octave const octave(level, params, number, wave, run);
-        parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+        parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
             for (std::int64_t row = begin; row < end; ++row) {
                 octave.add_to_row(row, weight, &noise[row * level.width], level.width);
             }
@@ -161,21 +164,26 @@ void set_erodibility(TerrainLevel& level, ErodibilityFields const& fields, Erodi
                      Run const& run) {
     level.erodibility = erodibility_noise(level, params.noise, run);
     level.cap.resize(level.erodibility.size());
-    bool const rocks = fields.erodibility.cells() > 0;
-    Cells<float> const rock = rocks ? level_of(fields.erodibility, level) : Cells<float>{};
+    for (std::uint32_t const river : level.rivers.cell) {
+        level.erodibility[river] = 0.0F;
+    }
+    Cells<float> rock;
+    if (fields.erodibility.cells() > 0) {
+        rock = level_of(fields.erodibility, level);
+        std::transform(rock.begin(), rock.end(), rock.begin(),
+                       [](float of) { return static_cast<float>(portable::pow(static_cast<double>(of), 0.2)); });
+    }
     if (fields.uplift.cells() > 0) {
         level.uplift = level_of(fields.uplift, level);
     }
-    parallel_ranges(run, level.cells(), 1 << 14, [&](std::int64_t begin, std::int64_t end) {
-        for (auto i = static_cast<std::size_t>(begin); i < static_cast<std::size_t>(end); ++i) {
-            double const noise = level.type[i] == CellType::river ? 0.0 : static_cast<double>(level.erodibility[i]);
-            double fifth_root = portable::exp(0.2 * params.roughness * noise);
-            if (rocks) {
-                fifth_root *= portable::pow(static_cast<double>(rock[i]), 0.2);
-            }
-            double const fourth = fifth_root * fifth_root * fifth_root * fifth_root;
-            level.erodibility[i] = static_cast<float>(fourth * fifth_root);
-            level.cap[i] = static_cast<float>(static_cast<double>(steepest_tangent) / fourth);
+    auto* const turn = widest_lanes() == Lanes::avx2 ? &avx2::erodibility_row : &plain::erodibility_row;
+    std::vector<float> const even(rock.empty() ? static_cast<std::size_t>(level.width) : 0, 1.0F);
+    auto const roughness = static_cast<float>(params.roughness);
+    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            auto const first = static_cast<std::size_t>(row * level.width);
+            turn(&level.erodibility[first], &level.cap[first], rock.empty() ? even.data() : &rock[first], roughness,
+                 level.width);
         }
     });
 }

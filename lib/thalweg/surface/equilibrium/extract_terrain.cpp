@@ -1,5 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <functional>
+#include <mutex>
 #include <utility>
 
 #include <fmt/format.h>
@@ -20,47 +22,97 @@ class Tangents {
 public:
     void add(float tangent) { ++counts_[std::bit_cast<std::uint32_t>(tangent) >> dropped]; }
 
-    bool empty() const {
-        return std::all_of(counts_.begin() + 1, counts_.end(), [](std::uint64_t n) { return n == 0; });
+    void add(Tangents const& other) {
+        std::transform(counts_.begin(), counts_.end(), other.counts_.begin(), counts_.begin(), std::plus<>());
     }
 
-    /// [degrees] mean slope when heights are multiplied by this.
-    double mean_slope(double rise) const {
-        double sum = 0.0;
-        double count = 0.0;
+    /// Lists what is counted.
+    struct Bin {
+        double tangent;
+        double count;
+    };
+    std::vector<Bin> bins() const {
+        std::vector<Bin> out;
         for (std::size_t k = 0; k < counts_.size(); ++k) {
             if (counts_[k] != 0) {
                 auto const middle =
                     std::bit_cast<float>(static_cast<std::uint32_t>(k << dropped) + (1U << (dropped - 1)));
-                double const tangent = k == 0 ? 0.0 : rise * static_cast<double>(middle);
-                sum += static_cast<double>(counts_[k]) * portable::atan2(tangent, 1.0);
-                count += static_cast<double>(counts_[k]);
+                out.push_back({k == 0 ? 0.0 : static_cast<double>(middle), static_cast<double>(counts_[k])});
             }
+        }
+        return out;
+    }
+
+private:
+    static constexpr std::uint32_t dropped = 15;
+    std::vector<std::uint32_t> counts_ = std::vector<std::uint32_t>(std::size_t{1} << (31 - dropped));
+};
+
+/// Slopes of a terrain, of which some are above 0; without bins: it is level.
+class Slopes {
+public:
+    explicit Slopes(Tangents const& tangents) : bins_(tangents.bins()) {
+        if (bins_.size() == 1 && bins_[0].tangent == 0.0) {
+            bins_.clear();
+        }
+    }
+
+    bool empty() const { return bins_.empty(); }
+
+    /// [degrees] mean slope when heights are multiplied by this.
+    double mean(double rise) const {
+        double sum = 0.0;
+        double count = 0.0;
+        for (Tangents::Bin const& bin : bins_) {
+            sum += bin.count * portable::atan2(rise * bin.tangent, 1.0);
+            count += bin.count;
+        }
+        return sum / count * (180.0 / portable::pi);
+    }
+
+    /// [degrees] growth of mean() with the rise.
+    double growth(double rise) const {
+        double sum = 0.0;
+        double count = 0.0;
+        for (Tangents::Bin const& bin : bins_) {
+            double const tangent = rise * bin.tangent;
+            sum += bin.count * bin.tangent / (1.0 + tangent * tangent);
+            count += bin.count;
         }
         return sum / count * (180.0 / portable::pi);
     }
 
 private:
-    static constexpr std::uint32_t dropped = 15;
-    std::vector<std::uint64_t> counts_ = std::vector<std::uint64_t>(std::size_t{1} << (31 - dropped));
+    std::vector<Tangents::Bin> bins_;
 };
 
 /// Horn's slopes of the cells that have all their neighbours.
-Tangents horn_tangents(Raster<float> const& land) {
+Tangents horn_tangents(Raster<float> const& land, Run const& run) {
     Tangents tangents;
-    for (std::int64_t row = 1; row + 1 < land.height(); ++row) {
-        float const* const n = land.row(row - 1).data();
-        float const* const z = land.row(row).data();
-        float const* const s = land.row(row + 1).data();
-        for (std::int64_t c = 1; c + 1 < land.width(); ++c) {
-            float const east = (n[c + 1] - n[c - 1]) + 2.0F * (z[c + 1] - z[c - 1]) + (s[c + 1] - s[c - 1]);
-            float const south = (s[c - 1] - n[c - 1]) + 2.0F * (s[c] - n[c]) + (s[c + 1] - n[c + 1]);
-            float const tangent = std::sqrt(east * east + south * south) * 0.125F;
-            if (!std::isnan(tangent) && !std::isnan(z[c])) {
-                tangents.add(tangent);
+    std::mutex adding;
+    parallel_ranges(run, land.height() - 2, 256, [&](std::int64_t begin, std::int64_t end) {
+        Tangents some;
+        std::vector<float> row_tangents(static_cast<std::size_t>(land.width()));
+        for (std::int64_t row = begin + 1; row < end + 1; ++row) {
+            float const* const n = land.row(row - 1).data();
+            float const* const z = land.row(row).data();
+            float const* const s = land.row(row + 1).data();
+            float* const out = row_tangents.data();
+            for (std::int64_t c = 1; c + 1 < land.width(); ++c) {
+                float const east = (n[c + 1] - n[c - 1]) + 2.0F * (z[c + 1] - z[c - 1]) + (s[c + 1] - s[c - 1]);
+                float const south = (s[c - 1] - n[c - 1]) + 2.0F * (s[c] - n[c]) + (s[c + 1] - n[c + 1]);
+                // the cell itself has no part in it, but may have no data
+                out[c] = std::sqrt(east * east + south * south) * 0.125F + 0.0F * z[c];
+            }
+            for (std::int64_t c = 1; c + 1 < land.width(); ++c) {
+                if (!std::isnan(out[c])) {
+                    some.add(out[c]);
+                }
             }
         }
-    }
+        std::lock_guard const lock(adding);
+        tangents.add(some);
+    });
     return tangents;
 }
 
@@ -76,28 +128,27 @@ Tangents descents(Raster<float> const& land) {
     return tangents;
 }
 
-double rise_for_slope(Tangents const& tangents, double mean_slope_deg) {
+double rise_for_slope(Slopes const& slopes, double mean_slope_deg) {
     constexpr double widest = 0x1p20; // slopes of a million to one
-    if (tangents.empty()) {
+    if (slopes.empty()) {
         return 1.0;
     }
-    if (tangents.mean_slope(widest) <= mean_slope_deg) {
+    if (slopes.mean(widest) <= mean_slope_deg) {
         throw BadParameter(
             fmt::format("surface.equilibrium: surface.mean_slope = {} degrees cannot be reached: so much "
                         "of the land is level that walls would give it {:.3g}; ask for less",
-                        mean_slope_deg, tangents.mean_slope(widest)));
+                        mean_slope_deg, slopes.mean(widest)));
     }
-    double low = 0.0;
-    double high = 1.0;
-    while (tangents.mean_slope(high) < mean_slope_deg) {
-        low = high;
-        high *= 2.0;
+    // The mean grows ever more slowly, so that Newton's steps from below never go too far.
+    double rise = 0.0;
+    for (int step = 0; step < 100; ++step) {
+        double const next = rise + (mean_slope_deg - slopes.mean(rise)) / slopes.growth(rise);
+        if (!(next > rise * (1.0 + 1e-12))) {
+            break;
+        }
+        rise = next;
     }
-    for (int halving = 0; halving < 40; ++halving) {
-        double const middle = 0.5 * (low + high);
-        (tangents.mean_slope(middle) < mean_slope_deg ? low : high) = middle;
-    }
-    return 0.5 * (low + high);
+    return rise;
 }
 
 /// [m] difference between the highest and the lowest cell, for heights in cells.
@@ -116,33 +167,33 @@ double rise_for_relief(Raster<float> const& land, double relief_m) {
     return range > 0.0 ? relief_m / range : 1.0;
 }
 
-Tangents tangents_of(Raster<float> const& land) {
-    Tangents tangents = horn_tangents(land);
-    return tangents.empty() ? descents(land) : tangents;
+Slopes slopes_of(Raster<float> const& land, Run const& run) {
+    Slopes const slopes(horn_tangents(land, run));
+    return slopes.empty() ? Slopes(descents(land)) : slopes;
 }
 
 // Computes the factor that scales heights to the target relief or mean slope. land: heights in cells; NaN: none.
 // Returns 1 for level terrain. Throws BadParameter naming the steepest mean slope that can be reached when too much of
 // the terrain is level.
-Rise height_scale_of(Raster<float> const& land, EquilibriumParams const& params) {
-    Tangents const tangents = tangents_of(land);
+Rise height_scale_of(Raster<float> const& land, EquilibriumParams const& params, Run const& run) {
+    Slopes const slopes = slopes_of(land, run);
     double const factor =
-        params.relief_m ? rise_for_relief(land, *params.relief_m) : rise_for_slope(tangents, params.mean_slope_deg);
-    if (tangents.empty()) {
+        params.relief_m ? rise_for_relief(land, *params.relief_m) : rise_for_slope(slopes, params.mean_slope_deg);
+    if (slopes.empty()) {
         return {factor, 0.0};
     }
-    double const slope = tangents.mean_slope(factor) * (portable::pi / 180.0);
+    double const slope = slopes.mean(factor) * (portable::pi / 180.0);
     return {factor, portable::sin(slope) / portable::cos(slope)};
 }
 
 } // namespace
 
-double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params) {
+double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params, Run const& run) {
     if (params.relief_m) {
         return range_of(land) * factor / *params.relief_m;
     }
-    Tangents const tangents = tangents_of(land);
-    return tangents.empty() ? 0.0 : tangents.mean_slope(factor) / params.mean_slope_deg;
+    Slopes const slopes = slopes_of(land, run);
+    return slopes.empty() ? 0.0 : slopes.mean(factor) / params.mean_slope_deg;
 }
 
 namespace {
@@ -150,7 +201,7 @@ namespace {
 // Enforces the law in the floats that will be written: raises heights by the least that puts every cell a step above
 // its receiver and banks above the rivers beside them; lakes have the height of their receivers. Prescribed heights of
 // rivers are raised by one ulp where necessary.
-void settle_terrain(TerrainLevel& level, float step, RiverHeights heights) {
+void settle_terrain(TerrainLevel& level, float step, RiverHeights heights, Run const& run) {
     auto const above = [step](float z) {
         return std::max(z + step, std::nextafter(z, std::numeric_limits<float>::infinity()));
     };
@@ -176,28 +227,33 @@ void settle_terrain(TerrainLevel& level, float step, RiverHeights heights) {
             level.z[i] = std::max(level.z[i], above(highest_river(level, i, offsets)));
         }
     });
-    for (std::size_t at = level.order.size(); at-- > 0;) {
-        std::size_t const i = level.order[at];
+    each_upstream(level, run, [&](std::size_t i) {
+        if (!is_land(level.type[i])) {
+            return;
+        }
         float least = above(level.z[moved(i, offsets[level.direction[i]])]);
         if (is_bank(level.type[i])) {
             least = std::max(least, above(highest_river(level, i, offsets)));
         }
         level.z[i] = std::max(level.z[i], least);
-    }
+    });
 }
 
 /// Copies the caller's grid out of the level; NaN at sea.
-Raster<float> cropped(TerrainLevel const& level, Window const& window) {
+Raster<float> cropped(TerrainLevel const& level, Window const& window, Run const& run) {
     Raster<float> dem(window.grid);
     Mask const& land = window.land;
     std::int64_t const margin = window.margin;
-    for (std::int64_t row = 0; row < dem.height(); ++row) {
-        for (std::int64_t col = 0; col < dem.width(); ++col) {
-            auto const i = static_cast<std::size_t>((row + margin + 1) * level.width + col + margin + 1);
-            bool const dry = land.cells() == 0 || land[Cell{col, row}] != 0;
-            dem[Cell{col, row}] = dry ? level.z[i] : std::numeric_limits<float>::quiet_NaN();
+    parallel_ranges(run, dem.height(), least_rows(dem.width()), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            float const* const z = &level.z[(row + margin + 1) * level.width + margin + 1];
+            auto const out = dem.row(row);
+            std::copy(z, z + out.size(), out.begin());
+            for (std::size_t col = 0; land.cells() != 0 && col < out.size(); ++col) {
+                out[col] = land.row(row)[col] != 0 ? out[col] : std::numeric_limits<float>::quiet_NaN();
+            }
         }
-    }
+    });
     return dem;
 }
 
@@ -215,12 +271,19 @@ float lowest_end(Raster<float> const& dem, Channels const& rivers) {
 Raster<flow::Direction> directions(Raster<float> const& dem, Channels const& rivers,
                                    std::vector<std::int64_t> const& shortened, Run const& run) {
     Raster<flow::Direction> out(dem.grid(), flow::Direction::no_data);
-    parallel_ranges(run, dem.height(), 16, [&](std::int64_t begin, std::int64_t end) {
+    auto const offsets = d8_offsets(dem.grid());
+    parallel_ranges(run, dem.height(), least_rows(dem.width()), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
+            bool const inner_row = row > 0 && row + 1 < dem.height();
             for (std::int64_t col = 0; col < dem.width(); ++col) {
-                if (Cell const c{col, row}; !std::isnan(dem[c])) {
-                    out[c] = flow::steepest_descent(dem, c).direction;
+                std::int64_t const i = row * dem.width() + col;
+                if (std::isnan(dem[i])) {
+                    continue;
                 }
+                bool const inner = inner_row && col > 0 && col + 1 < dem.width();
+                out[i] = (inner ? flow::steepest_descent(dem[i], [&](std::size_t k) { return dem[i + offsets[k]]; })
+                                : flow::steepest_descent(dem, {col, row}))
+                             .direction;
             }
         }
     });
@@ -325,20 +388,20 @@ void report_lowered(Raster<float> const& dem, Channels const& rivers, Equilibriu
 } // namespace
 
 HeightConversion height_conversion_for(TerrainLevel const& level, Channels const& rivers, Window const& window,
-                                       EquilibriumParams const& params) {
-    Raster<float> const dem = cropped(level, window);
-    Rise const rise = height_scale_of(dem, params);
+                                       EquilibriumParams const& params, Run const& run) {
+    Raster<float> const dem = cropped(level, window, run);
+    Rise const rise = height_scale_of(dem, params, run);
     double const metres = rise.factor * window.grid.cell_m;
     return {metres, -static_cast<double>(lowest_end(dem, rivers)) * metres, rise.mean_tangent};
 }
 
-double share_of_target(TerrainLevel const& level, Window const& window, double metres,
-                       EquilibriumParams const& params) {
-    return share_of_target(cropped(level, window), metres / window.grid.cell_m, params);
+double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params,
+                       Run const& run) {
+    return share_of_target(cropped(level, window, run), metres / window.grid.cell_m, params, run);
 }
 
 Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, HeightConversion const* conversion,
-                             EquilibriumParams const& params) {
+                             EquilibriumParams const& params, Run const& run) {
     auto const side = static_cast<std::int64_t>(level.side);
     Grid grid = window.grid;
     grid.width = (grid.width + side - 1) / side;
@@ -374,7 +437,7 @@ Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, He
         for (float& z : in_cells.values()) {
             z /= level.side;
         }
-        double const metres = height_scale_of(in_cells, target).factor * window.grid.cell_m;
+        double const metres = height_scale_of(in_cells, target, run).factor * window.grid.cell_m;
         raise = {metres, -static_cast<double>(low) * metres, 0.0};
     }
     for (float& z : dem.values()) {
@@ -401,9 +464,9 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
     hold_levels(level, rivers);
     raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     run.check();
-    settle_terrain(level, settled_step(raise), RiverHeights::graded);
+    settle_terrain(level, settled_step(raise), RiverHeights::graded, run);
     run.check();
-    out.dem = cropped(level, window);
+    out.dem = cropped(level, window, run);
     float const perched_m = perched_height(raise, window.grid);
     if (heads == Heads::kept) {
         out.walled = walled_cells(level, perched_m);
@@ -442,9 +505,9 @@ EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels con
         raise_below_perched(level, 0.99F * perched_height(raise, window.grid));
     }
     run.check();
-    settle_terrain(level, settled_step(raise), heights);
+    settle_terrain(level, settled_step(raise), heights, run);
     run.check();
-    out.dem = cropped(level, window);
+    out.dem = cropped(level, window, run);
     out.walled = walled_cells(level, perched_height(raise, window.grid));
     level = {};
     out.direction = directions(out.dem, rivers, {}, run);

@@ -1,12 +1,46 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <utility>
+#include <cstring>
+#include <thread>
 
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/run/lanes.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 
 namespace thalweg::surface {
 namespace {
+
+// Weights of the nine-point Laplacian: side and corner neighbours.
+constexpr float by_side = 4.0F / 6.0F;
+constexpr float by_corner = 1.0F / 6.0F;
+
+/// Inner cells of a row; the pointers are to the first of them.
+struct RowOfLevel {
+    float const* z;
+    float const* erodibility;
+    float const* cap;
+    float const* uplift;
+    std::int8_t const* direction;
+    std::int64_t width; ///< of the level
+    float side;
+    float diagonal;
+    float creep_rate;
+};
+
+constexpr std::uint8_t all_came = 64; // of cells that have donors: others are 0
+constexpr std::uint8_t for_ever = 255;
+
+#define THALWEG_KERNELS <thalweg/surface/equilibrium/internal/land_lanes.inc>
+#include <thalweg/core/run/lanes.inc>
+
+/// Calls visit(index of the first inner cell) for each row inside the frame, on all workers.
+template <class Visit> void each_inner_row(TerrainLevel const& level, Run const& run, Visit visit) {
+    parallel_ranges(run, level.height - 2, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin + 1; row < end + 1; ++row) {
+            visit(static_cast<std::size_t>(row * level.width + 1));
+        }
+    });
+}
 
 /// Cells by height, in buckets stored as linked lists in one array.
 class Buckets {
@@ -43,6 +77,9 @@ public:
         head_[at_] = next_[cell];
         return cell;
     }
+
+    /// \return what pop() returns next if nothing is pushed; none where that is not known yet
+    std::uint32_t head() const { return head_[at_]; }
 
     static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
@@ -97,7 +134,6 @@ void flood_terrain(TerrainLevel& level) {
         }
     });
     Buckets queue(level);
-    auto const last_row = level.type.size() - static_cast<std::size_t>(level.width);
     for (std::size_t i = 0; i < level.type.size(); ++i) {
         if (!is_land(level.type[i])) {
             level.direction[i] = level.type[i] == CellType::river ? level.direction[i] : no_direction;
@@ -106,24 +142,35 @@ void flood_terrain(TerrainLevel& level) {
             queue.push(i, level.z[i]);
         }
     }
-    auto const width = static_cast<std::size_t>(level.width);
+    auto const reach = [&, z = level.z.data(), direction = level.direction.data()](std::size_t from, std::size_t k) {
+        std::size_t const n = moved(from, offsets[k]);
+        if (direction[n] == unreached) {
+            direction[n] = static_cast<std::int8_t>((k + 4) % 8);
+            float const rise = rise_to(level, n) * least_tangent * level.side;
+            z[n] = std::max(z[n], z[from] + rise * step_lengths[k]);
+            queue.push(n, z[n]);
+        }
+    };
     for (auto i = queue.pop(); i != Buckets::none; i = queue.pop()) {
-        bool const top = i < width;
-        bool const bottom = i >= last_row;
-        bool const left = i % width == 0;
-        bool const right = i % width == width - 1;
-        for (std::size_t k = 0; k < offsets.size(); ++k) {
-            Cell const step = d8_steps[k];
-            if ((top && step.row < 0) || (bottom && step.row > 0) || (left && step.col < 0) ||
-                (right && step.col > 0)) {
-                continue;
+        if (std::uint32_t const next = queue.head(); next != Buckets::none) {
+            for (std::int64_t const beside : {-level.width, std::int64_t{0}, level.width}) {
+                std::size_t const n = moved(next, beside);
+                __builtin_prefetch(level.direction.data() + n);
+                __builtin_prefetch(level.z.data() + n);
             }
-            std::size_t const n = moved(i, offsets[k]);
-            if (level.direction[n] == unreached) {
-                level.direction[n] = static_cast<std::int8_t>((k + 4) % 8);
-                float const rise = rise_to(level, n) * least_tangent * level.side;
-                level.z[n] = std::max(level.z[n], level.z[i] + rise * step_lengths[k]);
-                queue.push(n, level.z[n]);
+        }
+        if (level.type[i] == CellType::boundary || level.type[i] == CellType::sea) { // may be on the frame
+            Cell const c = level.at(i);
+            for (std::size_t k = 0; k < offsets.size(); ++k) {
+                std::int64_t const col = c.col + d8_steps[k].col;
+                std::int64_t const row = c.row + d8_steps[k].row;
+                if (col >= 0 && col < level.width && row >= 0 && row < level.height) {
+                    reach(i, k);
+                }
+            }
+        } else {
+            for (std::size_t k = 0; k < offsets.size(); ++k) {
+                reach(i, k);
             }
         }
     }
@@ -137,25 +184,6 @@ void flood_terrain(TerrainLevel& level) {
 }
 
 namespace {
-
-std::int8_t steepest(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets,
-                     JitteredPerLength const& per_length) {
-    float const z = level.z[i];
-    int const here = level.shift[i];
-    float best = 0.0F;
-    std::int8_t way = level.direction[i];
-    for (std::size_t k = 0; k < 8; ++k) {
-        std::size_t const n = moved(i, offsets[k]);
-        int const change = level.shift[n] - here;
-        auto const code = static_cast<std::size_t>(jitter_codes + (k < 4 ? change : -change));
-        float const slope = (z - level.z[n]) * per_length[k % 4][code];
-        if (slope > best) {
-            best = slope;
-            way = static_cast<std::int8_t>(k);
-        }
-    }
-    return way;
-}
 
 std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     float best = 0.0F;
@@ -173,71 +201,118 @@ std::int8_t steepest_river(TerrainLevel const& level, std::size_t i, std::array<
 
 } // namespace
 
-void set_steepest_receivers(TerrainLevel& level, JitteredPerLength const& per_length, Run const& run) {
+void set_steepest_receivers(TerrainLevel& level, Run const& run) {
     auto const offsets = level.offsets();
-    parallel_ranges(run, level.height - 2, 16, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin + 1; row < end + 1; ++row) {
-            auto const first = static_cast<std::size_t>(row * level.width);
-            for (std::size_t i = first + 1; i + 1 < first + static_cast<std::size_t>(level.width); ++i) {
-                if (is_bank(level.type[i])) {
-                    level.direction[i] = steepest_river(level, i, offsets);
-                } else if (is_land(level.type[i])) {
-                    level.direction[i] = steepest(level, i, offsets, per_length);
-                }
+    auto* const steepest = widest_lanes() == Lanes::avx2 ? &avx2::steepest_row : &plain::steepest_row;
+    std::int64_t const inner = level.width - 2;
+    each_inner_row(level, run, [&](std::size_t first) {
+        steepest(&level.z[first], &level.shift[first], &level.type[first], &level.direction[first], level.width, inner);
+        for (std::size_t i = first; i < first + static_cast<std::size_t>(inner); ++i) {
+            if (is_bank(level.type[i])) {
+                level.direction[i] = steepest_river(level, i, offsets);
             }
         }
     });
 }
 
-void set_stack_order(TerrainLevel& level) {
-    constexpr std::uint8_t done = 255;
+namespace {
+
+/// Follows water from the cells without donors of a band of rows as far as it stays there, tile by tile, so that paths
+/// mostly stay in the processor's cache.
+/// \param awaited by cell: donors whose water has not arrived
+/// \param leaving receives the cells whose water leaves the band
+OrderPart follow_in_band(TerrainLevel& level, std::int64_t top, std::int64_t bottom, Cells<std::uint8_t>& awaited,
+                         std::vector<std::uint32_t>& leaving) {
+    constexpr std::int64_t tile = 64;
+    std::int64_t const width = level.width;
+    auto const first = static_cast<std::size_t>(top * width);
+    auto const cells = static_cast<std::size_t>((bottom - top) * width);
     auto const offsets = level.offsets();
-    Cells<std::uint8_t> awaited(level.direction.size());
-    for (std::size_t i = 0; i < awaited.size(); ++i) {
-        if (level.direction[i] >= 0) {
-            ++awaited[moved(i, offsets[level.direction[i]])];
+    // Bytes may lie anywhere, so that members would be read again after each is written.
+    std::int8_t const* const direction = level.direction.data();
+    std::uint8_t* const waits = awaited.data();
+    std::uint32_t* const area = level.area.data();
+    std::uint32_t* const order = level.order.data() + first;
+    std::size_t listed = 0;
+    std::size_t followed = 0;
+    for (std::int64_t row = top; row < bottom; row += tile) {
+        for (std::int64_t left = 0; left < width; left += tile) {
+            for (std::int64_t r = row; r < std::min(bottom, row + tile); ++r) {
+                std::int64_t const end = r * width + std::min(width, left + tile);
+                for (std::int64_t i = r * width + left; i < end; ++i) {
+                    order[listed] = static_cast<std::uint32_t>(i);
+                    listed += waits[i] == 0 ? 1U : 0U;
+                }
+            }
+            for (; followed < listed; ++followed) {
+                std::uint32_t const i = order[followed];
+                std::size_t const next = moved(i, offsets[direction[i]]);
+                if (next - first >= cells) {
+                    leaving.push_back(i);
+                    continue;
+                }
+                area[next] += area[i];
+                order[listed] = static_cast<std::uint32_t>(next);
+                listed += --waits[next] == all_came ? 1U : 0U;
+            }
         }
     }
-    level.area.assign(level.direction.size(), 1);
+    return {first, listed};
+}
+
+/// One band for one worker; a few more than workers otherwise.
+std::int64_t band_count(TerrainLevel const& level, std::int64_t rows, Run const& run) {
+    std::int64_t const workers = run.threads > 0 ? run.threads : std::max(1U, std::thread::hardware_concurrency());
+    return workers == 1 ? 1 : std::clamp<std::int64_t>(level.height / rows, 1, std::int64_t{2} * workers);
+}
+
+} // namespace
+
+void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows) {
+    auto const offsets = level.offsets();
+    auto* const donors = widest_lanes() == Lanes::avx2 ? &avx2::donors_row : &plain::donors_row;
+    Cells<std::uint8_t> awaited(level.direction.size(), for_ever);
+    level.order.resize(level.direction.size());
+    level.area.resize(level.direction.size());
+    std::fill(level.area.begin(), level.area.end(), 1U);
     for (Inflow const& in : level.inflow) {
         level.area[in.cell] += in.area;
     }
-    level.order.resize(level.direction.size());
-    std::size_t count = 0;
-    for (std::size_t i = 0; i < awaited.size(); ++i) {
-        for (std::size_t at = i; awaited[at] == 0;) {
-            awaited[at] = done;
-            if (level.direction[at] < 0) {
-                break;
+    each_inner_row(level, run, [&](std::size_t first) {
+        donors(&level.direction[first], &awaited[first], level.width, level.width - 2);
+    });
+    std::int64_t const bands = band_count(level, rows, run);
+    std::vector<std::vector<std::uint32_t>> leaving(static_cast<std::size_t>(bands));
+    level.bands.assign(leaving.size(), {});
+    parallel_ranges(run, bands, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t band = begin; band < end; ++band) {
+            level.bands[band] = follow_in_band(level, band * level.height / bands, (band + 1) * level.height / bands,
+                                               awaited, leaving[band]);
+        }
+    });
+    level.joining.clear();
+    for (std::vector<std::uint32_t> const& cells : leaving) {
+        for (std::uint32_t const from : cells) {
+            std::uint32_t at = from;
+            for (;;) {
+                auto const next = static_cast<std::uint32_t>(moved(at, offsets[level.direction[at]]));
+                level.area[next] += level.area[at];
+                if (--awaited[next] != all_came) {
+                    break;
+                }
+                level.joining.push_back(next);
+                at = next;
             }
-            if (is_land(level.type[at])) {
-                level.order[count++] = static_cast<std::uint32_t>(at);
-            }
-            std::size_t const next = moved(at, offsets[level.direction[at]]);
-            level.area[next] += level.area[at];
-            --awaited[next];
-            at = next;
         }
     }
-    level.order.resize(count);
 }
 
 namespace {
-
-// Weights of the nine-point Laplacian: side and corner neighbours.
-constexpr float by_side = 4.0F / 6.0F;
-constexpr float by_corner = 1.0F / 6.0F;
 
 struct Creep {
     float gain;   ///< weighted heights of the neighbours
     float weight; ///< their weights
 };
-
-Creep creep_inside(float const* z, std::int64_t width) {
-    float const sides = (z[1] + z[-1]) + (z[width] + z[-width]);
-    float const corners = (z[width + 1] + z[width - 1]) + (z[-width + 1] + z[-width - 1]);
-    return {by_side * sides + by_corner * corners, 4.0F * (by_side + by_corner)};
-}
 
 Creep creep_at_rim(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
     Creep creep{0.0F, 0.0F};
@@ -255,7 +330,7 @@ Creep creep_at_rim(TerrainLevel const& level, std::size_t i, std::array<std::int
 constexpr float tolerance = 1.5F; // relative to the cap
 
 float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::int64_t, 8> const& offsets) {
-    float const steepest = tolerance * level.cap[i] * level.side;
+    float const steepest = tolerance * level.side * level.cap[i];
     float most = level.z[i];
     for (std::size_t k = 0; k < offsets.size(); ++k) {
         most = std::min(most, level.z[moved(i, offsets[k])] + steepest * step_lengths[k]);
@@ -263,35 +338,82 @@ float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::
     return most;
 }
 
-} // namespace
-
-void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law) {
-    auto const offsets = level.offsets();
-    float const creep_rate = law.creep / (level.side * level.side);
-    float const cell_area = level.side * level.side;
-    for (std::size_t at = level.order.size(); at-- > 0;) {
-        std::size_t const i = level.order[at];
-        auto const way = static_cast<std::size_t>(level.direction[i]);
-        float const length = level.side * step_lengths[way];
-        float const below = level.z[moved(i, offsets[way])];
-        CellType const type = level.type[i];
-        bool const at_rim = type == CellType::rim || type == CellType::rim_bank;
-        Creep const creep = at_rim ? creep_at_rim(level, i, offsets) : creep_inside(&level.z[i], level.width);
-        float const cutting =
-            law.land_power(static_cast<float>(level.area[i]) * cell_area) * level.erodibility[i] / length;
-        float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
-        float z = (uplift + cutting * below + creep_rate * creep.gain) / (cutting + creep_rate * creep.weight);
-        z = std::min(z, below + level.cap[i] * length);
-        z = std::max(z, below + least_tangent * length);
-        if (is_bank(type)) {
-            z = std::max(z, highest_river(level, i, offsets) + bank_step * level.side);
-        }
-        level.z[i] = z;
-    }
+float relaxed(Relaxation const& step, float below, float least) {
+    return std::max(std::min(step.rise + step.share * below, below + step.most), below + least);
 }
 
-void slide_terrain(TerrainLevel& level) {
+constexpr std::int32_t settled = 8; // added to the direction: the height is known
+
+} // namespace
+
+void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxation>& steps, Run const& run) {
     auto const offsets = level.offsets();
+    auto* const relaxation = widest_lanes() == Lanes::avx2 ? &avx2::relaxation_row : &plain::relaxation_row;
+    float const cell_area = level.side * level.side;
+    float const creep_rate = law.creep / cell_area;
+    std::int64_t const inner = level.width - 2;
+    std::vector<float> const even(level.uplift.empty() ? static_cast<std::size_t>(inner) : 0, 1.0F);
+    std::array<std::int64_t, 16> to{};
+    std::array<float, 16> least{};
+    for (std::size_t k = 0; k < to.size(); ++k) {
+        to[k] = offsets[k % 8];
+        least[k] = k < 8 ? least_tangent * (level.side * step_lengths[k]) : -std::numeric_limits<float>::infinity();
+    }
+    steps.resize(level.z.size());
+    each_inner_row(level, run, [&](std::size_t first) {
+        std::vector<float> power(static_cast<std::size_t>(inner));
+        for (std::size_t c = 0; c < power.size(); ++c) {
+            power[c] = law.land_power(static_cast<float>(level.area[first + c]) * cell_area);
+        }
+        RowOfLevel const row{&level.z[first],
+                             &level.erodibility[first],
+                             &level.cap[first],
+                             level.uplift.empty() ? even.data() : &level.uplift[first],
+                             &level.direction[first],
+                             level.width,
+                             level.side,
+                             level.side * step_lengths[1],
+                             creep_rate};
+        relaxation(row, power.data(), &steps[first], inner);
+        for (std::size_t i = first; i < first + power.size(); ++i) {
+            CellType const type = level.type[i];
+            if (type == CellType::land) {
+                continue;
+            }
+            float z = level.z[i];
+            if (is_land(type)) {
+                auto const way = static_cast<std::size_t>(level.direction[i]);
+                if (type != CellType::bank) {
+                    Creep const creep = creep_at_rim(level, i, offsets);
+                    float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
+                    float const cutting = power[i - first] * level.erodibility[i] / (level.side * step_lengths[way]);
+                    float const part = 1.0F / (cutting + creep_rate * creep.weight);
+                    steps[i].rise = (uplift + creep_rate * creep.gain) * part;
+                    steps[i].share = cutting * part;
+                }
+                if (!is_bank(type)) {
+                    continue;
+                }
+                z = relaxed(steps[i], level.z[moved(i, offsets[way])], least[way]); // its receiver is a river cell
+                z = std::max(z, highest_river(level, i, offsets) + bank_step * level.side);
+            }
+            steps[i] = {z, 0.0F, std::numeric_limits<float>::infinity(),
+                        std::max<std::int32_t>(level.direction[i], 0) + settled};
+        }
+    });
+    each_upstream(level, run, [&, z = level.z.data(), step = steps.data()](std::size_t i) {
+        auto const way = static_cast<std::size_t>(step[i].way);
+        z[i] = relaxed(step[i], z[moved(i, to[way])], least[way]);
+    });
+}
+
+void slide_terrain(TerrainLevel& level, Run const& run) {
+    auto const offsets = level.offsets();
+    auto* const slides = widest_lanes() == Lanes::avx2 ? &avx2::slides_row : &plain::slides_row;
+    Cells<std::uint8_t> steep(level.z.size());
+    each_inner_row(level, run, [&](std::size_t first) {
+        slides(&level.z[first], &level.cap[first], tolerance * level.side, &steep[first], level.width, level.width - 2);
+    });
     std::vector<std::size_t> open;
     auto const slide = [&](std::size_t i) {
         if (is_land(level.type[i]) && !is_bank(level.type[i])) {
@@ -301,7 +423,11 @@ void slide_terrain(TerrainLevel& level) {
             }
         }
     };
-    each_inner(level, slide);
+    for (std::size_t i = 0; i < steep.size(); ++i) {
+        if (steep[i] != 0) {
+            slide(i);
+        }
+    }
     for (std::size_t k = 0; k < open.size(); ++k) {
         for (std::int64_t const offset : offsets) {
             slide(moved(open[k], offset));
@@ -370,7 +496,7 @@ void valley_floors(TerrainLevel& level, FloorParams const& params) {
     std::vector<float> reach(widths.size());
     std::transform(widths.begin(), widths.end(), reach.begin(),
                    [](float width) { return most_widening * foot_widths * width; });
-    NearestRiver near = nearest_river(level, reach, std::move(level.order));
+    NearestRiver const near = nearest_river(level, reach);
     each_inner(level, [&](std::size_t i) {
         if (near.distance[i] >= 0.0F || !is_land(level.type[i])) {
             return;
@@ -383,7 +509,6 @@ void valley_floors(TerrainLevel& level, FloorParams const& params) {
         float const up = std::clamp((far - 1.0F) / (foot_widths - 1.0F), 0.0F, 1.0F);
         level.cap[i] *= floor_share + (1.0F - floor_share) * up * up;
     });
-    level.order = std::move(near.number);
 }
 
 } // namespace thalweg::surface

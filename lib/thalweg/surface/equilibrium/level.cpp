@@ -252,11 +252,10 @@ PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, Eq
             {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
 }
 
-NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start,
-                           Cells<std::uint32_t> memory) {
+NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start) {
     auto const cells = static_cast<std::size_t>(level.cells());
-    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()), std::move(memory)};
-    near.number.assign(cells, NearestRiver::none);
+    NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()),
+                      Cells<std::uint32_t>(cells, NearestRiver::none)};
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         near.distance[level.rivers.cell[n]] = head_start.empty() ? 0.0F : -head_start[n];
         near.number[level.rivers.cell[n]] = static_cast<std::uint32_t>(n);
@@ -370,33 +369,16 @@ void random_bytes(std::uint64_t seed, std::uint64_t stage, std::int64_t row, flo
 }
 
 constexpr std::uint64_t jitter_stage = 0x6a6974746572; // "jitter"
-constexpr double jitter_reach = 0.35;                  // [cells]
 
 } // namespace
 
-JitteredPerLength jittered_per_length() {
-    JitteredPerLength out{};
-    constexpr double step = 2.0 * jitter_reach / (jitter_places - 1);
-    for (std::size_t k = 0; k < out.size(); ++k) {
-        for (int east = 1 - jitter_places; east < jitter_places; ++east) {
-            for (int south = 1 - jitter_places; south < jitter_places; ++south) {
-                double const x = static_cast<double>(d8_steps[k].col) + step * east;
-                double const y = static_cast<double>(d8_steps[k].row) + step * south;
-                out[k][east * jitter_stride + south + jitter_codes] =
-                    static_cast<float>(1.0 / std::sqrt(x * x + y * y));
-            }
-        }
-    }
-    return out;
-}
-
 void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run) {
     level.shift.resize(static_cast<std::size_t>(level.cells()));
-    parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
             std::uint8_t* const codes = &level.shift[row * level.width];
             random_bytes(seed, jitter_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
-                codes[col] = static_cast<std::uint8_t>((byte & 7U) * jitter_stride + ((byte >> 3U) & 7U));
+                codes[col] = byte % (jitter_places * jitter_places);
             });
         }
     });
@@ -407,15 +389,17 @@ namespace {
 constexpr std::uint64_t start_stage = 0x7374617274; // "start"
 constexpr float first_tangent = 0.05F;
 
-template <class Height>
-void set_heights(TerrainLevel& level, std::uint64_t seed, float rough, Run const& run, Height height) {
+/// Sets a level's heights: those that by_row(row, heights) gives for the cells of a row, and a random part.
+template <class ByRow>
+void set_heights(TerrainLevel& level, std::uint64_t seed, float rough, Run const& run, ByRow by_row) {
     level.z.resize(static_cast<std::size_t>(level.cells()));
-    parallel_ranges(run, level.height, 16, [&](std::int64_t begin, std::int64_t end) {
+    float const each = rough * level.side * 0x1p-8F;
+    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            random_bytes(seed, start_stage, row, level.side, level.width, [&](std::int64_t col, std::uint8_t byte) {
-                level.z[row * level.width + col] =
-                    height(col, row) + rough * level.side * static_cast<float>(byte) * 0x1p-8F;
-            });
+            float* const z = &level.z[row * level.width];
+            by_row(row, z);
+            random_bytes(seed, start_stage, row, level.side, level.width,
+                         [&](std::int64_t col, std::uint8_t byte) { z[col] += each * static_cast<float>(byte); });
         }
     });
 }
@@ -434,15 +418,11 @@ public:
         }
     }
 
-    struct Shift {
-        float east;  ///< [coarse cells]
-        float south; ///< likewise
-    };
-    Shift at(std::int64_t col, std::int64_t row) const {
-        auto const i = static_cast<std::size_t>(row / spacing * across_ + col / spacing);
-        float const u = static_cast<float>(col % spacing) * (1.0F / spacing);
+    /// Computes the displacement [coarse cells] of the cells of a row.
+    void displace(std::int64_t row, std::vector<float>& east, std::vector<float>& south) const {
         float const v = static_cast<float>(row % spacing) * (1.0F / spacing);
-        return {between(&east_[i], u, v), between(&south_[i], u, v)};
+        along(&east_[row / spacing * across_], v, east);
+        along(&south_[row / spacing * across_], v, south);
     }
 
 private:
@@ -456,10 +436,15 @@ private:
         });
     }
 
-    float between(float const* n, float u, float v) const {
-        float const upper = n[0] + (n[1] - n[0]) * u;
-        float const lower = n[across_] + (n[across_ + 1] - n[across_]) * u;
-        return upper + (lower - upper) * v;
+    void along(float const* n, float v, std::vector<float>& out) const {
+        auto const count = static_cast<std::int64_t>(out.size());
+        for (std::int64_t first = 0; first < count; first += spacing, ++n) {
+            float const left = n[0] + (n[across_] - n[0]) * v;
+            float const step = (n[1] + (n[across_ + 1] - n[1]) * v - left) * (1.0F / spacing);
+            for (std::int64_t k = 0; k < std::min(spacing, count - first); ++k) {
+                out[first + k] = left + step * static_cast<float>(k);
+            }
+        }
     }
 
     std::int64_t across_; ///< nodes in a row
@@ -470,35 +455,51 @@ private:
 } // namespace
 
 void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run) {
-    set_heights(level, seed, 0.3F, run, [&](std::int64_t col, std::int64_t row) {
-        float const far = near.distance[row * level.width + col];
-        auto const rim = static_cast<float>(std::min({col, row, level.width - 1 - col, level.height - 1 - row}));
-        return first_tangent * level.side * std::min(far, rim);
+    set_heights(level, seed, 0.3F, run, [&](std::int64_t row, float* z) {
+        for (std::int64_t col = 0; col < level.width; ++col) {
+            float const far = near.distance[row * level.width + col];
+            auto const rim = static_cast<float>(std::min({col, row, level.width - 1 - col, level.height - 1 - row}));
+            z[col] = first_tangent * level.side * std::min(far, rim);
+        }
     });
 }
 
 void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Run const& run) {
     // The frame's infinite heights must not be interpolated: the outermost inner cells replace it.
-    auto const held = [](std::int64_t at, std::int64_t size) { return std::clamp<std::int64_t>(at, 1, size - 2); };
-    auto const height_at = [&](std::int64_t col, std::int64_t row) {
-        float const z = coarse.z[held(row, coarse.height) * coarse.width + held(col, coarse.width)];
-        return std::isinf(z) ? 0.0F : z;
-    };
+    Cells<float> heights(coarse.z.size());
+    for (std::int64_t row = 0; row < coarse.height; ++row) {
+        auto const from = std::clamp<std::int64_t>(row, 1, coarse.height - 2) * coarse.width;
+        for (std::int64_t col = 0; col < coarse.width; ++col) {
+            float const z = coarse.z[from + std::clamp<std::int64_t>(col, 1, coarse.width - 2)];
+            heights[row * coarse.width + col] = std::isinf(z) ? 0.0F : z;
+        }
+    }
     Bends const bends(level, seed);
     // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1 if both begin at the same place.
     float const first_x = 0.25F + static_cast<float>(level.corner.col - coarse.corner.col) / coarse.side;
     float const first_y = 0.25F + static_cast<float>(level.corner.row - coarse.corner.row) / coarse.side;
-    set_heights(level, seed, 0.15F, run, [&](std::int64_t col, std::int64_t row) {
-        auto const [east, south] = bends.at(col, row);
-        float const x = 0.5F * static_cast<float>(col) + first_x + east;
-        float const y = 0.5F * static_cast<float>(row) + first_y + south;
-        float const left = std::floor(x);
-        float const top = std::floor(y);
-        auto const c = static_cast<std::int64_t>(left);
-        auto const r = static_cast<std::int64_t>(top);
-        float const upper = height_at(c, r) + (height_at(c + 1, r) - height_at(c, r)) * (x - left);
-        float const lower = height_at(c, r + 1) + (height_at(c + 1, r + 1) - height_at(c, r + 1)) * (x - left);
-        return upper + (lower - upper) * (y - top);
+    auto const last_col = static_cast<float>(coarse.width - 1);
+    auto const last_row = static_cast<float>(coarse.height - 1);
+    set_heights(level, seed, 0.15F, run, [&](std::int64_t row, float* z) {
+        auto const count = static_cast<std::size_t>(level.width);
+        std::vector<float> x(count);
+        std::vector<float> y(count);
+        bends.displace(row, x, y);
+        float const middle = 0.5F * static_cast<float>(row) + first_y;
+        for (std::size_t col = 0; col < count; ++col) {
+            x[col] = std::clamp(0.5F * static_cast<float>(col) + first_x + x[col], 0.0F, last_col);
+            y[col] = std::clamp(middle + y[col], 0.0F, last_row);
+        }
+        for (std::size_t col = 0; col < count; ++col) {
+            auto const c = std::min(static_cast<std::int64_t>(x[col]), coarse.width - 2);
+            auto const r = std::min(static_cast<std::int64_t>(y[col]), coarse.height - 2);
+            float const u = x[col] - static_cast<float>(c);
+            float const v = y[col] - static_cast<float>(r);
+            float const* const n = &heights[r * coarse.width + c];
+            float const upper = n[0] + (n[1] - n[0]) * u;
+            float const lower = n[coarse.width] + (n[coarse.width + 1] - n[coarse.width]) * u;
+            z[col] = upper + (lower - upper) * v;
+        }
     });
 }
 

@@ -14,6 +14,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/memory.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 namespace thalweg::surface {
@@ -27,21 +28,21 @@ public:
         for (std::size_t i = 0; i < table_.size(); ++i) {
             auto const bits = static_cast<std::uint32_t>((i + first) << dropped);
             auto const area = static_cast<double>(std::bit_cast<float>(bits));
-            table_[i] = static_cast<float>(
-                factor * (least > 0.0
-                              ? portable::pow(portable::pow(area, sharpness * exponent) + least, 1.0 / sharpness)
-                              : portable::pow(area, exponent)));
+            table_[i] =
+                static_cast<float>(factor * (least > 0.0 ? std::sqrt(portable::pow(area, sharpness * exponent) + least)
+                                                         : portable::pow(area, exponent)));
         }
     }
 
-    /// area: 1 <= area < 2^64.
+    /// area: 1 <= area < 2^40.
     float operator()(float area) const { return table_[(std::bit_cast<std::uint32_t>(area) >> dropped) - first]; }
 
+    static constexpr double sharpness = 2.0; ///< of the bend
+
 private:
-    static constexpr double sharpness = 2.0; // of the bend
     static constexpr std::uint32_t dropped = 15;
     static constexpr std::size_t first = std::size_t{127} << 8;
-    std::vector<float> table_ = std::vector<float>(std::size_t{64} << 8);
+    std::vector<float> table_ = std::vector<float>(std::size_t{40} << 8);
 };
 
 /// U + D lap z = K A^theta S in the solver's units: lengths, heights and areas in cells of the finest level, U = 1 by
@@ -69,7 +70,9 @@ private:
     }
     static double incision(EquilibriumParams const& params, double cell_m) {
         constexpr double of_one_cell = 4.7; // fraction of uplift: slopes of heads are a good half of the cap
-        return of_one_cell / static_cast<double>(AreaPower(params.theta, debris_cells(params, cell_m))(1.0F));
+        double const bend = debris_cells(params, cell_m);
+        double const least = bend > 0.0 ? portable::pow(bend, AreaPower::sharpness * params.theta) : 0.0;
+        return of_one_cell / std::sqrt(1.0 + least);
     }
 
     static constexpr double most_creep = 100.0; // [finest cells] limit above which the rounds do not converge
@@ -157,6 +160,12 @@ struct Inflow {
     std::uint32_t area; ///< [cells of the level] contributing area
 };
 
+/// Part of an order of cells.
+struct OrderPart {
+    std::size_t first = 0;
+    std::size_t count = 0;
+};
+
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
 /// are in cells of the finest level.
 struct TerrainLevel {
@@ -173,9 +182,13 @@ struct TerrainLevel {
     Cells<std::int8_t> direction; ///< towards the receiver, as in d8_steps, or no_direction
     Cells<std::uint8_t> shift;    ///< position of the node in its cell: code of jitter()
     Cells<std::uint32_t> area;    ///< [cells of this level]
-    Cells<std::uint32_t> order;   ///< land cells, receivers last
-    std::vector<Inflow> inflow;   ///< water from beyond the frame
-    Cells<float> firmness;        ///< [log] decrease of erodibility below the fields' values; empty: none
+    /// Cells that drain to a neighbour, donors first: in each band of rows those whose donors are all in it, then
+    /// `joining`, the others.
+    Cells<std::uint32_t> order;
+    std::vector<OrderPart> bands;
+    std::vector<std::uint32_t> joining;
+    std::vector<Inflow> inflow; ///< water from beyond the frame
+    Cells<float> firmness;      ///< [log] decrease of erodibility below the fields' values; empty: none
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {
@@ -220,6 +233,11 @@ inline float value_at(TerrainLevel const& level, Cells<float> const& field, Leve
     return upper + (lower - upper) * v;
 }
 
+/// Rows for one worker at least: fewer cells take less time than handing them over.
+inline std::int64_t least_rows(std::int64_t width) {
+    return std::max<std::int64_t>(1, (1 << 14) / width);
+}
+
 /// Calls visit(cell) for the cells inside the frame, row by row.
 template <class Visit> void each_inner(TerrainLevel const& level, Visit visit) {
     for (std::int64_t row = 1; row + 1 < level.height; ++row) {
@@ -261,6 +279,21 @@ inline float highest_river(TerrainLevel const& level, std::size_t i, std::array<
     return highest;
 }
 
+/// Calls visit(cell) for the cells that drain to a neighbour, each after its receiver, on all workers.
+/// \pre accumulate_areas(), and no direction has changed since.
+template <class Visit> void each_upstream(TerrainLevel const& level, Run const& run, Visit visit) {
+    std::for_each(level.joining.rbegin(), level.joining.rend(), visit);
+    auto const bands = static_cast<std::int64_t>(level.bands.size());
+    parallel_ranges(run, bands, 1, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t band = end; band-- > begin;) {
+            auto const first = level.order.data() + level.bands[band].first;
+            for (auto at = first + level.bands[band].count; at != first;) {
+                visit(*--at);
+            }
+        }
+    });
+}
+
 struct NearestRiver {
     static constexpr std::uint32_t none = 0xffffffff;
     Cells<float> distance;       ///< [cells of the level] minus the head start of the river cell
@@ -268,8 +301,7 @@ struct NearestRiver {
 };
 
 /// Finds the river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell has
-/// a head start (by number; empty: none). The frame has none. Memory: that of the numbers.
-NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start = {},
-                           Cells<std::uint32_t> memory = {});
+/// a head start (by number; empty: none). The frame has none.
+NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start = {});
 
 } // namespace thalweg::surface

@@ -76,17 +76,10 @@ Mask coarsened(Mask const& land);
 enum class RiverBanks : std::uint8_t { none, kept };
 void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks banks);
 
-/// Nodes lie up to a quarter of a cell from the centres of their cells, at one of eight positions along each axis, so
-/// that flow directions do not follow the lattice. A code is eastward * jitter_stride + southward: the difference of
-/// two codes identifies the vector between two positions.
+/// Nodes lie up to a third of a cell from the centres of their cells, at one of eight places along each axis, so that
+/// flow directions do not follow the lattice. A code is eastward + jitter_places * southward.
 inline constexpr int jitter_places = 8;
-inline constexpr int jitter_stride = 2 * jitter_places - 1;
-inline constexpr int jitter_codes = (jitter_places - 1) * (jitter_stride + 1);
-
-/// Reciprocal distance of two neighbouring nodes [1/cell] in directions 0..3 of d8_steps, by the difference of their
-/// codes (there minus here) plus jitter_codes.
-using JitteredPerLength = std::array<std::array<float, 2 * jitter_codes + 1>, 4>;
-JitteredPerLength jittered_per_length();
+inline constexpr int jitter_cell = 10; ///< distances of two places in a cell's side
 
 /// Places every node of a level at random.
 void jitter(TerrainLevel& level, std::uint64_t seed, Run const& run);
@@ -194,21 +187,31 @@ void flood_terrain(TerrainLevel& level);
 /// Directs land cells to their steepest neighbour, by the distances of jittered nodes, banks to their steepest river
 /// cell. A cell without a lower neighbour keeps its direction: no cell is below its receiver, so that directions never
 /// form a cycle.
-void set_steepest_receivers(TerrainLevel& level, JitteredPerLength const& per_length, Run const& run);
+void set_steepest_receivers(TerrainLevel& level, Run const& run);
 
-/// Computes the stack order of the land cells (donors before receivers) and the contributing area of every cell:
-/// follows water from each cell without donors as long as all donors have arrived.
-void set_stack_order(TerrainLevel& level);
+/// Computes the contributing area of every cell, and the order of those that drain to a neighbour: follows water from
+/// each cell without donors as long as all donors have arrived, in bands of rows on all workers, then across them.
+/// \param rows of a band at least
+void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows = 128);
 
-/// One Gauss-Seidel sweep over the terrain, receivers first: sets each cell to the height at which uplift balances
-/// incision and creep. Each cell ends up at least least_tangent above its receiver and at most its cap (banks may have
-/// to be higher: above every river cell beside them).
-void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law);
+/// How a land cell's height follows from its receiver's: rise + share * z, at most z + most.
+struct Relaxation {
+    float rise;
+    float share;
+    float most;
+    std::int32_t way; ///< towards the receiver, as in d8_steps
+};
+
+/// One sweep over the terrain, receivers first: sets each cell to the height at which uplift balances incision, towards
+/// the receiver's new height, and creep, by the neighbours' heights before the sweep (rivers' as they are). Each cell
+/// ends up at least least_tangent above its receiver and at most its cap (banks may have to be higher: above every
+/// river cell beside them). steps: memory, kept from round to round.
+void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxation>& steps, Run const& run);
 
 /// Lowers terrain that is far steeper above one of its neighbours than its cap allows: cliffs left by a removed river,
 /// which would otherwise retreat by one row of cells a round. Banks and rivers are unchanged. The result is the largest
 /// heights that satisfy this; every cell that had a lower neighbour still has one.
-void slide_terrain(TerrainLevel& level);
+void slide_terrain(TerrainLevel& level, Run const& run);
 
 struct FloorParams {
     double width_km = 0.0; ///< half width of a valley floor where 1 km² drains
@@ -217,7 +220,7 @@ struct FloorParams {
 };
 
 /// Lowers the cap on slopes beside rivers to form valley floors that widen downstream: flat, with a concave foot as
-/// wide again. Frees the stack order for its memory.
+/// wide again.
 void valley_floors(TerrainLevel& level, FloorParams const& params);
 
 // rivers.cpp: heights of rivers, and shortened rivers
@@ -279,7 +282,7 @@ inline float least_below(float z) {
 
 /// The ratio of the terrain's relief or mean slope to its target when heights in cells are multiplied by a factor; 1:
 /// reached.
-double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params);
+double share_of_target(Raster<float> const& land, double factor, EquilibriumParams const& params, Run const& run);
 
 /// The caller's grid within the finest level.
 struct Window {
@@ -298,17 +301,18 @@ struct HeightConversion {
 /// Chooses the conversion that gives the terrain in a window the target relief or mean slope, with the lowest river end
 /// at 0.
 HeightConversion height_conversion_for(TerrainLevel const& level, Channels const& rivers, Window const& window,
-                                       EquilibriumParams const& params);
+                                       EquilibriumParams const& params, Run const& run);
 
 /// The ratio of the relief or mean slope in a window to its target, for this number of metres per unit.
-double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params);
+double share_of_target(TerrainLevel const& level, Window const& window, double metres, EquilibriumParams const& params,
+                       Run const& run);
 
 /// The caller's grid on the cells of a coarse level.
 /// \param conversion of the finest level where it is known: with prescribed heights; null: one that gives about the
 /// target
 /// \return [m]
 Raster<float> coarse_terrain(TerrainLevel const& level, Window const& window, HeightConversion const* conversion,
-                             EquilibriumParams const& params);
+                             EquilibriumParams const& params, Run const& run);
 
 /// Extracts the caller's grid from a solved finest level, in metres, with its flow directions. Tips that are still
 /// perched are removed too, unless heads are kept. Lakes have their levels, which their rivers' water can keep.
