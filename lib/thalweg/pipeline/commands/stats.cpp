@@ -8,6 +8,8 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/route.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -68,11 +70,16 @@ StatsResult run_stats(StatsParams const& params, Run const& run) {
         run.say("note   " + note);
     }
     StatsResult found{dem.grid(), measure::statistics(dem, run)};
-    if (params.laws) {
-        found.laws = laws_of_dem(dem, {.support_cells = params.support_cells}, run);
-    }
-    if (params.relief) {
-        found.relief = relief_of_dem(dem, run);
+    if (params.laws || params.relief) {
+        Raster<float> const ground = on_ground(dem);
+        flow::FlowField const drainage = flow::route(ground, run);
+        if (params.laws) {
+            found.laws = laws_of_dem(ground, drainage, flow::flow_lengths(drainage, run),
+                                     {.support_cells = params.support_cells}, run);
+        }
+        if (params.relief) {
+            found.relief = relief_of_dem(ground, drainage, run);
+        }
     }
     if (params.recipe) {
         found.recipe = recipe_of_dem(dem, found.statistics, params.path);

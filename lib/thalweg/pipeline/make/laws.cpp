@@ -6,8 +6,8 @@
 #include <cmath>
 
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/network/order/order.hpp>
+#include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 
 namespace thalweg::pipeline {
@@ -53,12 +53,9 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
 }
 
 DemLaws laws_of_dem(Raster<float> const& dem, DemLawsParams const& params, Run const& run) {
-    Grid grid = dem.grid();
-    grid.cell_m = io::ground_cell(grid).side_m;
-    Raster<float> on_ground(grid);
-    std::copy(dem.values().begin(), dem.values().end(), on_ground.values().begin());
-    flow::FlowField const drainage = flow::route(on_ground, run);
-    return laws_of_dem(on_ground, drainage, flow::flow_lengths(drainage, run), params, run);
+    Raster<float> const ground = on_ground(dem);
+    flow::FlowField const drainage = flow::route(ground, run);
+    return laws_of_dem(ground, drainage, flow::flow_lengths(drainage, run), params, run);
 }
 
 RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run const& run) {

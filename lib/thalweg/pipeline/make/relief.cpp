@@ -19,13 +19,21 @@
 
 namespace thalweg::pipeline {
 
-TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
+Raster<float> on_ground(Raster<float> const& dem) {
     Grid grid = dem.grid();
     grid.cell_m = io::ground_cell(grid).side_m;
-    Raster<float> on_ground(grid);
-    std::copy(dem.values().begin(), dem.values().end(), on_ground.values().begin());
-    return {measure::relief(on_ground, flow::route(on_ground, run), measure::statistics(on_ground, run), {}, run),
-            std::nullopt};
+    Raster<float> out(grid);
+    std::copy(dem.values().begin(), dem.values().end(), out.values().begin());
+    return out;
+}
+
+TerrainRelief relief_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Run const& run) {
+    return {measure::relief(dem, drainage, measure::statistics(dem, run), {}, run), std::nullopt};
+}
+
+TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
+    Raster<float> const ground = on_ground(dem);
+    return relief_of_dem(ground, flow::route(ground, run), run);
 }
 
 TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measure::Statistics const& statistics,

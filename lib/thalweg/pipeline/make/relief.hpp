@@ -21,8 +21,18 @@ struct TerrainRelief {
     std::optional<std::int64_t> perched; ///< river cells above their surroundings; nothing: no rivers
 };
 
-/// Computes the relief of any DEM and routes flow over it; cells have their size on the ground (io::ground_cell), so
-/// that geographic DEMs are accepted, though their cells count as squares.
+/// Gives a DEM's cells their size on the ground (io::ground_cell), so that geographic DEMs can be measured, though
+/// their cells count as squares. \throws Error as ground_cell
+Raster<float> on_ground(Raster<float> const& dem);
+
+/// Computes the relief of a DEM on the ground.
+/// \param dem [m] by cell; NaN: no data
+/// \param drainage flow field of the DEM
+/// \return without perched cells
+/// \throws Error as measure::statistics
+TerrainRelief relief_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, Run const& run = {});
+
+/// Computes the relief of any DEM and routes flow over it, on_ground().
 /// \param dem [m] by cell; NaN: no data
 /// \return without perched cells
 /// \throws Error as measure::statistics and ground_cell

@@ -16,6 +16,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
@@ -464,7 +465,9 @@ Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& 
         found.findings = topology.findings;
     }
     found.laws = laws_of_terrain(terrain, found.statistics->cells, run);
-    found.relief = relief_of_dem(*scene.dem, run);
+    found.relief = io::ground_cell(scene.dem->grid()).side_m == scene.dem->grid().cell_m
+                       ? relief_of_dem(*scene.dem, *terrain.drainage, run)
+                       : relief_of_dem(*scene.dem, run);
     return found;
 }
 
