@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <bit>
 #include <cmath>
 #include <cstddef>
+#include <cstdint>
+#include <functional>
 #include <limits>
 #include <optional>
 #include <tuple>
@@ -24,13 +27,35 @@ struct Lake {
     float level = 0.0F;
 };
 
+/// The cells that a search has still to visit: by cost, then index. Costs are not negative, so that their bits have
+/// their order.
+class CheapestCell {
+public:
+    void clear() { heap_.clear(); }
+    bool empty() const { return heap_.empty(); }
+    void push(double cost, std::int64_t cell) {
+        heap_.push_back((Key{std::bit_cast<std::uint64_t>(cost + 0.0)} << 64) | static_cast<std::uint64_t>(cell));
+        std::push_heap(heap_.begin(), heap_.end(), std::greater<>());
+    }
+    std::pair<double, std::int64_t> pop() {
+        std::pop_heap(heap_.begin(), heap_.end(), std::greater<>());
+        Key const least = heap_.back();
+        heap_.pop_back();
+        return {std::bit_cast<double>(static_cast<std::uint64_t>(least >> 64)), static_cast<std::int64_t>(least)};
+    }
+
+private:
+    using Key = unsigned __int128; // compared without branches
+    std::vector<Key> heap_;
+};
+
 class Carver {
 public:
     Carver(Raster<float> const& dem, Raster<float> const& valley, Raster<float> const& least, int heights,
            Run const& run)
         : heights_(heights), land_(framed(dem)), level_(framed(flooded(dem, valley, Lakes::level, run))),
-          least_(framed(least)), run_(run), offsets_(d8_offsets(land_.grid())), seen_(land_.grid()),
-          reached_(land_.grid()) {
+          least_(framed(least)), run_(run), offsets_(d8_offsets(land_.grid())), lake_(land_.grid()),
+          seen_(land_.grid()), reached_(land_.grid()) {
         for (std::int64_t r = 0; r < valley.height(); ++r) {
             for (std::int64_t c = 0; c < valley.width(); ++c) {
                 if (Cell const inner{c, r}; !std::isnan(valley[inner])) {
@@ -50,6 +75,12 @@ public:
             }
         }
         std::vector<Lake> lakes = lakes_among(all);
+        for (std::size_t k = 0; k < lakes.size(); ++k) {
+            for (std::int64_t const i : lakes[k].cells) {
+                lake_[i] = static_cast<std::uint32_t>(k + 1);
+            }
+        }
+        touched_.assign(lakes.size() + 1, false);
         // Lower pits first: anything lower than the current pit drains already.
         std::vector<std::tuple<float, std::int64_t, std::size_t>> order;
         for (std::size_t k = 0; k < lakes.size(); ++k) {
@@ -62,7 +93,12 @@ public:
             if (++done % 64 == 0) {
                 run_.at(static_cast<double>(done) / static_cast<double>(order.size()), "carve");
             }
-            settle(lakes[k].cells);
+            if (touched_[k + 1]) {
+                settle(lakes[k].cells);
+            } else {
+                drain(lakes[k], 0);
+                changes_.clear();
+            }
             lakes[k] = {};
         }
         return std::move(land_);
@@ -241,6 +277,10 @@ private:
         changes_.push_back({i, land_[i], level_[i]});
         land_[i] = land;
         level_[i] = level;
+        touched_[lake_[i]] = true;
+        for (std::int64_t const step : offsets_) {
+            touched_[lake_[i + step]] = true;
+        }
     }
 
     void take_back(std::size_t mark) {
@@ -257,11 +297,9 @@ private:
         ++stamp_;
         queue_.clear();
         reached_[pit] = {0.0, land_[pit], stamp_, Direction::leaves};
-        queue_.emplace_back(0.0, pit);
+        queue_.push(0.0, pit);
         while (!queue_.empty()) {
-            std::pop_heap(queue_.begin(), queue_.end(), std::greater<>());
-            auto const [cost, i] = queue_.back();
-            queue_.pop_back();
+            auto const [cost, i] = queue_.pop();
             if (cost > reached_[i].cost) {
                 continue;
             }
@@ -279,8 +317,7 @@ private:
                 Reached& reached = reached_[n];
                 if (there < bound && (reached.stamp != stamp_ || there < reached.cost)) {
                     reached = {there, height, stamp_, direction_of(k)};
-                    queue_.emplace_back(there, n);
-                    std::push_heap(queue_.begin(), queue_.end(), std::greater<>());
+                    queue_.push(there, n);
                 }
             }
         }
@@ -311,10 +348,12 @@ private:
     Run const& run_;
     std::array<std::int64_t, 8> offsets_;
     std::vector<Was> changes_;
+    Raster<std::uint32_t> lake_; ///< number of the lake that covers the cell at first, from 1; 0: none
+    std::vector<bool> touched_;  ///< by number: a cell of the lake, or beside it, has changed
     std::uint32_t stamp_ = 0;
     Raster<std::uint32_t> seen_; ///< stamp of the last search that reached the cell
     Raster<Reached> reached_;
-    std::vector<std::pair<double, std::int64_t>> queue_; ///< of the last search, a heap by cost, then index
+    CheapestCell queue_; ///< of the last search
 };
 
 } // namespace
