@@ -21,8 +21,9 @@ struct TerrainRelief {
     std::optional<std::int64_t> perched; ///< river cells above their surroundings; nothing: no rivers
 };
 
-/// Gives a DEM's cells their size on the ground (io::ground_cell), so that geographic DEMs can be measured, though
-/// their cells count as squares. \throws Error as ground_cell
+/// Gives a DEM's cells their size on the ground (io::ground_cell): geographic DEMs can be measured so, though their
+/// cells count as squares.
+/// \throws Error as ground_cell
 Raster<float> on_ground(Raster<float> const& dem);
 
 /// Computes the relief of a DEM on the ground.

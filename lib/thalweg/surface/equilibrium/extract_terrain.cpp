@@ -271,19 +271,12 @@ float lowest_end(Raster<float> const& dem, Channels const& rivers) {
 Raster<flow::Direction> directions(Raster<float> const& dem, Channels const& rivers,
                                    std::vector<std::int64_t> const& shortened, Run const& run) {
     Raster<flow::Direction> out(dem.grid(), flow::Direction::no_data);
-    auto const offsets = d8_offsets(dem.grid());
     parallel_ranges(run, dem.height(), least_rows(dem.width()), [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin; row < end; ++row) {
-            bool const inner_row = row > 0 && row + 1 < dem.height();
             for (std::int64_t col = 0; col < dem.width(); ++col) {
-                std::int64_t const i = row * dem.width() + col;
-                if (std::isnan(dem[i])) {
-                    continue;
+                if (Cell const c{col, row}; !std::isnan(dem[c])) {
+                    out[c] = flow::steepest_descent(dem, c).direction;
                 }
-                bool const inner = inner_row && col > 0 && col + 1 < dem.width();
-                out[i] = (inner ? flow::steepest_descent(dem[i], [&](std::size_t k) { return dem[i + offsets[k]]; })
-                                : flow::steepest_descent(dem, {col, row}))
-                             .direction;
             }
         }
     });

@@ -24,22 +24,32 @@ namespace thalweg::surface {
 class AreaPower {
 public:
     explicit AreaPower(double exponent, double bend_area = 0.0, double factor = 1.0) {
-        double const least = bend_area > 0.0 ? portable::pow(bend_area, sharpness * exponent) : 0.0;
+        double const least = least_of(bend_area, exponent);
         for (std::size_t i = 0; i < table_.size(); ++i) {
             auto const bits = static_cast<std::uint32_t>((i + first) << dropped);
             auto const area = static_cast<double>(std::bit_cast<float>(bits));
-            table_[i] =
-                static_cast<float>(factor * (least > 0.0 ? std::sqrt(portable::pow(area, sharpness * exponent) + least)
-                                                         : portable::pow(area, exponent)));
+            table_[i] = static_cast<float>(factor * bent(area, exponent, least));
         }
     }
 
     /// area: 1 <= area < 2^40.
     float operator()(float area) const { return table_[(std::bit_cast<std::uint32_t>(area) >> dropped) - first]; }
 
-    static constexpr double sharpness = 2.0; ///< of the bend
+    /// \return area ^ exponent without a table.
+    static double of(double area, double exponent, double bend_area) {
+        return bent(area, exponent, least_of(bend_area, exponent));
+    }
 
 private:
+    static constexpr double sharpness = 2.0; // of the bend
+    static double least_of(double bend_area, double exponent) {
+        return bend_area > 0.0 ? portable::pow(bend_area, sharpness * exponent) : 0.0;
+    }
+    static double bent(double area, double exponent, double least) {
+        return least > 0.0 ? std::sqrt(portable::pow(area, sharpness * exponent) + least)
+                           : portable::pow(area, exponent);
+    }
+
     static constexpr std::uint32_t dropped = 15;
     static constexpr std::size_t first = std::size_t{127} << 8;
     std::vector<float> table_ = std::vector<float>(std::size_t{40} << 8);
@@ -70,9 +80,7 @@ private:
     }
     static double incision(EquilibriumParams const& params, double cell_m) {
         constexpr double of_one_cell = 4.7; // fraction of uplift: slopes of heads are a good half of the cap
-        double const bend = debris_cells(params, cell_m);
-        double const least = bend > 0.0 ? portable::pow(bend, AreaPower::sharpness * params.theta) : 0.0;
-        return of_one_cell / std::sqrt(1.0 + least);
+        return of_one_cell / AreaPower::of(1.0, params.theta, debris_cells(params, cell_m));
     }
 
     static constexpr double most_creep = 100.0; // [finest cells] limit above which the rounds do not converge
