@@ -338,11 +338,11 @@ float greatest_height(TerrainLevel const& level, std::size_t i, std::array<std::
     return most;
 }
 
-float relaxed(Relaxation const& step, float below, float least) {
-    return std::max(std::min(step.rise + step.share * below, below + step.most), below + least);
+float relaxed(Relaxation const& step, float below, float most, float least) {
+    return std::max(std::min(step.rise + step.share * below, below + most), below + least);
 }
 
-constexpr std::int32_t settled = 8; // added to the direction: the height is known
+constexpr float settled = -1.0F; // share of a cell whose height is known: its rise
 
 } // namespace
 
@@ -353,11 +353,9 @@ void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxat
     float const creep_rate = law.creep / cell_area;
     std::int64_t const inner = level.width - 2;
     std::vector<float> const even(level.uplift.empty() ? static_cast<std::size_t>(inner) : 0, 1.0F);
-    std::array<std::int64_t, 16> to{};
-    std::array<float, 16> least{};
-    for (std::size_t k = 0; k < to.size(); ++k) {
-        to[k] = offsets[k % 8];
-        least[k] = k < 8 ? least_tangent * (level.side * step_lengths[k]) : -std::numeric_limits<float>::infinity();
+    std::array<float, 8> length{};
+    for (std::size_t k = 0; k < length.size(); ++k) {
+        length[k] = level.side * step_lengths[k];
     }
     steps.resize(level.z.size());
     each_inner_row(level, run, [&](std::size_t first) {
@@ -394,17 +392,21 @@ void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxat
                 if (!is_bank(type)) {
                     continue;
                 }
-                z = relaxed(steps[i], level.z[moved(i, offsets[way])], least[way]); // its receiver is a river cell
+                float const below = level.z[moved(i, offsets[way])]; // its receiver is a river cell
+                z = relaxed(steps[i], below, level.cap[i] * length[way], least_tangent * length[way]);
                 z = std::max(z, highest_river(level, i, offsets) + bank_step * level.side);
             }
-            steps[i] = {z, 0.0F, std::numeric_limits<float>::infinity(),
-                        std::max<std::int32_t>(level.direction[i], 0) + settled};
+            steps[i] = {z, settled};
         }
     });
-    each_upstream(level, run, [&, z = level.z.data(), step = steps.data()](std::size_t i) {
-        auto const way = static_cast<std::size_t>(step[i].way);
-        z[i] = relaxed(step[i], z[moved(i, to[way])], least[way]);
-    });
+    each_upstream(level, run,
+                  [&, z = level.z.data(), step = steps.data(), cap = level.cap.data(),
+                   direction = level.direction.data()](std::size_t i) {
+                      auto const way = static_cast<std::size_t>(direction[i]);
+                      float const new_z = relaxed(step[i], z[moved(i, offsets[way])], cap[i] * length[way],
+                                                  least_tangent * length[way]);
+                      z[i] = step[i].share == settled ? step[i].rise : new_z;
+                  });
 }
 
 void slide_terrain(TerrainLevel& level, Run const& run) {

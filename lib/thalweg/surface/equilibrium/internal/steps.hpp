@@ -194,12 +194,10 @@ void set_steepest_receivers(TerrainLevel& level, Run const& run);
 /// \param rows of a band at least
 void accumulate_areas(TerrainLevel& level, Run const& run, std::int64_t rows = 128);
 
-/// How a land cell's height follows from its receiver's: rise + share * z, at most z + most.
+/// How a land cell's height follows from its receiver's: rise + share * z, before limits.
 struct Relaxation {
     float rise;
     float share;
-    float most;
-    std::int32_t way; ///< towards the receiver, as in d8_steps
 };
 
 /// One sweep over the terrain, receivers first: sets each cell to the height at which uplift balances incision, towards
