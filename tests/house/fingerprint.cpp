@@ -65,6 +65,7 @@
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
 #include "fnv.hpp"
@@ -578,6 +579,7 @@ void print_equilibrium(StreamNetwork const& pruned, Grid const& box, Run const& 
     Channels given = drawn.channels;
     given.z = network::channel_heights(network::set_heights(bent, {}, run).network, given);
     print("equilibrium, soft", hash_of(surface::equilibrium(given, {}, fixed, run).dem));
+    print("rebuild", hash_of(surface::rebuild(given, {}, {}, run).terrain.dem));
 }
 
 void print_forest(Run const& run) {

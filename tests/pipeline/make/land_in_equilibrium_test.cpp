@@ -409,31 +409,50 @@ TEST(LandInEquilibrium, ATargetThatRiversRuleOutFailsItsCheck) {
     EXPECT_TRUE(check_of(met, "relief_error").ok);
 }
 
-TEST(LandInEquilibrium, HeightsOfAFileThatNeedWallsYieldThereUnlessTheyAreAskedFor) {
+TEST(LandInEquilibrium, HeightsOfAFileAreKeptAndTheLandRisesToThem) {
     Files const files;
     std::string const high = "[network.lines]\npath = \"high.geojson\"\n";
-    Made const kept = made(lines + "heights = \"file\"\n" + high + "[surface]\nmean_slope = 8\n", files.folder());
-    EXPECT_FALSE(check_of(kept, "walled_cells").ok);
-    EXPECT_TRUE(
-        std::ranges::any_of(kept.assessment.findings, [](Finding const& f) { return f.kind == "walled_cell"; }));
-    Made const free = made(lines + high + "[surface]\nmean_slope = 8\n", files.folder());
-    EXPECT_EQ(free.recipe.network->heights, Heights::automatic);
-    EXPECT_TRUE(check_of(free, "walled_cells").ok) << check_of(free, "walled_cells").value;
-    EXPECT_GT(free.terrain.equilibrium->max_lowered_m, 100.0);
+    for (std::string const heights : {"heights = \"file\"\n", ""}) { // the default, where lines carry heights
+        Made const t = made(lines + heights + high + "[surface]\n", files.folder());
+        EXPECT_EQ(t.recipe.network->heights, Heights::file);
+        EXPECT_TRUE(check_of(t, "walled_cells").ok) << check_of(t, "walled_cells").value;
+        EXPECT_LT(t.assessment.given_heights->most_off_m, 20.0); // the river falls by so much within a cell
+        EXPECT_EQ(t.assessment.given_heights->missed, 0);
+        ASSERT_TRUE(t.terrain.equilibrium->rebuilt);
+        EXPECT_GT(t.terrain.equilibrium->rebuilt->river_spacing_m, 300.0);
+        EXPECT_EQ(t.terrain.equilibrium->edge, surface::Edge::closed);
+    }
     std::string said;
     thalweg::Run run;
     run.log = [&said](std::string_view line) { said += line; };
     Made const gentle = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\n", files.folder(), run);
     EXPECT_FALSE(test::has(said, "warning"));
+    EXPECT_TRUE(test::has(said, "given at vertices"));
     EXPECT_EQ(gentle.recipe.network->heights, Heights::file);
     EXPECT_TRUE(check_of(gentle, "walled_cells").ok) << check_of(gentle, "walled_cells").value;
     EXPECT_FALSE(gentle.recipe.surface->equilibrium.mean_slope_deg) << "nobody asked for one";
     ASSERT_TRUE(gentle.assessment.given_heights);
-    EXPECT_EQ(gentle.assessment.given_heights->missed, 0);
-    EXPECT_GT(free.assessment.given_heights->missed, 0);
+    GivenHeights const& given = *gentle.assessment.given_heights;
+    EXPECT_EQ(given.missed, 0);
+    ASSERT_EQ(given.rivers.size(), 2U);
+    EXPECT_EQ(given.rivers[0].vertices + given.rivers[1].vertices, given.vertices);
+    EXPECT_EQ(given.rivers[0].most_off_m, given.most_off_m);
+    EXPECT_GE(given.rivers[0].most_off_m, given.rivers[1].most_off_m);
+    EXPECT_LE(given.median_off_m, given.p99_off_m);
     std::string const falling = "[network.lines]\npath = \"falling.geojson\"\n[surface]\n";
     EXPECT_FALSE(made(lines + "heights = \"graded\"\n" + falling, files.folder()).assessment.given_heights);
     EXPECT_FALSE(made(lines + "heights = \"ends\"\n" + falling, files.folder()).assessment.given_heights);
+    EXPECT_FALSE(made(lines + "heights = \"fixed\"\n" + falling, files.folder()).terrain.equilibrium->rebuilt);
+}
+
+TEST(LandInEquilibrium, HeightsOfAFileGetTheSlopeThatIsAsked) {
+    Files const files;
+    for (double const slope : {18.0, 25.0}) {
+        Made const t = made(lines + "[network.lines]\npath = \"falling.geojson\"\n[surface]\nmean_slope = " +
+                                std::to_string(slope) + "\n",
+                            files.folder());
+        EXPECT_TRUE(check_of(t, "mean_slope_error").ok) << slope << ": " << check_of(t, "mean_slope_error").value;
+    }
 }
 
 TEST(LandInEquilibrium, SideValleysAreCheckedLikeTheRest) {

@@ -195,6 +195,7 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     }
     found.given_heights = given_heights(plan, planform, terrain);
     if (found.given_heights) {
+        run.tell("heights", line_of(*found.given_heights));
         warn_of_heights(plan, *found.given_heights, run);
     }
     if (terrain.drainage && found.given) {

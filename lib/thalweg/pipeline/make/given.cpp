@@ -156,6 +156,46 @@ std::optional<GivenLength> given_length(Plan const& plan, Planform const& planfo
     return given;
 }
 
+namespace {
+
+/// Differences at a river's vertices.
+RiverOff off_of(std::int64_t feature, std::vector<double>& off_m) {
+    std::ranges::sort(off_m);
+    std::size_t const last = off_m.size() - 1;
+    return {feature, std::ssize(off_m), off_m[last / 2], off_m[last * 99 / 100], off_m[last]};
+}
+
+/// The feature at a length along an arc; 0: none.
+std::int64_t feature_at(std::vector<Stretch> const& stretches, double along_m) {
+    for (Stretch const& stretch : stretches) {
+        if (along_m <= stretch.to_m) {
+            return stretch.feature;
+        }
+    }
+    return stretches.empty() ? 0 : stretches.back().feature;
+}
+
+/// Sums up differences by feature.
+void sum_up(std::map<std::int64_t, std::vector<double>> off_m, GivenHeights& given) {
+    constexpr std::size_t most = 1000;
+    std::vector<double> all;
+    for (auto& [feature, some] : off_m) {
+        all.insert(all.end(), some.begin(), some.end());
+        given.rivers.push_back(off_of(feature, some));
+    }
+    if (all.empty()) {
+        return;
+    }
+    RiverOff const whole = off_of(0, all);
+    given.median_off_m = whole.median_off_m;
+    given.p99_off_m = whole.p99_off_m;
+    given.most_off_m = whole.most_off_m;
+    std::ranges::stable_sort(given.rivers, std::greater<>(), &RiverOff::most_off_m);
+    given.rivers.resize(std::min(most, given.rivers.size()));
+}
+
+} // namespace
+
 std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& planform, Terrain const& terrain) {
     auto const asks = [&](Heights heights) { return plan.recipe.network && plan.recipe.network->heights == heights; };
     bool const taken = asks(Heights::file) || asks(Heights::soft) || asks(Heights::fixed);
@@ -174,6 +214,8 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
     given.tolerance_m = plan.recipe.network->heights_tolerance_m;
     double sum_m = 0.0;
     ElevatedNetwork const& asked = *planform.file_heights;
+    std::vector<std::vector<Stretch>> const stretches = planform.file.sources.of(asked.planform);
+    std::map<std::int64_t, std::vector<double>> off_by_feature;
     for (ArcId a = 0; a < asked.planform.arc_count(); ++a) {
         std::vector<Vec2> const& line = asked.planform.arc(a).line;
         std::vector<double> const& z = asked.arc_z[a];
@@ -181,7 +223,9 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
             double const way_m = distance(line[i], line[i + 1]);
             return std::fabs(z[i] - z[i + 1]) * std::min(1.0, cell_m / std::max(way_m, 1e-9));
         };
+        double along_m = 0.0;
         for (std::size_t i = 0; i < line.size(); ++i) {
+            along_m += i > 0 ? distance(line[i - 1], line[i]) : 0.0;
             Cell const cell = dem.grid().cell_of(line[i]);
             if (!of_file.contains({line[i].x, line[i].y}) || !dem.grid().contains(cell) || std::isnan(dem[cell])) {
                 continue;
@@ -190,6 +234,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
                 std::max(i > 0 ? fall_in_cell(i - 1) : 0.0, i + 1 < line.size() ? fall_in_cell(i) : 0.0);
             double const off_m = std::fabs(static_cast<double>(dem[cell]) - z[i]);
             ++given.vertices;
+            off_by_feature[feature_at(stretches[a], along_m)].push_back(off_m);
             if (off_m > given.tolerance_m + fall_m) {
                 ++given.missed;
                 sum_m += off_m;
@@ -198,6 +243,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
         }
     }
     given.mean_m = given.missed > 0 ? sum_m / static_cast<double>(given.missed) : 0.0;
+    sum_up(std::move(off_by_feature), given);
     return given;
 }
 
@@ -244,6 +290,11 @@ std::string line_of(GivenAreas const& given) {
     return fmt::format("{} arcs drain {:.2f} of the file's areas (median; {:.2f} to {:.2f} from 5 to 95 %), {:.0f} % "
                        "within a factor of 2",
                        given.arcs, given.median, given.low, given.high, 100.0 * given.within_factor_2);
+}
+
+std::string line_of(GivenHeights const& given) {
+    return fmt::format("{} given at vertices; dem.tif is {:.2g} m off (median), {:.2g} m at 99 %, {:.2g} m at most",
+                       given.vertices, given.median_off_m, given.p99_off_m, given.most_off_m);
 }
 
 std::string line_of(GivenLength const& given) {

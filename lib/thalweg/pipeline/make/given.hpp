@@ -53,6 +53,15 @@ char const* words_of(LeftOut cause);
 /// \return nothing where rivers are not read from lines
 std::optional<GivenLength> given_length(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
+/// How far the DEM is from the heights of one feature of a file.
+struct RiverOff {
+    std::int64_t feature = 0;
+    std::int64_t vertices = 0;
+    double median_off_m = 0.0;
+    double p99_off_m = 0.0;
+    double most_off_m = 0.0;
+};
+
 /// Heights of a file's lines at their vertices, compared with the DEM.
 struct GivenHeights {
     double tolerance_m = 0.0;
@@ -60,6 +69,10 @@ struct GivenHeights {
     std::int64_t missed = 0;   ///< of these: differ by more than the tolerance and the river's fall within a cell
     double largest_m = 0.0;    ///< largest difference of these
     double mean_m = 0.0;       ///< mean difference of these
+    double median_off_m = 0.0; ///< of all vertices, like the following
+    double p99_off_m = 0.0;
+    double most_off_m = 0.0;
+    std::vector<RiverOff> rivers = {}; ///< by most_off_m, falling; a thousand at most
 };
 
 /// Compares the heights of a plan's lines with the DEM.
@@ -92,5 +105,10 @@ std::string line_of(GivenLength const& given);
 /// \param given the comparison
 /// \return one line for the log
 std::string line_of(GivenAreas const& given);
+
+/// Formats the comparison.
+/// \param given the comparison
+/// \return one line for the log
+std::string line_of(GivenHeights const& given);
 
 } // namespace thalweg::pipeline

@@ -14,9 +14,6 @@ Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
     if (terrain.equilibrium) {
         recipe.surface->equilibrium.edge = terrain.equilibrium->edge;
     }
-    if (terrain.equilibrium && terrain.equilibrium->gave_way) {
-        recipe.network->heights = Heights::automatic; // the file's heights would need walls
-    }
     if (terrain.detail) {
         recipe.detail->midpoint.hurst = terrain.detail->hurst;
         recipe.detail->midpoint.sigma = terrain.detail->sigma;

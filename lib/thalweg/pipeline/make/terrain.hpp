@@ -46,17 +46,24 @@ struct ConditioningChanges {
 };
 
 /// How terrain came into equilibrium with its rivers.
+/// What rivers with heights of a file told of the terrain, as surface::RebuiltTerrain.
+struct RebuildStatistics {
+    double river_spacing_m = 0.0;
+    double river_concavity = 0.0;
+    double smooth_slope_deg = 0.0;
+};
+
 struct EquilibriumStatistics {
     surface::Edge edge = surface::Edge::open; ///< of the terrain, by recipe, mask or sea
-    bool gave_way = false;            ///< true if the file's heights were relaxed because fixed ones needed walls
-    std::int64_t channel_cells = 0;   ///< in which rivers run
-    std::int64_t shortened_cells = 0; ///< of perched tips that were cut
-    std::int64_t walled_cells = 0;    ///< of rivers whose input heights only walls hold up
-    double max_lowered_m = 0.0;       ///< soft: below the input heights
+    std::int64_t channel_cells = 0;           ///< in which rivers run
+    std::int64_t shortened_cells = 0;         ///< of perched tips that were cut
+    std::int64_t walled_cells = 0;            ///< of rivers whose input heights only walls hold up
+    double max_lowered_m = 0.0;               ///< soft: below the input heights
     double p95_lowered_m = 0.0;
     double rise = 0.0; ///< as surface::EquilibriumTerrain, like the following
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows;
+    std::optional<RebuildStatistics> rebuilt; ///< where heights of a file are kept
 };
 
 /// Arcs made of valleys that the terrain has beside its rivers.

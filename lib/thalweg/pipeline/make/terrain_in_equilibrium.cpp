@@ -24,6 +24,7 @@
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
 namespace thalweg::pipeline {
@@ -281,36 +282,66 @@ Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfAr
 struct Solved {
     surface::EquilibriumTerrain land;
     surface::EquilibriumParams params;
-    bool gave_way = false; ///< as EquilibriumStatistics
+    std::optional<RebuildStatistics> rebuilt = {};
 };
 
-/// Solves for the land. Heights that were taken because the lines have them give way where they would need walls.
+/// Whether the terrain is rebuilt from rivers with heights of a file.
+bool rebuilds(Plan const& plan) {
+    return plan.recipe.network->heights == Heights::file;
+}
+
+/// Keys that describe terrain in equilibrium keep their meaning relative to their defaults.
+surface::RebuildParams rebuild_params_of(EquilibriumRecipe const& wanted, surface::EquilibriumParams const& given) {
+    surface::EquilibriumParams const usual;
+    surface::RebuildParams params;
+    if (given.relief_m) {
+        params.relief_m = given.relief_m;
+    } else if (given.bring_to_target) {
+        params.mean_slope_deg = given.mean_slope_deg;
+    }
+    params.theta = std::clamp(params.theta * given.theta / usual.theta, 0.1, 0.9);
+    params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : params.hillslope_m;
+    params.debris_area_m2 *= given.debris_area_m2 / usual.debris_area_m2;
+    params.floor_width_km = given.floor_width_km;
+    params.roughness = std::min(1.0, params.roughness * given.roughness / usual.roughness);
+    params.longest_wave_m *= given.longest_wave_m / usual.longest_wave_m;
+    params.edge = given.edge;
+    params.seed = given.seed;
+    return params;
+}
+
+Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::EquilibriumFields const& fields,
+                       surface::EquilibriumParams params, StageLog& stage_log, Run const& run) {
+    if (plan.recipe.surface->equilibrium.edge == surface::Edge::open) {
+        run.say("warning: surface.edge = \"open\" is not used: around heights of a file the terrain ends at the grid, "
+                "and all water drains to the rivers");
+    }
+    params.edge = params.edge == surface::Edge::open ? surface::Edge::closed : params.edge;
+    surface::RebuiltTerrain rebuilt = stage_log.stage("fill", [&] {
+        return surface::rebuild(channels, fields, rebuild_params_of(plan.recipe.surface->equilibrium, params), run);
+    });
+    return {std::move(rebuilt.terrain), params,
+            RebuildStatistics{rebuilt.survey.spacing_m, rebuilt.survey.concavity, rebuilt.smooth_slope_deg}};
+}
+
+/// Solves for the land.
 Solved solve(Plan const& plan, Planform const& planform, Channels const& channels, StageLog& stage_log,
              Run const& run) {
     surface::EquilibriumFields const fields = equilibrium_fields(plan, planform, channels, run);
     run.at(0.0, fmt::format("fill {} cells", planform.grid.cells()).c_str());
-    surface::Edge const edge = edge_of(plan, planform, fields.land);
-    auto const solved_with = [&](surface::EquilibriumParams const& params) {
-        return Solved{stage_log.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }),
-                      params};
-    };
-    Solved solved = solved_with(params_of(plan, plan.recipe.network->heights, edge));
-    if (plan.heights_of_file && too_walled(solved.land, channels)) {
-        run.say(fmt::format("warning: the heights in {} would put {} of {} river cells on walls above the terrain. "
-                            "Rivers are lowered there; network.heights = \"file\" keeps their heights.",
-                            plan.recipe.network->lines.path, solved.land.walled.size(), channels.cell.size()));
-        solved.params.heights = surface::RiverHeights::yielding;
-        solved = solved_with(solved.params);
-        solved.gave_way = true;
+    surface::EquilibriumParams const params =
+        params_of(plan, plan.recipe.network->heights, edge_of(plan, planform, fields.land));
+    if (rebuilds(plan)) {
+        return rebuild_terrain(plan, channels, fields, params, stage_log, run);
     }
-    return solved;
+    return {stage_log.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }), params};
 }
 
 EquilibriumStatistics statistics_of(Solved const& solved, Channels const& channels) {
     surface::EquilibriumTerrain const& land = solved.land;
     EquilibriumStatistics statistics;
     statistics.edge = solved.params.edge;
-    statistics.gave_way = solved.gave_way;
+    statistics.rebuilt = solved.rebuilt;
     statistics.channel_cells = static_cast<std::int64_t>(channels.cell.size());
     statistics.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
     statistics.walled_cells = static_cast<std::int64_t>(land.walled.size());
@@ -459,8 +490,10 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     EquilibriumResult result;
     result.heights = raised ? raised->statistics : HeightsStatistics{};
     std::vector<Finding>& notes = result.remarks.notes;
+    network::ChannelsParams drawing;
+    drawing.look_cells = rebuilds(plan) ? 0 : drawing.look_cells; // heights decide where water goes
     network::ChannelsOfArcs rivers =
-        stage_log.stage("channels", [&] { return network::channels(planform.network, planform.grid, {}, run); });
+        stage_log.stage("channels", [&] { return network::channels(planform.network, planform.grid, drawing, run); });
     append(notes, rivers.notes);
     if (heights != Heights::graded) {
         rivers.channels.z = asked_heights(raised->network, rivers.channels, heights);

@@ -270,6 +270,19 @@ ordered_json given_object(GivenLength const& given) {
             {"moved_max_m", given.moved_m}, {"closed_m", given.closed_m},       {"carried_m", given.carried_m}};
 }
 
+/// Rivers by the heights that they miss.
+ordered_json rivers_off(GivenHeights const& heights) {
+    ordered_json out = ordered_json::array();
+    for (RiverOff const& river : heights.rivers) {
+        out.push_back({{"feature", river.feature},
+                       {"vertices", river.vertices},
+                       {"median_off_m", river.median_off_m},
+                       {"p99_off_m", river.p99_off_m},
+                       {"most_off_m", river.most_off_m}});
+    }
+    return out;
+}
+
 void add_rivers(Made const& t, ordered_json& report) {
     if (t.recipe.network) {
         report["network"] = network_object(t);
@@ -279,11 +292,11 @@ void add_rivers(Made const& t, ordered_json& report) {
         }
         if (t.assessment.given_heights) {
             GivenHeights const& heights = *t.assessment.given_heights;
-            report["given"]["heights"] = {{"tolerance_m", heights.tolerance_m},
-                                          {"vertices", heights.vertices},
-                                          {"missed", heights.missed},
-                                          {"mean_m", heights.mean_m},
-                                          {"largest_m", heights.largest_m}};
+            report["given"]["heights"] = {{"tolerance_m", heights.tolerance_m}, {"vertices", heights.vertices},
+                                          {"missed", heights.missed},           {"mean_m", heights.mean_m},
+                                          {"largest_m", heights.largest_m},     {"median_off_m", heights.median_off_m},
+                                          {"p99_off_m", heights.p99_off_m},     {"most_off_m", heights.most_off_m},
+                                          {"rivers", rivers_off(heights)}};
         }
         if (t.assessment.given_areas) {
             GivenAreas const& areas = *t.assessment.given_areas;
@@ -363,6 +376,11 @@ void add_statistics(Made const& t, ordered_json& report) {
                                  {"side_valleys_left_out", t.terrain.side_valleys.left_out},
                                  {"in_region", e.in_region},
                                  {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
+        if (e.rebuilt) {
+            report["equilibrium"]["rebuilt"] = {{"river_spacing_m", e.rebuilt->river_spacing_m},
+                                                {"river_concavity", e.rebuilt->river_concavity},
+                                                {"smooth_slope_deg", e.rebuilt->smooth_slope_deg}};
+        }
     }
     if (t.terrain.diffusion) {
         report["diffusion"] = {{"iterations", t.terrain.diffusion->iterations},

@@ -164,8 +164,9 @@ void check_levels(Channels const& rivers) {
     }
 }
 
-void check_equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params) {
-    check_params(params);
+} // namespace
+
+void check_rivers(Channels const& rivers, EquilibriumFields const& fields) {
     check_grid(rivers.grid);
     check_order(rivers);
     check_land(rivers, fields.land);
@@ -175,47 +176,13 @@ void check_equilibrium(Channels const& rivers, EquilibriumFields const& fields, 
     check_levels(rivers);
 }
 
+namespace {
+
 constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
 // factor of the tangent that finally counts as perched: such tips will not be lowered any more
 constexpr float of_perched = 3.0F;
 constexpr int floors_after = 2; // rounds: areas have settled by then
-
-/// The content of a level's frame before it is solved.
-struct LevelInput {
-    LevelExtent extent;
-    RiverCells rivers;
-    Mask land;
-};
-
-LevelInput coarser(LevelInput const& fine) {
-    LevelExtent const extent{(fine.extent.width + 1) / 2, (fine.extent.height + 1) / 2, fine.extent.corner};
-    return {extent, coarsened(fine.rivers, fine.extent.width + 2, extent.width + 2, extent.height + 2),
-            fine.land.cells() == 0 ? Mask{} : coarsened(fine.land)};
-}
-
-/// Makes the levels from the finest to one of about forty cells a side, the coarse ones of the region.
-std::vector<LevelInput> level_inputs(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
-    constexpr std::int64_t short_side = 8;
-    constexpr std::int64_t long_side = 40;
-    std::vector<LevelInput> levels;
-    levels.push_back({{land.grid.width, land.grid.height, {-land.margin, -land.margin}},
-                      std::move(land.rivers),
-                      std::move(land.land)});
-    for (;;) {
-        LevelInput coarse = coarser(levels.back());
-        if (region.level > 0 && levels.size() == region.level) {
-            LevelExtent const wide = extent_of(region, grid);
-            coarse.rivers = rivers_of_region(coarse.rivers, coarse.extent, wide, std::int64_t{1} << region.level, seed);
-            coarse.extent = wide;
-        }
-        LevelExtent const& extent = coarse.extent;
-        if (std::min(extent.width, extent.height) < short_side || std::max(extent.width, extent.height) < long_side) {
-            return levels;
-        }
-        levels.push_back(std::move(coarse));
-    }
-}
 
 /// Prepares a level for its rounds.
 TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const& coarser, TerrainLevel const& region,
@@ -236,7 +203,7 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     if (coarser.z.empty()) {
         start_from_nothing(level, nearest_river(level), params.seed, run);
     } else {
-        start_from(level, coarser, params.seed, run);
+        start_from(level, coarser, params.seed, {}, run);
     }
     start_rivers(level, region.z.empty() ? std::vector<float>{} : end_heights(level, region));
     return level;
@@ -311,7 +278,7 @@ public:
                 relax_finest_rivers(level, rounds - round);
             }
             run_.check();
-            relax_terrain(level, law_, steps, run_);
+            relax_terrain(level, law_.land, {}, steps, run_);
             if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
                 reduce_erodibility(level, law_);
             }
@@ -459,9 +426,13 @@ bool asks_heights(Channels const& rivers, EquilibriumParams const& params) {
            std::any_of(rivers.z.begin(), rivers.z.end(), [](float z) { return !std::isnan(z); });
 }
 
+} // namespace
+
 bool has_levels(Channels const& rivers) {
     return std::any_of(rivers.lake_z.begin(), rivers.lake_z.end(), [](float z) { return !std::isnan(z); });
 }
+
+namespace {
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
@@ -498,7 +469,8 @@ double least_metres(Channels const& rivers, double base_m) {
     return metres;
 }
 
-/// Prescribed heights that follow the levels of lakes: not below those downstream, below those upstream. Ends stay.
+} // namespace
+
 Channels with_levels(Channels rivers) {
     rivers.lake_z = kept_levels(rivers, rivers.z);
     std::vector<float> most(rivers.z.size(), std::numeric_limits<float>::infinity());
@@ -522,6 +494,8 @@ Channels with_levels(Channels rivers) {
     }
     return rivers;
 }
+
+namespace {
 
 /// Height of the solver's 0 if heights are prescribed: the sea, otherwise the lowest of them.
 float base_of(Channels const& rivers, Edge edge) {
@@ -692,7 +666,8 @@ EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumField
 
 EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
                                Run const& run) {
-    check_equilibrium(rivers, fields, params);
+    check_params(params);
+    check_rivers(rivers, fields);
     run.check();
     Channels drawn = rivers;
     drawn.z.clear();

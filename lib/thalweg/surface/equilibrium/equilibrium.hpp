@@ -23,10 +23,9 @@ enum class Edge : std::uint8_t {
 
 /// How prescribed heights of rivers are used.
 enum class RiverHeights : std::uint8_t {
-    graded,  ///< not used: rivers are graded like other channels
-    soft,    ///< upper bounds: a river is lowered where its surroundings are lower
-    fixed,   ///< kept; where the surroundings are lower, the river runs on a wall
-    yielding ///< kept, but lowered where it would run on a wall
+    graded, ///< not used: rivers are graded like other channels
+    soft,   ///< upper bounds: a river is lowered where its surroundings are lower
+    fixed   ///< kept; where the surroundings are lower, the river runs on a wall
 };
 
 /// Treatment of the heads of graded rivers that would stand above their surroundings.

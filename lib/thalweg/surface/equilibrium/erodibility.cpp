@@ -13,7 +13,6 @@ constexpr double shortest_wave = 2.0;
 // Smooth interpolation of four uniform numbers has about half the variance of one, which is a twelfth.
 constexpr double to_unit_variance = 5.0;
 constexpr double stronger = 1.1; // from octave to octave: gullies need more amplitude than the long waves leave them
-constexpr int counted_octaves = 8;
 
 /// A row of cells in an octave's lattice: the place of its first cell and the steps to the next ones.
 struct OctaveRow {
@@ -107,12 +106,12 @@ private:
 
 // Smooth noise of mean 0: value noise on lattices from the longest wave down to two cells, each half as wide as the
 // previous one, slightly stronger and rotated against it, all stretched along the strike; without waves that a level's
-// cells cannot resolve. The variance of the first eight lattices is about 1. Depends on position and seed alone.
+// cells cannot resolve. The variance of the first octaves is about 1. Depends on position and seed alone.
 Cells<float> erodibility_noise(TerrainLevel const& level, ErodibilityNoise const& params, Run const& run) {
     Cells<float> noise(static_cast<std::size_t>(level.cells()));
     double variance = 0.0;
     double part = 1.0;
-    for (int octave = 0; octave < counted_octaves; ++octave, part *= stronger * stronger) {
+    for (int octave = 0; octave < params.octaves; ++octave, part *= stronger * stronger) {
         variance += part;
     }
     double weight = to_unit_variance / std::sqrt(variance);

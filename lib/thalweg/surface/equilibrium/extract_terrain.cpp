@@ -477,19 +477,28 @@ EquilibriumTerrain extract_terrain(TerrainLevel level, Channels const& rivers, W
     return out;
 }
 
-EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels const& rivers, Window const& window,
-                                                HeightConversion const& raise, RiverHeights heights, Run const& run) {
-    EquilibriumTerrain out;
-    out.rise = raise.metres / window.grid.cell_m;
-    to_metres(level, raise);
+namespace {
+
+/// Gives river cells their prescribed heights: at most, or exactly.
+void set_asked(TerrainLevel& level, Channels const& rivers, bool at_most) {
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         std::int64_t const number = level.rivers.number[n];
         float const asked = number < 0 ? std::nanf("") : rivers.z[number];
         if (!std::isnan(asked)) {
             float& z = level.z[level.rivers.cell[n]];
-            z = heights == RiverHeights::soft ? std::min(z, asked) : asked;
+            z = at_most ? std::min(z, asked) : asked;
         }
     }
+}
+
+} // namespace
+
+EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels const& rivers, Window const& window,
+                                                HeightConversion const& raise, RiverHeights heights, Run const& run) {
+    EquilibriumTerrain out;
+    out.rise = raise.metres / window.grid.cell_m;
+    to_metres(level, raise);
+    set_asked(level, rivers, heights == RiverHeights::soft);
     keep_below_asked(level, rivers);
     hold_levels(level, rivers);
     if (heights != RiverHeights::fixed) { // as for graded rivers
@@ -502,6 +511,25 @@ EquilibriumTerrain extract_terrain_with_heights(TerrainLevel level, Channels con
     run.check();
     out.dem = cropped(level, window, run);
     out.walled = walled_cells(level, perched_height(raise, window.grid));
+    level = {};
+    out.direction = directions(out.dem, rivers, {}, run);
+    report_lowered(out.dem, rivers, out);
+    return out;
+}
+
+EquilibriumTerrain extract_rebuilt(TerrainLevel level, Channels const& rivers, Window const& window,
+                                   HeightConversion const& raise, Run const& run) {
+    EquilibriumTerrain out;
+    out.rise = raise.metres / window.grid.cell_m;
+    to_metres(level, raise);
+    set_asked(level, rivers, false);
+    hold_levels(level, rivers);
+    raise_land_beside(level, 0.99F * perched_height(raise, window.grid));
+    run.check();
+    settle_terrain(level, settled_step(raise), RiverHeights::fixed, run);
+    run.check();
+    out.dem = cropped(level, window, run);
+    out.walled = walled_cells(level, perched_height(raise, window.grid), Walls::land);
     level = {};
     out.direction = directions(out.dem, rivers, {}, run);
     report_lowered(out.dem, rivers, out);

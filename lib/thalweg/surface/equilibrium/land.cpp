@@ -20,6 +20,7 @@ struct RowOfLevel {
     float const* erodibility;
     float const* cap;
     float const* uplift;
+    float const* stiffness; ///< of the pull towards given heights, whose force is part of the uplift
     std::int8_t const* direction;
     std::int64_t width; ///< of the level
     float side;
@@ -117,7 +118,7 @@ void settle_bank(TerrainLevel& level, std::size_t i, std::array<std::int64_t, 8>
             level.direction[i] = static_cast<std::int8_t>(k);
         }
     }
-    level.z[i] = std::max(level.z[i], highest + 1.5F * bank_step * level.side);
+    level.z[i] = std::max(level.z[i], highest + 1.5F * level.least * level.side);
 }
 
 } // namespace
@@ -146,7 +147,7 @@ void flood_terrain(TerrainLevel& level) {
         std::size_t const n = moved(from, offsets[k]);
         if (direction[n] == unreached) {
             direction[n] = static_cast<std::int8_t>((k + 4) % 8);
-            float const rise = rise_to(level, n) * least_tangent * level.side;
+            float const rise = rise_to(level, n) * level.least * level.side;
             z[n] = std::max(z[n], z[from] + rise * step_lengths[k]);
             queue.push(n, z[n]);
         }
@@ -346,13 +347,15 @@ constexpr float settled = -1.0F; // share of a cell whose height is known: its r
 
 } // namespace
 
-void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxation>& steps, Run const& run) {
+void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Cells<Relaxation>& steps,
+                   Run const& run) {
     auto const offsets = level.offsets();
     auto* const relaxation = widest_lanes() == Lanes::avx2 ? &avx2::relaxation_row : &plain::relaxation_row;
     float const cell_area = level.side * level.side;
     float const creep_rate = law.creep / cell_area;
     std::int64_t const inner = level.width - 2;
     std::vector<float> const even(level.uplift.empty() ? static_cast<std::size_t>(inner) : 0, 1.0F);
+    std::vector<float> const free(pull.stiffness.empty() ? static_cast<std::size_t>(inner) : 0, 0.0F);
     std::array<float, 8> length{};
     for (std::size_t k = 0; k < length.size(); ++k) {
         length[k] = level.side * step_lengths[k];
@@ -361,12 +364,13 @@ void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxat
     each_inner_row(level, run, [&](std::size_t first) {
         std::vector<float> power(static_cast<std::size_t>(inner));
         for (std::size_t c = 0; c < power.size(); ++c) {
-            power[c] = law.land_power(static_cast<float>(level.area[first + c]) * cell_area);
+            power[c] = law.power(static_cast<float>(level.area[first + c]) * cell_area);
         }
         RowOfLevel const row{&level.z[first],
                              &level.erodibility[first],
                              &level.cap[first],
                              level.uplift.empty() ? even.data() : &level.uplift[first],
+                             pull.stiffness.empty() ? free.data() : &pull.stiffness[first],
                              &level.direction[first],
                              level.width,
                              level.side,
@@ -383,30 +387,64 @@ void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxat
                 auto const way = static_cast<std::size_t>(level.direction[i]);
                 if (type != CellType::bank) {
                     Creep const creep = creep_at_rim(level, i, offsets);
-                    float const uplift = level.uplift.empty() ? 1.0F : level.uplift[i];
-                    float const cutting = power[i - first] * level.erodibility[i] / (level.side * step_lengths[way]);
-                    float const part = 1.0F / (cutting + creep_rate * creep.weight);
-                    steps[i].rise = (uplift + creep_rate * creep.gain) * part;
+                    float const cutting = power[i - first] * level.erodibility[i] / length[way];
+                    float const part = 1.0F / (cutting + (creep_rate * creep.weight + row.stiffness[i - first]));
+                    steps[i].rise = (row.uplift[i - first] + creep_rate * creep.gain) * part;
                     steps[i].share = cutting * part;
                 }
                 if (!is_bank(type)) {
                     continue;
                 }
                 float const below = level.z[moved(i, offsets[way])]; // its receiver is a river cell
-                z = relaxed(steps[i], below, level.cap[i] * length[way], least_tangent * length[way]);
-                z = std::max(z, highest_river(level, i, offsets) + bank_step * level.side);
+                z = relaxed(steps[i], below, level.cap[i] * length[way], level.least * length[way]);
+                z = pull.floor.empty() ? z : std::max(z, pull.floor[i]);
+                z = std::max(z, highest_river(level, i, offsets) + level.least * level.side);
             }
             steps[i] = {z, settled};
         }
     });
-    each_upstream(level, run,
-                  [&, z = level.z.data(), step = steps.data(), cap = level.cap.data(),
-                   direction = level.direction.data()](std::size_t i) {
-                      auto const way = static_cast<std::size_t>(direction[i]);
-                      float const new_z = relaxed(step[i], z[moved(i, offsets[way])], cap[i] * length[way],
-                                                  least_tangent * length[way]);
-                      z[i] = step[i].share == settled ? step[i].rise : new_z;
-                  });
+    auto const sweep = [&](auto floor_of) {
+        each_upstream(level, run,
+                      [&, z = level.z.data(), step = steps.data(), cap = level.cap.data(),
+                       direction = level.direction.data(), least = level.least](std::size_t i) {
+                          auto const way = static_cast<std::size_t>(direction[i]);
+                          float const free_z =
+                              relaxed(step[i], z[moved(i, offsets[way])], cap[i] * length[way], least * length[way]);
+                          z[i] = step[i].share == settled ? step[i].rise : floor_of(i, free_z);
+                      });
+    };
+    if (pull.floor.empty()) {
+        sweep([](std::size_t, float at) { return at; });
+    } else {
+        sweep([&](std::size_t i, float at) { return std::max(at, pull.floor[i]); });
+    }
+}
+
+double mean_slope_deg(TerrainLevel const& level, Run const& run) {
+    auto* const slopes = widest_lanes() == Lanes::avx2 ? &avx2::slopes_of_row : &plain::slopes_of_row;
+    struct Sum {
+        double angles = 0.0;
+        double count = 0.0;
+    };
+    std::vector<Sum> rows(static_cast<std::size_t>(level.height));
+    each_inner_row(level, run, [&](std::size_t first) {
+        std::vector<float> angles(static_cast<std::size_t>(level.width - 2));
+        slopes(&level.z[first], angles.data(), 2.0F * level.side, level.width, std::ssize(angles));
+        Sum& sum = rows[first / static_cast<std::size_t>(level.width)];
+        for (std::size_t c = 0; c < angles.size(); ++c) {
+            constexpr float steepest = 1.57F; // steeper beside the infinite heights of cells outside
+            if (angles[c] < steepest) {
+                sum.angles += static_cast<double>(angles[c]);
+                sum.count += 1.0;
+            }
+        }
+    });
+    Sum all;
+    for (Sum const& row : rows) {
+        all.angles += row.angles;
+        all.count += row.count;
+    }
+    return all.count > 0.0 ? all.angles / all.count * (180.0 / portable::pi) : 0.0;
 }
 
 void slide_terrain(TerrainLevel& level, Run const& run) {

@@ -252,13 +252,50 @@ PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, Eq
             {relative(fields.uplift, fields.land), relative(fields.erodibility, fields.land)}};
 }
 
+namespace {
+
+LevelInput coarser(LevelInput const& fine) {
+    LevelExtent const extent{(fine.extent.width + 1) / 2, (fine.extent.height + 1) / 2, fine.extent.corner};
+    return {extent, coarsened(fine.rivers, fine.extent.width + 2, extent.width + 2, extent.height + 2),
+            fine.land.cells() == 0 ? Mask{} : coarsened(fine.land)};
+}
+
+} // namespace
+
+std::vector<LevelInput> level_inputs(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed) {
+    constexpr std::int64_t short_side = 8;
+    constexpr std::int64_t long_side = 40;
+    std::vector<LevelInput> levels;
+    levels.push_back({{land.grid.width, land.grid.height, {-land.margin, -land.margin}},
+                      std::move(land.rivers),
+                      std::move(land.land)});
+    for (;;) {
+        LevelInput coarse = coarser(levels.back());
+        if (region.level > 0 && levels.size() == region.level) {
+            LevelExtent const wide = extent_of(region, grid);
+            coarse.rivers = rivers_of_region(coarse.rivers, coarse.extent, wide, std::int64_t{1} << region.level, seed);
+            coarse.extent = wide;
+        }
+        LevelExtent const& extent = coarse.extent;
+        if (std::min(extent.width, extent.height) < short_side || std::max(extent.width, extent.height) < long_side) {
+            return levels;
+        }
+        levels.push_back(std::move(coarse));
+    }
+}
+
 NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start) {
+    return nearest_of(level, level.rivers.cell, head_start);
+}
+
+NearestRiver nearest_of(TerrainLevel const& level, std::vector<std::uint32_t> const& from,
+                        std::vector<float> const& head_start) {
     auto const cells = static_cast<std::size_t>(level.cells());
     NearestRiver near{Cells<float>(cells, std::numeric_limits<float>::infinity()),
                       Cells<std::uint32_t>(cells, NearestRiver::none)};
-    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
-        near.distance[level.rivers.cell[n]] = head_start.empty() ? 0.0F : -head_start[n];
-        near.number[level.rivers.cell[n]] = static_cast<std::uint32_t>(n);
+    for (std::size_t n = 0; n < from.size(); ++n) {
+        near.distance[from[n]] = head_start.empty() ? 0.0F : -head_start[n];
+        near.number[from[n]] = static_cast<std::uint32_t>(n);
     }
     auto const offsets = level.offsets();
     auto const width = static_cast<std::size_t>(level.width);
@@ -408,7 +445,8 @@ void set_heights(TerrainLevel& level, std::uint64_t seed, float rough, Run const
 /// grid, before water settles in them.
 class Bends {
 public:
-    Bends(TerrainLevel const& level, std::uint64_t seed) : across_(level.width / spacing + 2) {
+    Bends(TerrainLevel const& level, std::uint64_t seed, float reach)
+        : across_(level.width / spacing + 2), reach_(reach) {
         std::int64_t const down = level.height / spacing + 2;
         east_.resize(static_cast<std::size_t>(across_ * down));
         south_.resize(east_.size());
@@ -427,12 +465,11 @@ public:
 
 private:
     static constexpr std::int64_t spacing = 6; // [cells of the level]
-    static constexpr float reach = 1.0F;       // [coarse cells]
 
     void draw(std::uint64_t seed, std::int64_t row, float side, float* out) const {
         constexpr std::uint64_t bends = 0x62656e64; // "bend"
         random_bytes(seed, bends, row, side, across_, [&](std::int64_t col, std::uint8_t byte) {
-            out[col] = reach * (static_cast<float>(byte) * 0x1p-7F - 1.0F);
+            out[col] = reach_ * (static_cast<float>(byte) * 0x1p-7F - 1.0F);
         });
     }
 
@@ -448,6 +485,7 @@ private:
     }
 
     std::int64_t across_; ///< nodes in a row
+    float reach_;         ///< [coarse cells]
     std::vector<float> east_;
     std::vector<float> south_;
 };
@@ -464,7 +502,8 @@ void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint
     });
 }
 
-void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Run const& run) {
+void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Departure const& departure,
+                Run const& run) {
     // The frame's infinite heights must not be interpolated: the outermost inner cells replace it.
     Cells<float> heights(coarse.z.size());
     for (std::int64_t row = 0; row < coarse.height; ++row) {
@@ -474,13 +513,13 @@ void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t s
             heights[row * coarse.width + col] = std::isinf(z) ? 0.0F : z;
         }
     }
-    Bends const bends(level, seed);
+    Bends const bends(level, seed, departure.bend);
     // Columns 1 and 2 (the frame is column 0) are the halves of coarse column 1 if both begin at the same place.
     float const first_x = 0.25F + static_cast<float>(level.corner.col - coarse.corner.col) / coarse.side;
     float const first_y = 0.25F + static_cast<float>(level.corner.row - coarse.corner.row) / coarse.side;
     auto const last_col = static_cast<float>(coarse.width - 1);
     auto const last_row = static_cast<float>(coarse.height - 1);
-    set_heights(level, seed, 0.15F, run, [&](std::int64_t row, float* z) {
+    set_heights(level, seed, departure.rough, run, [&](std::int64_t row, float* z) {
         auto const count = static_cast<std::size_t>(level.width);
         std::vector<float> x(count);
         std::vector<float> y(count);
@@ -501,6 +540,10 @@ void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t s
             z[col] = upper + (lower - upper) * v;
         }
     });
+}
+
+void roughen(TerrainLevel& level, std::uint64_t seed, float rough, Run const& run) {
+    set_heights(level, seed, rough, run, [](std::int64_t, float*) {});
 }
 
 void start_rivers(TerrainLevel& level, std::vector<float> const& end_z) {
@@ -551,7 +594,7 @@ float above_rivers(TerrainLevel const& level, std::size_t i, float z) {
     for (std::int64_t const offset : level.offsets()) {
         std::int64_t const n = static_cast<std::int64_t>(i) + offset;
         if (n >= 0 && n < level.cells() && level.type[n] == CellType::river) {
-            z = std::max(z, level.z[n] + bank_step * level.side);
+            z = std::max(z, level.z[n] + level.least * level.side);
         }
     }
     return z;

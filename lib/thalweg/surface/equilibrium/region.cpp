@@ -313,7 +313,7 @@ void lift_frame(TerrainLevel& level, RegionFrame const& frame) {
         float const river = level.type[inner] == CellType::river
                                 ? std::max(level.z[inner], highest_river(level, inner, offsets))
                                 : highest_river(level, inner, offsets);
-        level.z[c.cell] = std::max(c.z + c.share * lift, river + bank_step * level.side);
+        level.z[c.cell] = std::max(c.z + c.share * lift, river + level.least * level.side);
     }
 }
 

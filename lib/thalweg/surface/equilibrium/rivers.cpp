@@ -62,12 +62,14 @@ float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::
 
 namespace {
 
-/// Long profiles of rivers through prescribed heights.
+/// Long profiles of rivers through prescribed heights: of graded rivers, steeper or gentler where that takes them
+/// there.
 class Profiles {
 public:
+    /// \param fall by river cell: of a graded river, to its receiver
     /// \param asked by river cell: the prescribed height, or NaN
-    Profiles(TerrainLevel const& level, EquilibriumLaw const& law, std::vector<float> asked)
-        : level_(level), rivers_(level.rivers), asked_(std::move(asked)) {
+    Profiles(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked)
+        : rivers_(rivers), asked_(std::move(asked)) {
         std::size_t const count = rivers_.cell.size();
         graded_.resize(count);
         anchor_.resize(count);
@@ -77,8 +79,7 @@ public:
                 continue;
             }
             std::size_t const r = receiver(n);
-            bool const lake = rivers_.level[n] != 0;
-            graded_[n] = graded_[r] + (lake ? 0.0F : graded_tangent(level, law, rivers_.cell[n]) * length(n));
+            graded_[n] = graded_[r] + (rivers_.level[n] != 0 ? 0.0F : fall[n]);
             anchor_[n] = is_asked(r) ? r : anchor_[r];
         }
         aim();
@@ -92,12 +93,11 @@ public:
         return z;
     }
 
-    bool is_end(std::size_t n) const { return rivers_.receiver[n] < 0; }
-    std::size_t receiver(std::size_t n) const { return static_cast<std::size_t>(rivers_.receiver[n]); }
-    float length(std::size_t n) const { return level_.side * step_lengths[rivers_.direction[n]]; }
-
 private:
     static constexpr std::int32_t nothing = -1;
+
+    bool is_end(std::size_t n) const { return rivers_.receiver[n] < 0; }
+    std::size_t receiver(std::size_t n) const { return static_cast<std::size_t>(rivers_.receiver[n]); }
 
     /// A lake has its outlet's height; a prescribed one is ignored.
     bool is_asked(std::size_t n) const { return !std::isnan(asked_[n]) && (is_end(n) || rivers_.level[n] == 0); }
@@ -147,13 +147,24 @@ private:
         return below + (asked_[above] - below) * (fall / (graded_[above] - graded_[receiver(n)]));
     }
 
-    TerrainLevel const& level_;
     RiverCells const& rivers_;
     std::vector<float> asked_;
     std::vector<float> graded_;       ///< heights of graded rivers above their ends
     std::vector<std::size_t> anchor_; ///< number of the next cell downstream with a prescribed height, or of the end
     std::vector<std::int32_t> aim_;   ///< number of the cell upstream, itself included, towards which the cell rises
 };
+
+/// Falls of graded rivers to their receivers.
+std::vector<float> graded_falls(TerrainLevel const& level, EquilibriumLaw const& law) {
+    RiverCells const& rivers = level.rivers;
+    std::vector<float> fall(rivers.cell.size(), 0.0F);
+    for (std::size_t n = 0; n < fall.size(); ++n) {
+        if (rivers.receiver[n] >= 0) {
+            fall[n] = graded_tangent(level, law, rivers.cell[n]) * level.side * step_lengths[rivers.direction[n]];
+        }
+    }
+    return fall;
+}
 
 float just_above(float z) {
     return std::nextafter(z, std::numeric_limits<float>::infinity());
@@ -169,10 +180,14 @@ std::vector<float> heights_by_lakes(TerrainLevel const& level, EquilibriumLaw co
     for (std::size_t n = 0; n < asked.size(); ++n) {
         asked[n] = rivers.receiver[n] < 0 ? level.z[rivers.cell[n]] : asked[n];
     }
-    return Profiles(level, law, std::move(asked)).heights();
+    return heights_through(rivers, graded_falls(level, law), std::move(asked));
 }
 
 } // namespace
+
+std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked) {
+    return Profiles(rivers, fall, std::move(asked)).heights();
+}
 
 void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
     RiverCells const& rivers = level.rivers;
@@ -199,27 +214,29 @@ void relax_rivers(TerrainLevel& level, EquilibriumLaw const& law) {
 }
 
 void relax_given_rivers(TerrainLevel& level, EquilibriumLaw const& law, RiverHeights heights) {
-    Profiles const profiles(level, law, level.rivers.asked);
     RiverCells const& rivers = level.rivers;
-    std::vector<float> z = profiles.heights();
+    std::vector<float> z = heights_through(rivers, graded_falls(level, law), rivers.asked);
+    auto const is_end = [&](std::size_t n) { return rivers.receiver[n] < 0; };
+    auto const receiver = [&](std::size_t n) { return static_cast<std::size_t>(rivers.receiver[n]); };
+    auto const length = [&](std::size_t n) { return level.side * step_lengths[rivers.direction[n]]; };
     bool const soft = heights == RiverHeights::soft;
     if (soft) {
         for (std::size_t n = z.size(); n-- > 0;) {
-            if (!profiles.is_end(n) && rivers.hold_of(profiles.receiver(n)) < Hold::lake) {
-                float& below = z[profiles.receiver(n)];
-                float const rise = rivers.level[n] != 0 ? 0.0F : least_tangent * profiles.length(n);
+            if (!is_end(n) && rivers.hold_of(receiver(n)) < Hold::lake) {
+                float& below = z[receiver(n)];
+                float const rise = rivers.level[n] != 0 ? 0.0F : least_tangent * length(n);
                 below = std::min(below, z[n] - rise);
             }
         }
     }
     std::vector<float> const most = soft ? greatest_heights(level, law) : std::vector<float>{};
     for (std::size_t n = 0; n < z.size(); ++n) {
-        if (!profiles.is_end(n)) {
-            float const below = z[profiles.receiver(n)];
+        if (!is_end(n)) {
+            float const below = z[receiver(n)];
             if (rivers.level[n] != 0) {
                 z[n] = below;
             } else if (soft && !rivers.is_held(n)) {
-                z[n] = std::max(std::min(z[n], most[n]), below + least_tangent * profiles.length(n));
+                z[n] = std::max(std::min(z[n], most[n]), below + least_tangent * length(n));
             } else {
                 z[n] = std::max(z[n], just_above(below));
             }
@@ -282,14 +299,16 @@ std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent,
     RiverCells const& rivers = level.rivers;
     std::vector<std::int64_t> numbers;
     for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
-        bool const counts = walls == Walls::all || rivers.hold_of(n) != Hold::none;
+        bool const counts = walls != Walls::by_lakes || rivers.hold_of(n) != Hold::none;
         if (rivers.number[n] < 0 || !counts || !is_perched(level, rivers.cell[n], tangent)) {
             continue;
         }
         bool walled = false;
         each_of_second_ring(level, rivers.cell[n], [&](std::size_t i) {
             bool const lower = level.z[rivers.cell[n]] > level.z[i] + tangent * level.side;
-            walled = walled || (lower && !runs_through(rivers, n, i, steps));
+            bool const counted = walls == Walls::land ? is_land(level.type[i]) && !is_bank(level.type[i])
+                                                      : !runs_through(rivers, n, i, steps);
+            walled = walled || (lower && counted);
         });
         if (walled) {
             numbers.push_back(rivers.number[n]);
@@ -334,6 +353,17 @@ void raise_below_perched(TerrainLevel& level, float tangent) {
             auto const i = static_cast<std::size_t>(c.row * level.width + c.col);
             if (far > 1 && is_land(level.type[i])) {
                 level.z[i] = std::max(level.z[i], z - tangent * level.side * static_cast<float>(far - 1));
+            }
+        });
+    }
+}
+
+void raise_land_beside(TerrainLevel& level, float tangent) {
+    for (std::uint32_t const river : level.rivers.cell) {
+        float const least = level.z[river] - tangent * level.side;
+        each_of_second_ring(level, river, [&](std::size_t i) {
+            if (is_land(level.type[i]) && !is_bank(level.type[i])) {
+                level.z[i] = std::max(level.z[i], least);
             }
         });
     }

@@ -55,6 +55,14 @@ private:
     std::vector<float> table_ = std::vector<float>(std::size_t{40} << 8);
 };
 
+/// How hillsides are cut and creep: U + creep lap z = power(A) S, lengths, heights and areas in cells of the finest
+/// level.
+struct LandLaw {
+    AreaPower power; ///< K A^theta; below the area of debris flows these cut as well, and slopes become nearly constant
+                     ///< (Stock and Dietrich 2003)
+    float creep;     ///< D, from the length below which creep dominates (Perron 2009)
+};
+
 /// U + D lap z = K A^theta S in the solver's units: lengths, heights and areas in cells of the finest level, U = 1 by
 /// default, and K such that slopes at small areas are the same at any cell size and stay well within float precision.
 struct EquilibriumLaw {
@@ -62,17 +70,15 @@ struct EquilibriumLaw {
         : EquilibriumLaw(params, cell_m, incision(params, cell_m)) {}
 
     AreaPower power; ///< K A^theta, of the input rivers
-    /// of the terrain: below the area of debris flows these cut as well, and slopes become nearly constant (Stock and
-    /// Dietrich 2003)
-    AreaPower land_power;
-    float creep;       ///< D, from the length below which creep dominates (Perron 2009)
+    LandLaw land;
     float source_area; ///< [finest cells] contributing area at a drawn source
 
 private:
     EquilibriumLaw(EquilibriumParams const& params, double cell_m, double k)
-        : power(params.theta, 0.0, k), land_power(params.theta, debris_cells(params, cell_m), k),
-          creep(static_cast<float>(
-              k * portable::pow(std::min(params.hillslope_m / cell_m, most_creep), 2.0 * params.theta + 1.0))),
+        : power(params.theta, 0.0, k),
+          land{AreaPower(params.theta, debris_cells(params, cell_m), k),
+               static_cast<float>(
+                   k * portable::pow(std::min(params.hillslope_m / cell_m, most_creep), 2.0 * params.theta + 1.0))},
           source_area(static_cast<float>(source_area_m2 / (cell_m * cell_m))) {}
 
     static double debris_cells(EquilibriumParams const& params, double cell_m) {
@@ -160,7 +166,6 @@ inline constexpr std::array<float, 8> step_lengths = {1.0F, 1.41421356F, 1.0F, 1
 inline constexpr float least_tangent = 0.002F;
 /// The steepest slope that uplift maintains at mean erodibility.
 inline constexpr float steepest_tangent = 0.3F;
-inline constexpr float bank_step = least_tangent;
 
 /// Water that enters a level.
 struct Inflow {
@@ -177,10 +182,11 @@ struct OrderPart {
 /// One level of the grid, in a frame one cell wide, so that every inner cell has eight neighbours. Lengths and heights
 /// are in cells of the finest level.
 struct TerrainLevel {
-    std::int64_t width = 0;  ///< with the frame
-    std::int64_t height = 0; ///< with the frame
-    float side = 1.0F;       ///< size of a cell
-    Cell corner;             ///< [finest cells] offset of the first inner cell from the caller's grid
+    std::int64_t width = 0;      ///< with the frame
+    std::int64_t height = 0;     ///< with the frame
+    float side = 1.0F;           ///< size of a cell
+    float least = least_tangent; ///< tangent from a land cell to its receiver
+    Cell corner;                 ///< [finest cells] offset of the first inner cell from the caller's grid
     RiverCells rivers;
     Cells<CellType> type;
     Cells<float> z;
@@ -311,5 +317,8 @@ struct NearestRiver {
 /// Finds the river cell nearest to each inner cell, by steps of 1 and sqrt(2) in two passes, where each river cell has
 /// a head start (by number; empty: none). The frame has none.
 NearestRiver nearest_river(TerrainLevel const& level, std::vector<float> const& head_start = {});
+/// The same for other cells of the level than its rivers.
+NearestRiver nearest_of(TerrainLevel const& level, std::vector<std::uint32_t> const& cells,
+                        std::vector<float> const& head_start = {});
 
 } // namespace thalweg::surface

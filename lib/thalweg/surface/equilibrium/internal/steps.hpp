@@ -16,10 +16,20 @@
 /// The steps of equilibrium(), by source file.
 namespace thalweg::surface {
 
+// equilibrium.cpp: the caller's rivers
+
+/// \throws BadInput as equilibrium()
+void check_rivers(Channels const& rivers, EquilibriumFields const& fields);
+/// Whether lakes have levels.
+bool has_levels(Channels const& rivers);
+/// Prescribed heights that follow the levels of lakes: not below those downstream, below those upstream. Ends stay.
+Channels with_levels(Channels rivers);
+
 // erodibility.cpp: uplift and erodibility of a level's cells
 
 struct ErodibilityNoise {
     double longest_wave = 360.0; ///< [finest cells]
+    int octaves = 8;             ///< from the longest wave, whose variances add up to 1
     double stretch = 1.0;        ///< ratio of lengths along and across the strike
     double strike = 0.0;         ///< [radians] anticlockwise from east
     std::uint64_t seed = 0;
@@ -67,6 +77,29 @@ struct PaddedTerrain {
 };
 PaddedTerrain padded(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
 
+/// The region of which the caller's grid is a window. Coarse levels are solved on all of it.
+struct Region {
+    std::size_t level = 0;   ///< number of its finest level; 0: there is no region
+    std::int64_t margin = 0; ///< [finest cells] beyond the grid on each side, in whole cells of that level
+};
+
+/// A level without its frame.
+struct LevelExtent {
+    std::int64_t width = 0;
+    std::int64_t height = 0;
+    Cell corner; ///< as TerrainLevel
+};
+
+/// The content of a level's frame before it is solved.
+struct LevelInput {
+    LevelExtent extent;
+    RiverCells rivers;
+    Mask land;
+};
+
+/// Makes the levels from the finest to one of about forty cells a side, the coarse ones of the region.
+std::vector<LevelInput> level_inputs(PaddedTerrain& land, Region const& region, Grid const& grid, std::uint64_t seed);
+
 /// Coarsens a land mask inside a level's frame: 1 if at least half of a cell's finer cells are land; without cells:
 /// all.
 Mask coarsened(Mask const& land);
@@ -113,8 +146,17 @@ void set_boundary_heights(TerrainLevel& level, BoundaryCells const& edge);
 /// Initialises the coarsest level: a gentle rise away from where water leaves, plus random noise.
 void start_from_nothing(TerrainLevel& level, NearestRiver const& near, std::uint64_t seed, Run const& run);
 
-/// Initialises a level: interpolated heights of the coarser one, plus random noise.
-void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Run const& run);
+/// How a level departs from the coarser one.
+struct Departure {
+    float rough = 0.15F; ///< [cells of the level] random heights
+    float bend = 1.0F;   ///< [coarse cells] largest displacement
+};
+
+/// Initialises a level: interpolated heights of the coarser one, displaced, plus random noise.
+void start_from(TerrainLevel& level, TerrainLevel const& coarse, std::uint64_t seed, Departure const& departure,
+                Run const& run);
+/// Adds such noise to heights.
+void roughen(TerrainLevel& level, std::uint64_t seed, float rough, Run const& run);
 
 /// Sets the heights that are not free: sea, outside, and rivers that rise slightly from their ends. end_z: by river
 /// cell, for those that end; empty: 0.
@@ -122,22 +164,9 @@ void start_rivers(TerrainLevel& level, std::vector<float> const& end_z = {});
 
 // region.cpp: terrain around the caller's grid
 
-/// The region of which the caller's grid is a window. Coarse levels are solved on all of it.
-struct Region {
-    std::size_t level = 0;   ///< number of its finest level; 0: there is no region
-    std::int64_t margin = 0; ///< [finest cells] beyond the grid on each side, in whole cells of that level
-};
-
 /// Chooses the region; none if the terrain ends at the grid or the sea, rivers end inside, heights are prescribed, or
 /// the grid is small.
 Region region_around(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params);
-
-/// A level without its frame.
-struct LevelExtent {
-    std::int64_t width = 0;
-    std::int64_t height = 0;
-    Cell corner; ///< as TerrainLevel
-};
 
 /// The extent of the region on its finest level.
 LevelExtent extent_of(Region const& region, Grid const& grid);
@@ -179,7 +208,7 @@ std::vector<RegionInflow> inflows_of(TerrainLevel const& level, Grid const& grid
 // land.cpp: the terrain between rivers
 
 /// Finds a receiver for every cell and raises cells where necessary: banks drain to the steepest river cell beside
-/// them, other land by a flood from the outlets. Each land cell ends up at least least_tangent above its receiver,
+/// them, other land by a flood from the outlets. Each land cell ends up at least level.least above its receiver,
 /// banks above all river cells beside them. Cells that cannot drain become outside. Source: Barnes 2014, with buckets
 /// instead of a heap: cells of one bucket are taken in any order, which changes the order of cells but not the law.
 void flood_terrain(TerrainLevel& level);
@@ -200,11 +229,20 @@ struct Relaxation {
     float share;
 };
 
+/// What else holds land cells, by cell; empty: nothing.
+struct Pull {
+    Cells<float> stiffness; ///< of a spring towards a given height, whose force there is part of the uplift
+    Cells<float> floor;     ///< least heights
+};
+
 /// One sweep over the terrain, receivers first: sets each cell to the height at which uplift balances incision, towards
 /// the receiver's new height, and creep, by the neighbours' heights before the sweep (rivers' as they are). Each cell
-/// ends up at least least_tangent above its receiver and at most its cap (banks may have to be higher: above every
+/// ends up at least level.least above its receiver and at most its cap (banks may have to be higher: above every
 /// river cell beside them). steps: memory, kept from round to round.
-void relax_terrain(TerrainLevel& level, EquilibriumLaw const& law, Cells<Relaxation>& steps, Run const& run);
+void relax_terrain(TerrainLevel& level, LandLaw const& law, Pull const& pull, Cells<Relaxation>& steps, Run const& run);
+
+/// Mean slope of the cells that have four neighbours.
+double mean_slope_deg(TerrainLevel const& level, Run const& run);
 
 /// Lowers terrain that is far steeper above one of its neighbours than its cap allows: cliffs left by a removed river,
 /// which would otherwise retreat by one row of cells a round. Banks and rivers are unchanged. The result is the largest
@@ -226,6 +264,11 @@ void valley_floors(TerrainLevel& level, FloorParams const& params);
 /// Tangent of a graded river cell by its contributing area, at most a share of the cap.
 float graded_tangent(TerrainLevel const& level, EquilibriumLaw const& law, std::uint32_t i);
 
+/// Long profiles of rivers through prescribed heights: between them as steep as necessary, above the highest graded.
+/// \param fall by river cell: of a graded river, to its receiver
+/// \param asked by river cell: the prescribed height, or NaN; they do not rise downstream
+std::vector<float> heights_through(RiverCells const& rivers, std::vector<float> const& fall, std::vector<float> asked);
+
 /// Sets rivers to their graded heights for their contributing areas: at most a share of the hillslope cap, and not
 /// above the terrain two cells away, so that they are not perched. Lakes are level; below those with levels, rivers
 /// rise to them whatever the terrain.
@@ -244,7 +287,7 @@ bool runs_through(RiverCells const& rivers, std::size_t n, std::size_t cell, int
 
 /// Lists river cells, by number in the caller's Channels and in order, that are perched above cells other than their
 /// own river's: all, or those in and below lakes with levels.
-enum class Walls : std::uint8_t { all, by_lakes };
+enum class Walls : std::uint8_t { all, by_lakes, land }; ///< land: above land that lies beside no river
 std::vector<std::int64_t> walled_cells(TerrainLevel const& level, float tangent, Walls walls = Walls::all);
 
 /// Lowers such cells as long as they stay a step above their receivers, which are lowered with them over a short
@@ -253,6 +296,9 @@ void lower_perched(TerrainLevel& level, float tangent, float step);
 
 /// Raises the terrain two to four cells from a perched river cell, as a slope, until it is no longer perched.
 void raise_below_perched(TerrainLevel& level, float tangent);
+
+/// Raises land two cells from a river, banks aside, to the river less a tangent times a cell.
+void raise_land_beside(TerrainLevel& level, float tangent);
 
 /// Shortens rivers: removes perched cells near heads and everything upstream of them. Removed cells become land; under
 /// `stay`, a bank does not become lower than a river beside it. Returns numbers in the caller's Channels.
@@ -267,6 +313,44 @@ std::vector<std::int64_t> remove_touching_tips(TerrainLevel& level);
 /// passes. Conflicts that cannot be resolved (a receiver's receiver beside the cell) remain. least: the least tangent
 /// towards a receiver.
 void enforce_receivers(TerrainLevel& level, float least = least_tangent);
+
+// rebuild_steps.cpp: terrain between rivers with known heights
+
+/// nearest_of() with distances along straight lines.
+NearestRiver straight_to(TerrainLevel const& level, std::vector<std::uint32_t> const& cells, Run const& run);
+
+/// Part of an array of rows.
+struct Rows {
+    std::int64_t width;
+    std::int64_t height;
+    std::int64_t stride; ///< from row to row
+};
+struct BlurParams {
+    std::int64_t reach = 1; ///< [cells] to each side
+    int passes = 2;
+};
+/// Replaces values by their means in a square around each, a few times; beyond the border values continue.
+void blur(float* first, Rows const& rows, BlurParams const& params, Run const& run);
+
+/// How terrain that carries its rivers is found.
+struct WallParams {
+    float tolerance = 0.05F;    ///< [cells of the level] height of a river cell above the land beside it
+    float least_height = 0.02F; ///< [cells of the level] of such land above the river that it drains to
+    float reach = 3.0F;         ///< [cells of the level] beside a flow path
+};
+/// Along the flow paths from land beside river cells that stand above it: by how much [log] it has to rise, at most a
+/// half; 0 elsewhere. count: such river cells
+struct LandBelowRivers {
+    Cells<float> lack;
+    std::int64_t count = 0;
+};
+LandBelowRivers land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run);
+
+/// By cell of a level: number of the link to which it drains; -1: none. link: by channel number
+Cells<std::int32_t> links_of(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run);
+
+/// By cell of a level: distance [cells of the level] to the nearest land that drains to another link than a neighbour.
+Cells<float> distance_to_divides(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run);
 
 // extract_terrain.cpp: from the solver's heights to metres
 
@@ -295,6 +379,11 @@ struct HeightConversion {
     double base_m;
     double mean_tangent; ///< mean slope of the terrain in metres
 };
+
+/// Extracts the caller's grid from terrain around known heights of rivers. Land two cells from a river is raised to it,
+/// less the mean slope; walled: numbers of the river cells that stand higher above such land, banks aside.
+EquilibriumTerrain extract_rebuilt(TerrainLevel level, Channels const& rivers, Window const& window,
+                                   HeightConversion const& raise, Run const& run);
 
 /// Chooses the conversion that gives the terrain in a window the target relief or mean slope, with the lowest river end
 /// at 0.

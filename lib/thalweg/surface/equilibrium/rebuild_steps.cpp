@@ -1,0 +1,189 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <thalweg/surface/equilibrium/internal/steps.hpp>
+
+namespace thalweg::surface {
+
+NearestRiver straight_to(TerrainLevel const& level, std::vector<std::uint32_t> const& cells, Run const& run) {
+    NearestRiver near = nearest_of(level, cells);
+    parallel_ranges(run, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin; row < end; ++row) {
+            for (std::int64_t col = 0; col < level.width; ++col) {
+                std::size_t const i = static_cast<std::size_t>(row * level.width + col);
+                if (near.number[i] != NearestRiver::none) {
+                    Cell const to = level.at(cells[near.number[i]]);
+                    auto const east = static_cast<float>(to.col - col);
+                    auto const south = static_cast<float>(to.row - row);
+                    near.distance[i] = std::sqrt(east * east + south * south);
+                }
+            }
+        }
+    });
+    return near;
+}
+
+namespace {
+
+/// Means along a row.
+void blur_row(float const* from, float* to, std::int64_t width, std::int64_t reach) {
+    auto const at = [&](std::int64_t c) {
+        return static_cast<double>(from[std::clamp<std::int64_t>(c, 0, width - 1)]);
+    };
+    double sum = 0.0;
+    for (std::int64_t c = -reach; c <= reach; ++c) {
+        sum += at(c);
+    }
+    double const part = 1.0 / static_cast<double>(2 * reach + 1);
+    for (std::int64_t c = 0; c < width; ++c) {
+        to[c] = static_cast<float>(sum * part);
+        sum += at(c + reach + 1) - at(c - reach);
+    }
+}
+
+/// Means along columns.
+void blur_columns(float const* from, float* to, Rows const& rows, std::int64_t begin, std::int64_t end,
+                  std::int64_t reach) {
+    std::vector<double> sums(static_cast<std::size_t>(end - begin), 0.0);
+    auto const row = [&](std::int64_t r) {
+        return from + std::clamp<std::int64_t>(r, 0, rows.height - 1) * rows.width + begin;
+    };
+    for (std::int64_t r = -reach; r <= reach; ++r) {
+        float const* const values = row(r);
+        for (std::size_t c = 0; c < sums.size(); ++c) {
+            sums[c] += static_cast<double>(values[c]);
+        }
+    }
+    double const part = 1.0 / static_cast<double>(2 * reach + 1);
+    for (std::int64_t r = 0; r < rows.height; ++r) {
+        float* const out = to + r * rows.stride + begin;
+        float const* const enters = row(r + reach + 1);
+        float const* const leaves = row(r - reach);
+        for (std::size_t c = 0; c < sums.size(); ++c) {
+            out[c] = static_cast<float>(sums[c] * part);
+            sums[c] += static_cast<double>(enters[c]) - static_cast<double>(leaves[c]);
+        }
+    }
+}
+
+} // namespace
+
+void blur(float* first, Rows const& rows, BlurParams const& params, Run const& run) {
+    constexpr std::int64_t columns = 256;
+    Cells<float> along(static_cast<std::size_t>(rows.width * rows.height));
+    for (int pass = 0; pass < params.passes; ++pass) {
+        parallel_ranges(run, rows.height, least_rows(rows.width), [&](std::int64_t begin, std::int64_t end) {
+            for (std::int64_t r = begin; r < end; ++r) {
+                blur_row(first + r * rows.stride, &along[r * rows.width], rows.width, params.reach);
+            }
+        });
+        parallel_ranges(run, rows.width, columns, [&](std::int64_t begin, std::int64_t end) {
+            blur_columns(along.data(), first, rows, begin, end, params.reach);
+        });
+    }
+}
+
+namespace {
+
+/// The lowest land two cells from a river cell, on coarse levels one; banks do not count.
+std::optional<std::size_t> lowest_land_beside(TerrainLevel const& level, std::uint32_t cell,
+                                              std::array<std::int64_t, 8> const& offsets) {
+    std::optional<std::size_t> lowest;
+    auto const take = [&](std::size_t n) {
+        bool const dry = level.type[n] == CellType::land || level.type[n] == CellType::rim;
+        if (dry && (!lowest || level.z[n] < level.z[*lowest])) {
+            lowest = n;
+        }
+    };
+    if (level.side > 1.0F) {
+        std::for_each(offsets.begin(), offsets.end(), [&](std::int64_t offset) { take(moved(cell, offset)); });
+    } else {
+        each_of_second_ring(level, cell, take);
+    }
+    return lowest;
+}
+
+} // namespace
+
+LandBelowRivers land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run) {
+    constexpr float margin = 4.0F; // [tolerance]
+    constexpr double rate = 0.5;
+    auto const offsets = level.offsets();
+    LandBelowRivers out;
+    float const tolerance = params.tolerance * level.side;
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        std::uint32_t const cell = level.rivers.cell[n];
+        auto const lowest =
+            level.rivers.level[n] == 0 ? lowest_land_beside(level, cell, offsets) : std::optional<std::size_t>{};
+        if (!lowest || level.z[*lowest] >= level.z[cell] + tolerance) {
+            continue;
+        }
+        ++out.count;
+        if (out.lack.empty()) {
+            out.lack.assign(level.z.size(), 0.0F);
+        }
+        std::size_t end = *lowest;
+        while (is_land(level.type[end])) {
+            end = moved(end, offsets[level.direction[end]]);
+        }
+        float const has = std::max(level.z[*lowest] - level.z[end], params.least_height * level.side);
+        float const wanted = level.z[cell] + margin * tolerance - level.z[end];
+        auto const lack =
+            static_cast<float>(rate * std::min(1.0, portable::log(static_cast<double>(std::max(wanted / has, 1.0F)))));
+        for (std::size_t i = *lowest; is_land(level.type[i]); i = moved(i, offsets[level.direction[i]])) {
+            out.lack[i] = std::max(out.lack[i], lack);
+        }
+    }
+    if (out.count == 0) {
+        return out;
+    }
+    auto const reach = std::max<std::int64_t>(1, static_cast<std::int64_t>(params.reach));
+    Rows const inner{level.width - 2, level.height - 2, level.width};
+    Cells<float> marks(out.lack.size());
+    std::transform(out.lack.begin(), out.lack.end(), marks.begin(), [](float of) { return of > 0.0F ? 1.0F : 0.0F; });
+    auto const first = static_cast<std::size_t>(level.width + 1);
+    blur(&out.lack[first], inner, {reach, 2}, run);
+    blur(&marks[first], inner, {reach, 2}, run);
+    constexpr float some = 1e-6F;
+    float const whole = 0.7F * static_cast<float>(2 * reach + 1); // a path across a square
+    for (std::size_t i = 0; i < marks.size(); ++i) {
+        out.lack[i] = marks[i] > some ? out.lack[i] / marks[i] * std::min(1.0F, marks[i] * whole) : 0.0F;
+    }
+    return out;
+}
+
+Cells<std::int32_t> links_of(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run) {
+    Cells<std::int32_t> links(level.z.size(), -1);
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        std::int64_t const number = level.rivers.number[n];
+        links[level.rivers.cell[n]] = number < 0 ? -1 : link[number];
+    }
+    auto const offsets = level.offsets();
+    each_upstream(level, run, [&](std::size_t i) {
+        if (is_land(level.type[i])) {
+            links[i] = links[moved(i, offsets[level.direction[i]])];
+        }
+    });
+    return links;
+}
+
+Cells<float> distance_to_divides(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run) {
+    Cells<std::int32_t> const links = links_of(level, link, run);
+    auto const offsets = level.offsets();
+    std::vector<std::uint32_t> divides;
+    each_inner(level, [&](std::size_t i) {
+        if (!is_land(level.type[i])) {
+            return;
+        }
+        for (std::size_t k = 0; k < offsets.size(); k += 2) {
+            std::size_t const n = moved(i, offsets[k]);
+            if (links[n] != links[i] && level.type[n] <= CellType::river) {
+                divides.push_back(static_cast<std::uint32_t>(i));
+                return;
+            }
+        }
+    });
+    return straight_to(level, divides, run).distance;
+}
+
+} // namespace thalweg::surface
