@@ -59,6 +59,10 @@ public:
                                       line("[501500,5003000,900],[502600,5000010,600]")));
         write("falling.geojson", geojson(line("[501000,5003000,90],[502000,5001500,40],[502100,5000010,0]") + "," +
                                          line("[503200,5002800,110],[502500,5002000,70],[502000,5001500,40]")));
+        write("noisy.geojson", geojson(line("[501000,5003000,90],[501500,5002200,61],[501700,5001900,64.5],"
+                                            "[502000,5001500,40],[502100,5000010,0]")));
+        write("uphill.geojson", geojson(line("[501000,5003000,90],[501500,5002200,61],[501700,5001900,99],"
+                                             "[502000,5001500,40],[502100,5000010,0]")));
         write("border.geojson", geojson(line("[500010,5003000],[500010,5000010]")));
         write("double.geojson", geojson(line(trunk + ",[502100,5000010]") + "," +
                                         line("[501010,5003000],[501710,5002200],[502010,5001500],[502110,5000010]")));
@@ -443,6 +447,24 @@ TEST(LandInEquilibrium, HeightsOfAFileAreKeptAndTheLandRisesToThem) {
     EXPECT_FALSE(made(lines + "heights = \"graded\"\n" + falling, files.folder()).assessment.given_heights);
     EXPECT_FALSE(made(lines + "heights = \"ends\"\n" + falling, files.folder()).assessment.given_heights);
     EXPECT_FALSE(made(lines + "heights = \"fixed\"\n" + falling, files.folder()).terrain.equilibrium->rebuilt);
+}
+
+TEST(LandInEquilibrium, HeightsThatRiseByNoiseAreLoweredAndTold) {
+    Files const files;
+    std::string said;
+    thalweg::Run run;
+    run.log = [&said](std::string_view line) { said += line; };
+    Made const t = made(lines + "[network.lines]\npath = \"noisy.geojson\"\n[surface]\n", files.folder(), run);
+    EXPECT_TRUE(test::has(said, "warning: heights in noisy.geojson rise downstream in 1 of 1 arcs", "by 3.5 m"));
+    auto const& repairs = t.planform.statistics.repairs;
+    auto const lowered = std::ranges::find(repairs, "lowered", &Finding::kind);
+    ASSERT_NE(lowered, repairs.end());
+    EXPECT_EQ(lowered->amount, 3.5);
+    EXPECT_EQ(lowered->feature, 1);
+    EXPECT_TRUE(test::has(test::message_of([&] {
+                              made(lines + "[network.lines]\npath = \"uphill.geojson\"\n[surface]\n", files.folder());
+                          }),
+                          "runs uphill between vertex 2 (61 m) and 3 (99 m)"));
 }
 
 TEST(LandInEquilibrium, HeightsOfAFileGetTheSlopeThatIsAsked) {

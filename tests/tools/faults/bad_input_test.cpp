@@ -111,7 +111,7 @@ TEST(BadInput, LineFiles) {
              Case{"{not json"},
              Case{geojson(test::feature("Point", "[500000,5000000]"))},
              Case{river, "layer = \"streams\"\n"},
-             Case{geojson(test::line("[500000,5000000,9],[500050,5000000,12],[500100,5000000,13],[500200,5000000,1]")),
+             Case{geojson(test::line("[500000,5000000,9],[500050,5000000,12],[500100,5000000,60],[500200,5000000,1]")),
                   "orientation = \"as_drawn\"\n"},
              Case{geojson(test::line("[500000,5000000],[500100,5000000]") + "," +
                           test::line("[500100,5000000],[500100,5000100]") + "," +

@@ -110,6 +110,13 @@ std::vector<double> node_heights(Flow const& flow, std::vector<Finding>& repairs
                                fmt::format("rivers meet at ({:.6f}, {:.6f}) in heights from {:.7g} to {:.7g} m; "
                                            "{:.7g} m is taken",
                                            at.x, at.y, low, high, z[n])});
+        } else if (z[n] - low > import_steps::same_point_m) {
+            auto const& piece = flow.pieces.pieces[flow.pieces.at_node[n].front()];
+            Vec2 const at = flow.pieces.nodes[n];
+            repairs.push_back({"height", flow.lines[piece.line].number(), at, z[n] - low,
+                               fmt::format("the river at ({:.6f}, {:.6f}) is {:.7g} m high and rises from there; "
+                                           "{:.7g} m is taken",
+                                           at.x, at.y, low, z[n])});
         }
     }
     return z;

@@ -350,12 +350,52 @@ void log_directions(network::Directions const& directions, bool has_dem, Run con
     }
 }
 
+/// What heights may rise downstream by noise: a river that is drawn uphill rises by more.
+double noise_of(std::vector<std::vector<double>> const& arc_z) {
+    constexpr double least_m = 20.0;
+    constexpr double share = 0.05;
+    double low = std::numeric_limits<double>::infinity();
+    double high = -low;
+    for (std::vector<double> const& heights : arc_z) {
+        for (double const z : heights) {
+            low = std::min(low, z);
+            high = std::max(high, z);
+        }
+    }
+    return std::max(least_m, share * (high - low));
+}
+
+/// The file's heights. Where they rise downstream by noise they are lowered, which is told.
+ElevatedNetwork heights_without_noise(Plan const& plan, network::Imported const& imported,
+                                      std::vector<Finding>& repairs, Run const& run) {
+    network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
+    double const most_m = *std::ranges::max_element(lowered.by_m);
+    if (!(most_m > 0.0) || most_m > noise_of(imported.arc_z)) {
+        return network::take_file_heights({imported.network, imported.arc_z, {}}, plan.lines);
+    }
+    std::int64_t arcs = 0;
+    for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
+        if (double const by_m = lowered.by_m[a]; by_m > 0.0) {
+            Arc const& arc = imported.network.arc(a);
+            ++arcs;
+            repairs.push_back(
+                {"lowered", arc.feature, arc.line.front(), by_m,
+                 fmt::format("river {}: heights rise downstream; lowered by up to {:.3g} m", arc.feature, by_m)});
+        }
+    }
+    run.say(fmt::format("warning: heights in {} rise downstream in {} of {} arcs. They are lowered there, by {:.3g} m "
+                        "at most; \"repairs\" in report.json lists them.",
+                        plan.lines.name, arcs, lowered.by_m.size(), most_m));
+    return std::move(lowered.network);
+}
+
 /// The heights of the file, if the recipe uses them.
-std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported) {
+std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported,
+                                               std::vector<Finding>& repairs, Run const& run) {
     Heights const heights = plan.recipe.network->heights;
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
     if (heights == Heights::file || (or_straight && plan.lines.has_z)) {
-        return network::take_file_heights({imported.network, imported.arc_z, {}}, plan.lines);
+        return heights_without_noise(plan, imported, repairs, run);
     }
     return std::nullopt;
 }
@@ -382,7 +422,7 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     repairs.insert(repairs.end(), imported.directions.doubts.begin(), imported.directions.doubts.end());
     warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, run);
     rivers.land = land_of_coastlines(plan, stage_log, run);
-    rivers.file_heights = heights_of_file(plan, imported);
+    rivers.file_heights = heights_of_file(plan, imported, repairs, run);
     rivers.network = std::move(imported.network);
     return rivers;
 }

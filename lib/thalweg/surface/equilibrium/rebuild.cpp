@@ -3,6 +3,7 @@
 
 #include <utility>
 
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
@@ -313,25 +314,33 @@ private:
         }
     }
 
-    /// Spring stiffness of a level's cells.
+    /// Spring stiffness of a level's cells: weaker where rivers are far apart and valleys between them unknown, and
+    /// here and there along divides, where gullies may reach them.
     Cells<float> springs(TerrainLevel const& level, LandLaw const& law, NearestRiver const& near,
                          Cells<float> const& to_divide) const {
-        constexpr float everywhere = 0.1F;
+        constexpr double everywhere = 0.1;
+        constexpr double dense_m = 420.0; // spacing of rivers
         constexpr double firmer = 30.0;
         constexpr double divide_cells = 2.25;
         constexpr double river_cells = 1.5;
-        float const least = everywhere * law.power(level.side * level.side) / level.side;
+        constexpr double wave = 12.0; // [finest cells]
+        double const least = everywhere * std::min(1.0, dense_m / (spacing_ * grid_.cell_m)) *
+                             static_cast<double>(law.power(level.side * level.side) / level.side);
         auto const fading = [&](float far, double reach) {
             double const t = static_cast<double>(far * level.side) / reach;
             return t < 3.0 ? portable::exp(-t * t) : 0.0;
         };
+        auto const side = static_cast<std::int64_t>(level.side);
+        auto const firm = [&](std::size_t i) {
+            Cell const c = level.at(i);
+            return std::clamp(1.0 + 1.5 * value_noise(params_.seed, {c.col * side, c.row * side}, wave), 0.0, 1.0);
+        };
         Cells<float> out(level.z.size(), 0.0F);
-        parallel_ranges(run_, level.height, least_rows(level.width), [&](std::int64_t begin, std::int64_t end) {
-            for (std::int64_t i = begin * level.width; i < end * level.width; ++i) {
-                double const near_these =
-                    std::max(fading(to_divide[i], divide_cells), fading(near.distance[i], river_cells));
-                out[i] = least * static_cast<float>(1.0 + firmer * near_these);
-            }
+        each_cell(level, [&](std::size_t i) {
+            double const near_these =
+                std::max(fading(to_divide[i], divide_cells), fading(near.distance[i], river_cells));
+            double const more = near_these > 0.0 ? firmer * near_these * firm(i) : 0.0;
+            out[i] = static_cast<float>(least * (1.0 + more));
         });
         return out;
     }
