@@ -166,6 +166,14 @@ void check_levels(Channels const& rivers) {
 
 } // namespace
 
+double share_done(std::size_t number, int round, int rounds) {
+    double below = 1.0;
+    for (std::size_t k = 0; k < number; ++k) {
+        below *= 0.25;
+    }
+    return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
+}
+
 void check_rivers(Channels const& rivers, EquilibriumFields const& fields) {
     check_grid(rivers.grid);
     check_order(rivers);
@@ -182,7 +190,6 @@ constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
 // factor of the tangent that finally counts as perched: such tips will not be lowered any more
 constexpr float of_perched = 3.0F;
-constexpr int floors_after = 2; // rounds: areas have settled by then
 
 /// Prepares a level for its rounds.
 TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const& coarser, TerrainLevel const& region,
@@ -297,15 +304,6 @@ private:
         auto const part = static_cast<int>(number * number);
         auto const all = static_cast<int>((levels - 1) * (levels - 1));
         return all == 0 ? coarse_rounds : fine_rounds + (coarse_rounds - fine_rounds) * part / all;
-    }
-
-    /// A level takes a quarter of the time of the next finer one.
-    static double share_done(std::size_t number, int round, int rounds) {
-        double below = 1.0;
-        for (std::size_t k = 0; k < number; ++k) {
-            below *= 0.25;
-        }
-        return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
     }
 
     /// Removes tips as late as the terrain can still come down where they were.
@@ -503,7 +501,7 @@ float base_of(Channels const& rivers, Edge edge) {
     for (float const z : rivers.z) {
         low = z < low ? z : low;
     }
-    return edge == Edge::coast || edge == Edge::mainland ? 0.0F : low;
+    return has_sea(edge) ? 0.0F : low;
 }
 
 /// Terrain solved around prescribed heights, and the metres of the solver's unit.

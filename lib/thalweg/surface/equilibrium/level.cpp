@@ -358,8 +358,8 @@ Mask coarsened(Mask const& land) {
 }
 
 void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks banks) {
-    bool const has_sea = edge == Edge::coast || edge == Edge::mainland;
-    CellType const rest = has_sea ? CellType::sea : CellType::outside;
+    bool const by_sea = has_sea(edge);
+    CellType const rest = by_sea ? CellType::sea : CellType::outside;
     CellType const frame = edge == Edge::open || edge == Edge::mainland ? CellType::boundary : rest;
     CellType const frame_at_rest = edge == Edge::mainland ? CellType::sea : frame;
     level.type.resize(static_cast<std::size_t>(level.cells()));
@@ -376,7 +376,7 @@ void set_cell_types(TerrainLevel& level, Mask const& land, Edge edge, RiverBanks
     for (std::uint32_t const river : level.rivers.cell) {
         level.type[river] = CellType::river;
     }
-    if (!has_sea) {
+    if (!by_sea) {
         each_inner(level, [&](std::size_t i) {
             if (level.type[i] == CellType::land && beside(level, i, CellType::outside)) {
                 level.type[i] = edge == Edge::open ? CellType::boundary : CellType::rim;

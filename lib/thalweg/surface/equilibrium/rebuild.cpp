@@ -15,10 +15,6 @@ constexpr double per_degree = portable::pi / 180.0;
 constexpr float steepest = 0.7F;  // tangent of threshold slopes
 constexpr double of_smooth = 0.8; // mean slope of smooth terrain relative to that of textured terrain
 
-bool has_sea(Edge edge) {
-    return edge == Edge::coast || edge == Edge::mainland;
-}
-
 void check_params(RebuildParams const& params) {
     constexpr char const* self = "surface.rebuild";
     require_in(self, "theta", params.theta, Range::between(0.1, 0.9));
@@ -109,8 +105,8 @@ LandLaw land_law(double theta, double bend_km2, double hillslope_m, double cell_
 
 /// Smooth terrain of a level, and what the texture is held to.
 struct SmoothLevel {
-    TerrainLevel level;     ///< heights and rivers
-    Cells<float> boost;     ///< [log] of uplift below perched rivers
+    Cells<float> z;
+    Cells<float> boost;     ///< [log] of uplift below perched rivers; of the coarsest of these levels only
     Cells<float> to_divide; ///< [cells of the level]
 };
 
@@ -150,7 +146,6 @@ private:
     static constexpr float most_boost = 2.0F;          ///< [log]
     static constexpr float least_correction = 0.1353F; ///< e^-2
     static constexpr float most_correction = 20.09F;   ///< e^3
-    static constexpr int floors_after = 2;             ///< rounds: areas have settled by then
 
     /// A level before its first round, without heights.
     TerrainLevel empty_level(std::size_t number, double roughness) const {
@@ -170,7 +165,8 @@ private:
         ErodibilityParams rock;
         rock.roughness = roughness;
         rock.noise.seed = params_.seed;
-        rock.noise.longest_wave = std::max(std::min(params_.longest_wave_m / grid_.cell_m, 5.0 * spacing_), 3.0);
+        rock.noise.longest_wave =
+            roughness > 0.0 ? std::max(std::min(params_.longest_wave_m / grid_.cell_m, 5.0 * spacing_), 3.0) : 0.0;
         rock.noise.octaves = 0;
         for (double wave = rock.noise.longest_wave; wave >= 2.0; wave /= 2.0) {
             ++rock.noise.octaves;
@@ -306,8 +302,8 @@ private:
             if (number < textured_levels) {
                 SmoothLevel& kept = smooth_[number];
                 kept.to_divide = distance_to_divides(level, link_, run_);
-                kept.boost = boost;
-                kept.level.z = level.z;
+                kept.z = level.z;
+                kept.boost = number + 1 == std::min(textured_levels, levels_.size()) ? boost : Cells<float>{};
             }
             coarse_boost = std::move(boost);
             coarser = std::move(level);
@@ -366,9 +362,9 @@ private:
             SmoothLevel& like = smooth_[number];
             TerrainLevel const coarser = std::exchange(level, empty_level(number, params_.roughness));
             if (coarser.z.empty()) {
-                level.z = like.level.z;
+                level.z = like.z;
                 roughen(level, params_.seed, 0.2F * gentleness_, run_);
-                boost = like.boost;
+                boost = std::move(like.boost);
                 correction.assign(level.z.size(), 1.0F);
             } else {
                 start_from(level, coarser, params_.seed, {0.02F * gentleness_, 0.6F}, run_);
@@ -384,7 +380,7 @@ private:
             Pull pull;
             pull.stiffness = springs(level, law, near, like.to_divide);
             if (number == 0) {
-                pull.floor = floors(level, like.level.z);
+                pull.floor = floors(level, like.z);
             }
             Rows const inner{level.width - 2, level.height - 2, level.width};
             auto const first = static_cast<std::size_t>(level.width + 1);
@@ -400,7 +396,7 @@ private:
                 blur(&out[first], inner, window, run_);
                 return out;
             };
-            Cells<float> const wanted = blurred_heights(like.level.z);
+            Cells<float> const wanted = blurred_heights(like.z);
             float const some = 0.5F * gentleness_;
             Cells<Relaxation> steps;
             int const rounds = rounds_of(number);
@@ -414,7 +410,7 @@ private:
                     valley_floors(level, {params_.floor_width_km, grid_.cell_m, params_.seed});
                 }
                 auto const k = static_cast<float>(factor_);
-                each_cell(level, [&, z = like.level.z.data()](std::size_t i) {
+                each_cell(level, [&, z = like.z.data()](std::size_t i) {
                     float const force = pull.stiffness[i] > 0.0F ? pull.stiffness[i] * z[i] : 0.0F;
                     level.uplift[i] = k * uplift[i] * correction[i] + force;
                 });
@@ -443,14 +439,6 @@ private:
                 visit(static_cast<std::size_t>(i));
             }
         });
-    }
-
-    double share_done(std::size_t number, int round, int rounds) const {
-        double below = 1.0;
-        for (std::size_t k = 0; k < number; ++k) {
-            below *= 0.25;
-        }
-        return below * (0.25 + 0.75 * static_cast<double>(round) / static_cast<double>(rounds));
     }
 
     static constexpr double first_factor = 0.2;

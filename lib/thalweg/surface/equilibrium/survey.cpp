@@ -61,33 +61,35 @@ public:
             return std::nan("");
         }
         auto const half = 0.5 * window_m_;
-        double down = 0.0;
-        auto low = static_cast<std::int64_t>(n);
-        while (rivers_.receiver[low] >= 0 && down < half) {
-            down += length_m_[low];
-            low = rivers_.receiver[low];
-        }
+        Below const below = walk_down(n);
         double up = 0.0;
         auto high = static_cast<std::int64_t>(n);
         while (stem_[high] >= 0 && up < half) {
             high = stem_[high];
             up += length_m_[high];
         }
-        double const fall = static_cast<double>(rivers_.z[high]) - static_cast<double>(rivers_.z[low]);
-        return down + up > known * window_m_ ? std::max(fall / (down + up), least) : std::nan("");
+        double const fall = static_cast<double>(rivers_.z[high]) - static_cast<double>(rivers_.z[below.cell]);
+        double const way = below.way_m + up;
+        return way > known * window_m_ ? std::max(fall / way, least) : std::nan("");
     }
 
     /// The cell half a window downstream.
-    std::size_t below(std::size_t n) const {
+    std::size_t below(std::size_t n) const { return walk_down(n).cell; }
+
+private:
+    struct Below {
+        std::size_t cell;
+        double way_m;
+    };
+    Below walk_down(std::size_t n) const {
         double down = 0.0;
         while (rivers_.receiver[n] >= 0 && down < 0.5 * window_m_) {
             down += length_m_[n];
             n = static_cast<std::size_t>(rivers_.receiver[n]);
         }
-        return n;
+        return {n, down};
     }
 
-private:
     bool is_lake(std::size_t n) const { return !rivers_.level.empty() && rivers_.level[n] != 0; }
 
     Channels const& rivers_;
@@ -148,10 +150,6 @@ double median_of(std::vector<float> values) {
     std::nth_element(values.begin(), middle, values.end());
     return static_cast<double>(*middle);
 }
-
-} // namespace
-
-namespace {
 
 /// [km²] by river cell, by the nearest river cell.
 std::vector<double> areas_of(Channels const& rivers) {

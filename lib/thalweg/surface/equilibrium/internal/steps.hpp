@@ -16,7 +16,13 @@
 /// The steps of equilibrium(), by source file.
 namespace thalweg::surface {
 
-// equilibrium.cpp: the caller's rivers
+// equilibrium.cpp: the caller's rivers, and what both solvers of levels have in common
+
+/// Rounds at the finest level before valley floors are formed: areas have settled by then.
+inline constexpr int floors_after = 2;
+
+/// The share of all work that is done at a round of a level, which takes a quarter of the time of the next finer one.
+double share_done(std::size_t number, int round, int rounds);
 
 /// \throws BadInput as equilibrium()
 void check_rivers(Channels const& rivers, EquilibriumFields const& fields);
@@ -65,6 +71,11 @@ void copy_firmness(TerrainLevel& level, TerrainLevel const& coarser);
 /// Whether the terrain continues beyond the grid.
 inline bool goes_on(Edge edge) {
     return edge == Edge::open || edge == Edge::mainland;
+}
+
+/// Whether the sea, at height 0, lies where there is no land.
+inline bool has_sea(Edge edge) {
+    return edge == Edge::coast || edge == Edge::mainland;
 }
 
 /// The solver's domain: the caller's grid plus a margin into which the terrain may continue.
