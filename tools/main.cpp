@@ -152,6 +152,7 @@ Commands add_commands(CLI::App& app, Session& session) {
         commands[sub] = add_command(*sub, session);
     };
     add("make", "Make terrain and a river network from a recipe or a river file.", add_make);
+    add("rebuild", "Make the terrain between rivers with heights, and compare it with a DEM.", add_rebuild);
     add("studio", "Edit a recipe in the browser while its terrain follows.", add_studio);
     add("check", "Check the topology of a river network, and its drainage on a DEM.", add_check);
     add("convert", "Convert a river network to another schema or format.", add_convert);
@@ -255,7 +256,7 @@ int work(CLI::App const& chosen, Command const& command, Session& session, Termi
     }
     auto const begin = std::chrono::steady_clock::now();
     int const code = command();
-    bool const made = chosen.get_name() == "make" && chosen.count("--dry-run") == 0;
+    bool const made = (chosen.get_name() == "make" || chosen.get_name() == "rebuild") && chosen.count("--dry-run") == 0;
     if (session.verbose || made) {
         tell_times(session, terminal, std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count());
     }

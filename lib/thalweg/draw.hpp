@@ -3,6 +3,7 @@
 #pragma once
 
 /// All public headers of the module.
+#include <thalweg/draw/comparison.hpp>
 #include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>

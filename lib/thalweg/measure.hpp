@@ -6,6 +6,7 @@
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/laws/fits.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
+#include <thalweg/measure/likeness/likeness.hpp>
 #include <thalweg/measure/peaks/orometry.hpp>
 #include <thalweg/measure/relief/geomorphons.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>

@@ -16,6 +16,7 @@
 #include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/commands/stats.hpp>
 #include <thalweg/pipeline/commands/tin.hpp>
+#include <thalweg/pipeline/make/against.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/given.hpp>

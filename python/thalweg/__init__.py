@@ -37,7 +37,7 @@ for _name in _core.VALUES:
 
 from thalweg._networks import to_geodataframe, to_networkx
 from thalweg._raster import ConversionWarning, Raster, UnitWarning
-from thalweg._terrain import Terrain, forecast, make
+from thalweg._terrain import Terrain, forecast, make, rebuild
 
 setattr(_core.Grid, "__reduce__", lambda grid: (_core.Grid, tuple(grid.as_dict().values())))
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
@@ -48,5 +48,5 @@ del _kind, _name
 __version__ = _core.version()
 __all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "NotConverged", "Raster",
            "Terrain", "UnitWarning", "__version__", "blend", "draw", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
-           "network", "pipeline", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
+           "network", "pipeline", "rebuild", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
 __all__ += [name for name in _core.VALUES if name not in __all__]

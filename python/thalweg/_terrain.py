@@ -282,10 +282,47 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
     if isinstance(output, Mapping):
         keys, output = {**keys, "output": output}, None
     files: list[_networks.TemporaryPath] = []
-    asked = _recipe_of(recipe, keys, files)
+    return _made(_recipe_of(recipe, keys, files), files, "make", output, overwrite, threads=threads, progress=progress, log=log,
+                 device=device)
+
+
+def rebuild(rivers: object, /, *, like: object = None, against: object = None, output: str | os.PathLike[str] | None = None,
+            overwrite: bool = False, threads: int = 0, progress: _show.Progress = None,
+            log: Callable[[str], object] | None = None, device: Literal["cpu", "opencl"] = "cpu", **keys: Any) -> Terrain:
+    """Make the terrain between rivers with heights, as `thalweg rebuild` does.
+
+    Parameters
+    ----------
+    rivers : str, path, GeoDataFrame, GeoSeries, dict or pipeline.Recipe
+        Lines with heights, or a recipe that names them; see make.
+    like : str, path, Raster, DataArray or ndarray, optional
+        A DEM of any place, whose mean slope and texture the terrain gets; left out: they follow from the rivers.
+    against : str, path, Raster, DataArray or ndarray, optional
+        A DEM on whose cells the terrain is made, and which it is compared with: Terrain.report["against"]. Its heights decide
+        nothing of the terrain.
+    output, overwrite, threads, progress, log, device, **keys
+        As for make.
+
+    Returns
+    -------
+    Terrain
+
+    Raises
+    ------
+    BadParameter, BadInput, NotConverged, TypeError
+        As make.
+    """
+    files: list[_networks.TemporaryPath] = []
+    asked = _recipe_of(rivers, {**keys, "surface.like": like, "output.against": against}, files)
+    return _made(pipeline.rebuild_recipe(asked), files, "rebuild", output, overwrite, threads=threads, progress=progress, log=log,
+                 device=device)
+
+
+def _made(asked: pipeline.Recipe, files: list[_networks.TemporaryPath], who: str, output: str | os.PathLike[str] | None,
+          overwrite: bool, **run: Any) -> Terrain:
     if output is not None and not overwrite and os.path.isdir(output) and os.listdir(output):
-        raise bad_input("make", f"{os.fspath(output)} is not empty: set overwrite=True or name another folder")
-    made = pipeline.make(asked, threads=threads, progress=progress, log=log, device=device)
+        raise bad_input(who, f"{os.fspath(output)} is not empty: set overwrite=True or name another folder")
+    made = pipeline.make(asked, **run)
     terrain = Terrain(made, files)
     if output is not None:
         terrain.write(output, overwrite)

@@ -9,6 +9,7 @@ ROOT = pathlib.Path(__file__).parents[2]
 
 # Structs of public headers that refer to values of others, and why they may.
 REFERRING = {
+    "draw/comparison.hpp": "an argument, for the time of a call",
     "draw/map.hpp": "an argument, for the time of a call",
     "draw/wireframe.hpp": "an argument, for the time of a call",
     "io/network/write_network.hpp": "an argument, for the time of a call; names are literals",

@@ -10,7 +10,8 @@ import os from 'node:os';
 import path from 'node:path';
 import { after, before, describe, test } from 'node:test';
 import { pathToFileURL } from 'node:url';
-import { barriers, launch, web } from './browser.mjs';
+import { barriers, launch, open, web } from './browser.mjs';
+import { madeAgainst, valleyLand, writePage } from './made_land.mjs';
 
 const place = fs.mkdtempSync(path.join(os.tmpdir(), 'thalweg-panel-'));
 const vite = createRequire(path.join(web, 'package.json')).resolve('vite');
@@ -259,6 +260,111 @@ describe('figures', () => {
     assert.match(await page.innerText('#sections'), new RegExp(`${judged.filter((f) => f.in_range).length} of ${judged.length} figures`));
     assert.equal(await page.locator('table[aria-label="Relief compared with reference DEMs"] tbody tr').count(), Object.keys(data.relief.figures).length);
     await close();
+  });
+});
+
+describe('a comparison with a DEM', () => {
+  const having = (change = () => {}) => (d) => {
+    d.against = madeAgainst();
+    change(d.against);
+  };
+  const plain = (text) => text.replace(/\s+/g, ' ').trim();
+
+  test('its table has every figure of every land, and signs the best', async () => {
+    const { page, close } = await shown(having());
+    const cells = await page.$$eval('table.against tr', (all) => all.map((row) => [...row.children].map((cell) => cell.textContent)));
+    assert.deepEqual(cells, [
+      ['figure', 'this terrain', 'cone', 'TIN', 'dilation', 'DEM'],
+      ['correlation of heights', '●0.984', '0.981', '0.950', '0.981', ''], // 0.9805 and 0.9806
+      ['correlation above the nearest river', '●0.772', '0.745', '–', '0.718', ''],
+      ['RMS difference [m]', '●65.0', '78.0', '175.0', '78.6', ''],
+      ['mean difference [m]', '●−0.3', '+28.1', '−1\u202f131.8', '−30.5', ''],
+      ['same reach [%]', '●80.2', '78.8', '39.9', '76.6', ''],
+      ['divides found [%]', '●54.7', '48.9', '27.5', '48.6', ''],
+      ['divides right [%]', '●57.7', '●57.7', '–', '53.8', ''],
+      ['difference of slopes', '●0.089', '0.381', '0.745', '0.489', ''],
+      ['mean slope [°]', '21.1', '21.8given', '7.3', '21.8given', '21.8'],
+      ['hypsometric integral', '0.459', '0.468', '0.498', '●0.479', '0.480']]);
+    assert.deepEqual(new Set(await page.$$eval('table.against [role=img]', (all) => all.map((e) => e.getAttribute('aria-label')))), new Set(['best']));
+    assert.equal(plain(await page.innerText('section:has(table.against) .lead')), 'This terrain is nearer to Big <b>Tujunga</b>.tif than each of the three simple terrains in 7 of 9 figures: '
+      + 'correlation of heights, correlation above the nearest river, RMS difference, mean difference, same reach, divides found, difference of slopes. '
+      + 'A simple one is nearer in 1: hypsometric integral (dilation, cone, TIN). As near as the best of them: divides right.');
+    assert.match(plain(await page.innerText('section:has(table.against)')), /740 487 cells compared.*Given: .*Height above the nearest river:.*Same reach:.*Divides:.*within 3 cells.*right:/);
+    await close();
+  });
+
+  test('its sentence is true of one simple terrain, of a terrain that is the best, of one that never is, and of none', async () => {
+    const lead = async (change) => {
+      const { page, close } = await shown(having(change));
+      const text = await page.locator('section:has(table.against) .lead').allInnerTexts();
+      await close();
+      return plain(text.join());
+    };
+    assert.match(await lead((d) => d.rows.splice(2)), /than the cone in 7 of 9 figures: .* The cone is nearer in 1: hypsometric integral. As near as the best/);
+    assert.equal(await lead((d) => Object.assign(d.rows[0], { divides_right: 0.9, ...d.real })), 'This terrain is nearer to Big <b>Tujunga</b>.tif than each of the three simple terrains in all 9 figures.');
+    assert.match(await lead((d) => d.rows.reverse()[0]), /terrains in 1 of 9 figures: hypsometric integral\. A simple one is nearer in 8: correlation of heights \(this terrain\)/);
+    assert.match(await lead((d) => d.rows.splice(0, 4, { ...d.rows[2], hypsometric_integral: null }, d.rows[1], d.rows[3])), /each of the two simple terrains in none of 6 figures\. A simple one is nearer in 6/);
+    assert.equal(await lead((d) => d.rows.splice(1)), '');
+  });
+
+  test('its map, scatter, slopes and hypsometry are drawn', async () => {
+    const { page, close } = await shown(having());
+    const section = page.locator('section:has(table.against)');
+    const image = section.locator('img');
+    assert.match(await image.getAttribute('alt'), /less Big <b>Tujunga<\/b>.tif: blue where it is lower, red where it is higher, up to 120\sm/);
+    assert.equal(await image.evaluate((e) => e.naturalWidth), 2);
+    assert.equal(await image.evaluate((e) => e.clientWidth - e.closest('section').clientWidth), 0);
+    assert.match(plain(await section.innerText()), /−120 m: this terrain lower 0 higher: \+120 m divides of both of the DEM alone of this terrain alone/);
+    await section.getByRole('button', { name: 'Enlarge' }).click();
+    assert.ok(await page.locator('dialog img').isVisible());
+    await page.keyboard.press('Escape');
+    assert.equal(await page.locator('dialog img').isVisible(), false);
+
+    // The squares: those of most cells lie two rows above the line, where this terrain is higher.
+    const [line, dark] = await section.locator('.scatter').evaluate((e) => {
+      const at = (of, ...names) => names.map((name) => Number(of.getAttribute(name)));
+      const corners = [...e.querySelector('.plot path.square:last-of-type').getAttribute('d').matchAll(/M([\d.]+) ([\d.]+)/g)].map(([, x, y]) => [Number(x), Number(y)]);
+      return [at(e.querySelector('.equal'), 'x1', 'y1', 'x2', 'y2'), corners];
+    });
+    const [x1, y1, x2, y2] = line;
+    assert.ok(Math.abs(x2 - x1 - (y1 - y2)) < 0.01 && x2 - x1 > 250, line.join());
+    const size = (x2 - x1) / 64;
+    const above = dark.map(([x, y]) => (y1 - y - (x - x1)) / size);
+    assert.ok(dark.length === 62 && above.every((rows) => Math.abs(rows - 2) < 0.05), `${dark.length} ${above}`);
+    assert.deepEqual((await section.locator('.scatter .scale text').allTextContents()).map(plain), ['1 cell', '3', '10', '30', '100', '300', '1 000', '3 000', '10 000']);
+
+    const plots = section.locator('.plot[role=slider]');
+    assert.equal(await plots.count(), 2);
+    await plots.first().focus();
+    await page.keyboard.press('PageUp');
+    const [slope, ...shares] = plain(await plots.first().getAttribute('aria-valuetext')).split(', ');
+    assert.deepEqual([slope, ...shares], ['4°', 'DEM 10%', 'this terrain 0%', 'cone 0%', 'TIN 0%', 'dilation 0%']);
+    assert.match(await plots.nth(1).getAttribute('aria-label'), /height \[m\], from 420 to 2\u202f000/);
+    await close();
+  });
+
+  test('it has no barrier and is not too wide, from a phone to a wide panel', async () => {
+    for (const width of [360, 640, 1200]) {
+      for (const theme of ['light', 'dark']) {
+        const { page, close } = await shown(having(), { theme, viewport: { width, height: 800 } });
+        await page.waitForTimeout(100);
+        assert.deepEqual(await barriers(page), []);
+        const beyond = await page.$eval('section:has(table.against)', (e) => [...e.querySelectorAll('*')].filter((c) => c.getBoundingClientRect().right > e.getBoundingClientRect().right + 0.5).map((c) => c.outerHTML.slice(0, 90)));
+        assert.deepEqual(beyond, [], `${theme} ${width}`);
+        await close();
+      }
+    }
+  });
+
+  test('a report page shows it within its content policy, and nothing of it where there is none', async () => {
+    const scene = valleyLand();
+    for (const [name, against] of [['with', madeAgainst()], ['null', null], ['older', undefined]]) {
+      const { page, complaints, requests, failed } = await open(browser, writePage(place, name, { ...scene, data: { ...scene.data, against } }));
+      assert.deepEqual([complaints, requests.filter((url) => !url.startsWith('data:')).length, failed], [[], 1, null]);
+      assert.deepEqual(await page.$$eval('#panel img', (all) => all.map((e) => [e.complete, e.naturalWidth])), against ? [[true, 2]] : []);
+      assert.equal(await page.locator('h2', { hasText: 'Compared with a real DEM' }).count(), against ? 1 : 0);
+      await page.close();
+    }
   });
 });
 

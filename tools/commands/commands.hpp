@@ -31,6 +31,7 @@ struct Session {
 /// read the options.
 using Command = std::function<int()>;
 Command add_make(CLI::App& app, Session& session);
+Command add_rebuild(CLI::App& app, Session& session);
 Command add_check(CLI::App& app, Session& session);
 Command add_convert(CLI::App& app, Session& session);
 Command add_stats(CLI::App& app, Session& session);

@@ -60,8 +60,9 @@ std::string forecast_in_words(pipeline::Forecast const& forecast, bool json) {
     return text + "nothing was written\n";
 }
 
+/// Of make; rebuild has two more.
 struct MakeOptions {
-    pipeline::MakeParams params;
+    pipeline::RebuildFromParams params;
     std::vector<std::string> fields;
     bool dry_run = false;
 };
@@ -84,13 +85,17 @@ void tell_all(char const* what, std::vector<Finding> const& findings, Run const&
     }
 }
 
-int make(MakeOptions& options, Session const& session) {
+/// Runs make, or rebuild.
+int make(MakeOptions& options, bool rebuilds, Session const& session) {
     options.params.fields = fields_by_quantity(options.fields);
     if (options.dry_run) {
-        fmt::print("{}", forecast_in_words(pipeline::forecast_make(options.params, session.run), session.json));
+        pipeline::Forecast const expected = rebuilds ? pipeline::forecast_rebuild(options.params, session.run)
+                                                     : pipeline::forecast_make(options.params, session.run);
+        fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
-    pipeline::Made const made = pipeline::run_make(options.params, session.run);
+    pipeline::Made const made =
+        rebuilds ? pipeline::run_rebuild(options.params, session.run) : pipeline::run_make(options.params, session.run);
     if (session.verbose) {
         tell_all("repair", pipeline::repairs_of(made), session.run);
         tell_all("finding", made.assessment.findings, session.run);
@@ -120,6 +125,54 @@ int make(MakeOptions& options, Session const& session) {
     return made.assessment.passed() ? Exit::done : Exit::check_failed;
 }
 
+/// The options that make and rebuild have.
+void add_options_of_make(CLI::App& app, MakeOptions& options, Session& session) {
+    app.add_option("-o,--output", options.params.output, "Write to this folder.")
+        ->type_name("DIR")
+        ->capture_default_str();
+    add_list(app, "--set", "KEY=VALUE", options.params.set,
+             "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
+             "relative to the current folder.",
+             '\0');
+    add_key_option<std::uint64_t>(app, "--seed", "seed", options.params.set,
+                                  "Set the random seed; the same as --set seed=N.")
+        ->check(is_seed);
+    add_key_option<std::string>(app, "--crs", "grid.crs", options.params.set,
+                                "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
+        ->type_name("EPSG:N");
+    add_key_option<std::string>(
+        app, "--source-crs", "network.lines.source_crs", options.params.set,
+        "Read rivers whose file has no CRS in this one; the same as --set network.lines.source_crs=CRS.")
+        ->type_name("EPSG:N");
+    add_list(app, "--field", "QUANTITY=NAME", options.fields,
+             "Name the field of rivers that holds a quantity: arc_id and ds_arc (a line's id and that of the line "
+             "downstream), key (a rank that falls downstream) or type. May be repeated. The same as --set "
+             "network.lines.id_field=NAME, down_field, rank_field and type_field.",
+             '\0');
+    add_key_option<std::string>(
+        app, "--units", "output.units", options.params.set,
+        "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
+        "--set output.units=UNIT. Lengths stay in m, areas in m2.")
+        ->check(CLI::IsMember({"m", "ft"}));
+    add_key_option<std::string>(
+        app, "--schema", "output.schema", options.params.set,
+        "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
+        ->check(CLI::IsMember(schema_names()));
+    add_key_option<std::string>(
+        app, "--only", "output.files", options.params.set,
+        "Write only these files, with commas between them: dem, network, contours, catchments, "
+        "areas, tin, pictures, page or qgis; the same as --set output.files=FILES. recipe.toml and "
+        "report.json are always written.")
+        ->type_name("FILES");
+    app.add_flag("--dry-run", options.dry_run,
+                 "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
+                 "time. Nothing is written.");
+    app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
+    add_overwrite_option(
+        app, options.params.existing,
+        "Replace the files that an earlier run wrote to the folder. Other files in the folder are kept.");
+}
+
 } // namespace
 
 Command add_make(CLI::App& app, Session& session) {
@@ -129,50 +182,7 @@ Command add_make(CLI::App& app, Session& session) {
                    "convert; or a "
                    "DEM. Without it, thalweg grows a valley on 1024x1024 cells.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)");
-    app.add_option("-o,--output", options->params.output, "Write to this folder.")
-        ->type_name("DIR")
-        ->capture_default_str();
-    add_list(app, "--set", "KEY=VALUE", options->params.set,
-             "Set a key of the recipe; it overrides the file. May be repeated; the last value wins. File names are "
-             "relative to the current folder.",
-             '\0');
-    add_key_option<std::uint64_t>(app, "--seed", "seed", options->params.set,
-                                  "Set the random seed; the same as --set seed=N.")
-        ->check(is_seed);
-    add_key_option<std::string>(app, "--crs", "grid.crs", options->params.set,
-                                "Make the terrain in this projected CRS in metres; the same as --set grid.crs=CRS.")
-        ->type_name("EPSG:N");
-    add_key_option<std::string>(
-        app, "--source-crs", "network.lines.source_crs", options->params.set,
-        "Read rivers whose file has no CRS in this one; the same as --set network.lines.source_crs=CRS.")
-        ->type_name("EPSG:N");
-    add_list(app, "--field", "QUANTITY=NAME", options->fields,
-             "Name the field of rivers that holds a quantity: arc_id and ds_arc (a line's id and that of the line "
-             "downstream), key (a rank that falls downstream) or type. May be repeated. The same as --set "
-             "network.lines.id_field=NAME, down_field, rank_field and type_field.",
-             '\0');
-    add_key_option<std::string>(
-        app, "--units", "output.units", options->params.set,
-        "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "
-        "--set output.units=UNIT. Lengths stay in m, areas in m2.")
-        ->check(CLI::IsMember({"m", "ft"}));
-    add_key_option<std::string>(
-        app, "--schema", "output.schema", options->params.set,
-        "Also write the network in this schema, as network_SCHEMA.gpkg; the same as --set output.schema=SCHEMA.")
-        ->check(CLI::IsMember(schema_names()));
-    add_key_option<std::string>(
-        app, "--only", "output.files", options->params.set,
-        "Write only these files, with commas between them: dem, network, contours, catchments, "
-        "areas, tin, pictures, page or qgis; the same as --set output.files=FILES. recipe.toml and "
-        "report.json are always written.")
-        ->type_name("FILES");
-    app.add_flag("--dry-run", options->dry_run,
-                 "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
-                 "time. Nothing is written.");
-    app.add_flag("--json", session.json, "Print report.json to stdout instead of the name of the folder.");
-    add_overwrite_option(
-        app, options->params.existing,
-        "Replace the files that an earlier make wrote to the folder. Other files in the folder are kept.");
+    add_options_of_make(app, *options, session);
     app.footer(
         "Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
         "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "
@@ -191,7 +201,34 @@ Command add_make(CLI::App& app, Session& session) {
         "  thalweg make samples/walker_nhdplus.gpkg --only dem,network -o out/two\n"
         "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n"
         "  thalweg make samples/jacksboro_utm16.tif --set surface.drain=carve -o out/drained\n");
-    return [options, &session] { return make(*options, session); };
+    return [options, &session] { return make(*options, false, session); };
+}
+
+Command add_rebuild(CLI::App& app, Session& session) {
+    auto const options = std::make_shared<MakeOptions>();
+    options->params.output = "rebuilt";
+    app.add_option("RIVERS", options->params.input,
+                   "Rivers with heights: any file of lines that GDAL reads, or a folder written by make or convert.")
+        ->type_name("FILE(gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip)")
+        ->required();
+    app.add_option("--like", options->params.like,
+                   "Take the mean slope and the texture of this DEM, which may be of another place. Without it they "
+                   "follow from the rivers. The same as --set surface.like=DEM.")
+        ->type_name("DEM");
+    app.add_option("--against", options->params.against,
+                   "Make the terrain on the cells of this DEM and compare the two, beside a cone, a TIN and a dilation "
+                   "around the same rivers: against.png, report.html and report.json. Its heights decide nothing of "
+                   "the terrain. The same as --set output.against=DEM, but for the grid.")
+        ->type_name("DEM");
+    add_options_of_make(app, *options, session);
+    app.footer(
+        "Rivers keep their heights (network.heights = \"file\"); the terrain between them follows from where they "
+        "run and how steep they are. docs/rebuild.md says how close it comes, and where it does not.\n\n"
+        "Examples:\n"
+        "  thalweg rebuild out/walker -o out/rebuilt\n"
+        "  thalweg rebuild out/walker --against out/walker/dem.tif -o out/compared\n"
+        "  thalweg rebuild out/walker --like samples/jacksboro_utm16.tif -o out/like\n");
+    return [options, &session] { return make(*options, true, session); };
 }
 
 } // namespace thalweg::tools

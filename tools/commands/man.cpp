@@ -231,7 +231,7 @@ std::string command_page(CommandHelp const& command, CommandHelp const& program)
     out += section("DESCRIPTION") + paragraph(command.summary) + paragraphs(command.text);
     out += options(command);
     out += section("EXIT STATUS") + rows(exit_codes);
-    if (command.name == "make") {
+    if (command.name == "make" || command.name == "rebuild") {
         out += section("FILES") + roff("In the folder of --output:") + "\n" + rows(made);
     }
     out += section("ENVIRONMENT") + rows(environment);

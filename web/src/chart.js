@@ -57,11 +57,11 @@ function tick(value, log) {
 }
 
 /** Where things lie in a drawing of this width. */
-function layOut(series, what, width) {
+export function layOut(series, what, width) {
   const points = series.flatMap((s) => s.points.concat(s.fit ?? []));
   const height = what.height ?? 150;
-  const y = scale(points.map((p) => p[1]).filter(Number.isFinite).concat(what.zeroY ? [0] : []), { log: what.logY, least: 3 });
-  const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), { log: what.logX, whole: what.wholeX, least: width < 240 ? 2 : 4 });
+  const y = scale(points.map((p) => p[1]).filter(Number.isFinite).concat(what.zeroY ? [0] : [], what.topY ?? []), { log: what.logY, least: what.least ?? 3 });
+  const x = scale(points.map((p) => p[0]).concat(what.zeroX ? [0] : []), { log: what.logX, whole: what.wholeX, least: what.least ?? (width < 240 ? 2 : 4) });
   const widest = Math.max(...y.ticks.map((t) => tick(t, what.logY).length));
   const box = { left: 10 + 6 * widest, top: 22, right: width - 10, bottom: height - 32 };
   const place = ([a, b]) => [box.left + x.share(a) * (box.right - box.left), box.bottom - y.share(b) * (box.bottom - box.top)];
@@ -80,7 +80,7 @@ function runs(points) {
   return all.filter((run) => run.length);
 }
 
-function axes({ x, y, box, place, height, width }, what) {
+export function axes({ x, y, box, place, height, width }, what) {
   const parts = [];
   for (const t of y.ticks) {
     const at = place([x.low, t])[1];
@@ -115,9 +115,10 @@ function strokes(s, { y, place }) {
 }
 
 /**
- * all: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], …], tone: 0 | 1 | 2}]; those without
- * a point are not shown, and where a y is NaN a line has a gap. what: {title, x, y (with their units, in brackets), logX, logY, wholeX, zeroX, zeroY, height,
- * flags: [[x, y], …] places with a sign above them, note(index): a further word of a reading, onread(index or
+ * all: [{points: [[x, y], …], name, kind: 'line' | 'area' | 'points', fit: [[x, y], …], tone: 0 | 1 | 2,
+ * of lines also 3 | 'dem'}]; those without a point are not shown, and where a y is NaN a line has a gap. what: {title,
+ * x, y (with their units, in brackets), logX, logY, wholeX, zeroX, zeroY, topY: what y reaches at least, height, least:
+ * steps of each axis at least, flags: [[x, y], …] places with a sign above them, note(index): a further word of a reading, onread(index or
  * null): what is told of it}. An index is that of a point of the first series, from the left.
  * Gives {figure, read(index or null)}; a reading by `read` is not told.
  */

@@ -46,8 +46,9 @@ export function sign(text, words, className) {
 }
 
 /** Which mark is whose: [[name, mark], …]. */
-export function legend(marks) {
-  return make('p', { className: 'marks' }, ...marks.map(([name, mark]) => make('span', {}, draw('svg', { class: 'mark', viewBox: '-6 -6 12 12', 'aria-hidden': 'true' }, mark), name)));
+export function legend(marks, { wide } = {}) {
+  const box = wide ? { class: 'mark wide', viewBox: '-12 -6 24 12' } : { class: 'mark', viewBox: '-6 -6 12 12' };
+  return make('p', { className: 'marks' }, ...marks.map(([name, mark]) => make('span', {}, draw('svg', { ...box, 'aria-hidden': 'true' }, mark), name)));
 }
 
 /** The marks of series, no two of the same form: a filled circle, a ring, a diamond. */

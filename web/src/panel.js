@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The panel: whether the terrain is right, what became of a file's rivers, diagrams, and how it was made.
 import './panel.css';
+import { against } from './against.js';
 import { chart, number } from './chart.js';
 import { copyable, fold, make, section, table } from './elements.js';
 import { laws } from './laws.js';
@@ -53,6 +54,7 @@ export function fillPanel(parts, data, actions) {
   ledger(parts.ledger, data);
   const profile = profiles(data, actions);
   parts.sections.append(...[
+    section('Compared with a real DEM', ...against(data.against)),
     profile.element,
     section('Hypsometry', hypsometry(data.hypsometry, data.statistics)),
     section('Increment', increments(data.curve)),

@@ -287,7 +287,7 @@ Picture profile(ElevatedNetwork const& network, NetworkOrders const& orders, Pro
 namespace {
 
 constexpr Colour line_colour{0.45, 0.28, 0.14};
-constexpr Colour ground{0.72, 0.56, 0.38, 0.22};
+constexpr Colour ground_colour{0.72, 0.56, 0.38, 0.22};
 
 void require_curve(std::vector<Vec2> const& curve, double integral) {
     for (std::size_t i = 0; i < curve.size(); ++i) {
@@ -353,7 +353,7 @@ Picture hypsometry(std::vector<Vec2> const& curve, double integral, HypsometryPa
         }
         std::vector<Vec2> line(curve.size());
         std::transform(curve.begin(), curve.end(), line.begin(), [&](Vec2 p) { return plot.at(100.0 * p.x, p.y); });
-        draw_ground(sheet, line, plot.box.bottom(), ground, line_colour, 0.17 * unit);
+        draw_ground(sheet, line, plot.box.bottom(), ground_colour, line_colour, 0.17 * unit);
         if (has_integral) {
             draw_mean(sheet, plot, low, high, integral, unit);
         }

@@ -60,6 +60,8 @@ std::map<std::string, Case> const cases = {
     {"surface.erodibility",
      {dla + "[surface]\nerodibility = \"erodibility.asc\"\n", "inputs/erodibility/erodibility.asc"}},
     {"surface.lakes", {dla + "[surface]\nlakes = \"lakes.geojson\"\n", "inputs/lakes/lakes.geojson"}},
+    {"surface.like", {dla + "[surface]\nlike = \"hills.asc\"\n", "inputs/like/hills.asc"}},
+    {"output.against", {dla + "[surface]\n[output]\nagainst = \"hills.asc\"\n", "inputs/against/hills.asc"}},
     {"patch.source", {patch + "source = \"patch.asc\"\n", "inputs/patch1/patch.asc"}},
     {"patch.mask",
      {patch + "source = \"patch.asc\"\nmask = \"patch_mask.geojson\"\n", "inputs/patch1/mask/patch_mask.geojson"}},

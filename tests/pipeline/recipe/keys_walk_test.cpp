@@ -181,6 +181,7 @@ std::map<std::string, Words> const values = {
     {"surface.erodibility", {"erodibility.asc"}},
     {"surface.lakes", {"lakes.geojson"}},
     {"surface.lake_share", {"1"}},
+    {"surface.like", {"hills.asc"}},
     {"surface.tolerance", {"0.01"}},
     {"surface.sweeps", {"50"}},
     {"surface.noise", {"20"}},
@@ -203,6 +204,7 @@ std::map<std::string, Words> const values = {
     {"output.title", {"A walk"}},
     {"output.contour_interval", {"7.5"}},
     {"output.files", {"dem,network"}},
+    {"output.against", {"hills.asc"}},
 };
 
 /// What a key needs beside it to have an effect, or for the effect to be seen on so small a terrain.

@@ -26,6 +26,18 @@ struct Freed {
 
 } // namespace
 
+std::string base64(std::span<std::uint8_t const> bytes) {
+    std::string text;
+    text.reserve((bytes.size() + 2) / 3 * 4);
+    for (std::size_t at = 0; at < bytes.size(); at += piece) {
+        std::unique_ptr<char, Freed> const part(
+            CPLBase64Encode(static_cast<int>(std::min(piece, bytes.size() - at)), bytes.data() + at));
+        refuse_if<IoError>(part == nullptr, "io.base64: out of memory");
+        text += part.get();
+    }
+    return text;
+}
+
 std::string packed(std::span<std::uint8_t const> bytes) {
     std::string const what = "io.packed";
     refuse_if<BadInput>(bytes.size() > most, "{}: {} bytes are more than the {} that can be packed at once", what,
@@ -39,16 +51,7 @@ std::string packed(std::span<std::uint8_t const> bytes) {
         driver.check(what);
         throw IoError(what + " failed");
     }
-    auto const* const data = static_cast<GByte const*>(stream.get());
-    std::string text;
-    text.reserve((size + 2) / 3 * 4);
-    for (std::size_t at = 0; at < size; at += piece) {
-        std::unique_ptr<char, Freed> const part(
-            CPLBase64Encode(static_cast<int>(std::min(piece, size - at)), data + at));
-        refuse_if<IoError>(part == nullptr, "{}: out of memory", what);
-        text += part.get();
-    }
-    return text;
+    return base64({static_cast<std::uint8_t const*>(stream.get()), size});
 }
 
 } // namespace thalweg::io

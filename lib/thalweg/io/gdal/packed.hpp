@@ -8,6 +8,14 @@
 
 namespace thalweg::io {
 
+/// Encodes bytes for embedding in text.
+/// \param bytes any
+/// \return letters, digits, + and /, padded with =, without line breaks
+/// \throws IoError when there is no memory
+///
+/// Source: RFC 4648.
+std::string base64(std::span<std::uint8_t const> bytes);
+
 /// Compresses bytes to base64 of a zlib stream, for embedding in text.
 /// \param bytes any
 /// \return letters, digits, + and /, padded with =, without line breaks. The bytes of the stream depend on the zlib or

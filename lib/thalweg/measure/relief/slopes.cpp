@@ -7,6 +7,7 @@
 #include <cstdlib>
 #include <vector>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
@@ -276,6 +277,33 @@ std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64
         }
     }
     return found;
+}
+
+double sunken_share(Raster<float> const& dem, std::span<std::int64_t const> cells, SunkenShareParams const& params,
+                    Run const& run) {
+    constexpr char const* self = "measure.sunken_share";
+    require_in(self, "tolerance_m", params.tolerance_m, Range::at_least(0.0));
+    Mask is_base(dem.grid());
+    for (std::int64_t i = 0; params.has_sea && i < dem.cells(); ++i) {
+        is_base[i] = std::isnan(dem[i]) ? 1 : 0;
+    }
+    for (std::int64_t const cell : cells) {
+        refuse_if<BadInput>(cell < 0 || cell >= dem.cells(), "{}: cell {} is not one of the DEM's {}", self, cell,
+                            dem.cells());
+        is_base[cell] = 1;
+    }
+    Raster<std::int64_t> const nearest = nearest_cells(is_base, run);
+    std::int64_t land = 0;
+    std::int64_t sunken = 0;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        auto const base = static_cast<double>(dem[nearest[i]]);
+        double const above = static_cast<double>(dem[i]) - (params.has_sea && std::isnan(base) ? 0.0 : base);
+        if (is_base[i] == 0 && !std::isnan(above)) {
+            ++land;
+            sunken += above < -params.tolerance_m ? 1 : 0;
+        }
+    }
+    return land > 0 ? static_cast<double>(sunken) / static_cast<double>(land) : 0.0;
 }
 
 } // namespace thalweg::measure

@@ -69,4 +69,20 @@ LevelPatch level_patch(Raster<float> const& dem, LevelPatchParams const& params 
 /// \throws BadInput when a cell is outside the DEM
 std::vector<std::int64_t> perched(Raster<float> const& dem, std::span<std::int64_t const> cells, double rise_m);
 
+/// Options of sunken_share().
+struct SunkenShareParams {
+    double tolerance_m = 1.0; ///< [m] >= 0
+    bool has_sea = false;     ///< cells without data are the sea, at height 0; else gaps
+};
+
+/// Finds how much land lies lower than the river, or the sea, nearest to it: next to none, but where walls hold rivers
+/// up.
+/// \param dem [m] by cell; NaN: no data
+/// \param cells indices of river cells, at least one
+/// \return [0, 1] of the cells with data beside rivers; 0 without such cells. Real terrain: 0.03 or less.
+/// \throws BadParameter when tolerance_m is not a number >= 0
+/// \throws BadInput when a cell is outside the DEM, or there is none
+double sunken_share(Raster<float> const& dem, std::span<std::int64_t const> cells, SunkenShareParams const& params = {},
+                    Run const& run = {});
+
 } // namespace thalweg::measure

@@ -37,12 +37,12 @@ Recipe recipe_without_file(std::vector<std::string> const& assignments) {
     return recipe;
 }
 
-Recipe recipe_of(MakeParams const& params) {
+/// A recipe with the keys that the options set.
+Recipe with_options(Recipe recipe, MakeParams const& params) {
     static std::map<std::string, char const*> const keys{{"arc_id", "network.lines.id_field"},
                                                          {"ds_arc", "network.lines.down_field"},
                                                          {"key", "network.lines.rank_field"},
                                                          {"type", "network.lines.type_field"}};
-    Recipe recipe = params.input.empty() ? recipe_without_file(params.set) : recipe_from(params.input);
     for (std::string const& assignment : params.set) {
         set_key(recipe, assignment);
     }
@@ -57,6 +57,22 @@ Recipe recipe_of(MakeParams const& params) {
     return recipe;
 }
 
+Recipe recipe_of(MakeParams const& params) {
+    return with_options(params.input.empty() ? recipe_without_file(params.set) : recipe_from(params.input), params);
+}
+
+Recipe recipe_of(RebuildFromParams const& params) {
+    refuse_if<BadParameter>(params.input.empty(), "pipeline.run_rebuild: name the rivers: any file of lines with "
+                                                  "heights that GDAL reads, or a folder written by make or convert");
+    Recipe recipe = recipe_from(params.input);
+    for (auto const& [key, file] : {std::pair{"surface.like", &params.like}, {"output.against", &params.against}}) {
+        if (!file->empty()) {
+            set_key(recipe, key, *file);
+        }
+    }
+    return with_options(std::move(recipe), params);
+}
+
 } // namespace
 
 Made run_make(MakeParams const& params, Run const& run) {
@@ -69,6 +85,18 @@ Forecast forecast_make(MakeParams const& params, Run const& run) {
     Recipe recipe = recipe_of(params);
     UserFiles const files(recipe, run);
     return forecast(recipe, run);
+}
+
+Made run_rebuild(RebuildFromParams const& params, Run const& run) {
+    Recipe recipe = recipe_of(params);
+    UserFiles const files(recipe, run);
+    return make_folder(rebuild_recipe(recipe, run), params.output, params.existing, run);
+}
+
+Forecast forecast_rebuild(RebuildFromParams const& params, Run const& run) {
+    Recipe recipe = recipe_of(params);
+    UserFiles const files(recipe, run);
+    return forecast(rebuild_recipe(recipe, run), run);
 }
 
 Recipe recipe_for(std::string const& rivers, std::string const& source_crs, Run const& run) {

@@ -36,6 +36,25 @@ Made run_make(MakeParams const& params, Run const& run = {});
 /// \throws Error as run_make()
 Forecast forecast_make(MakeParams const& params, Run const& run = {});
 
+/// Options of run_rebuild().
+struct RebuildFromParams : MakeParams {
+    std::string like = {};    ///< DEM whose mean slope and texture the terrain gets; "": they follow from the rivers
+    std::string against = {}; ///< DEM on whose cells the terrain is made, and which it is compared with; "": none
+};
+
+/// Runs `thalweg rebuild`: makes the terrain between rivers with heights, as `make` with network.heights = "file", and
+/// compares it with a DEM that decides nothing of it but its grid.
+/// \param params rivers, and options
+/// \return the terrain
+/// \throws BadParameter without rivers; BadInput when the input has none
+/// \throws Error as run_make()
+Made run_rebuild(RebuildFromParams const& params, Run const& run = {});
+
+/// Runs `thalweg rebuild --dry-run`: plans the same work, and writes nothing.
+/// \return the forecast
+/// \throws Error as run_rebuild()
+Forecast forecast_rebuild(RebuildFromParams const& params, Run const& run = {});
+
 /// Runs `thalweg recipe --for`: settles the recipe that make uses for rivers or a DEM.
 /// \param rivers as for data_recipe()
 /// \param source_crs of rivers whose file has no CRS; "": none

@@ -204,6 +204,10 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     if (found.given_areas) {
         run.tell("areas", line_of(*found.given_areas));
     }
+    if (plan.against.cells() > 0) {
+        found.against = stage_log.stage("compare", [&] { return compare_with_dem(plan, terrain, run); });
+        stage_log.say(line_of(*found.against));
+    }
     found.timings_s = stage_log.take();
     return found;
 }

@@ -12,6 +12,7 @@
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/against.hpp>
 #include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
@@ -45,6 +46,7 @@ struct SurfaceMeasures {
 struct Assessment : SurfaceMeasures {
     std::optional<GivenLength> given = {};          ///< where rivers are read from lines
     std::optional<GivenHeights> given_heights = {}; ///< where the DEM is to have heights of these
+    std::optional<Against> against = {};            ///< where the recipe names a DEM to compare with
     std::optional<GivenAreas> given_areas = {};     ///< where the lines have areas and the terrain drains
     std::vector<Check> checks = {};
     std::vector<Finding> findings = {}; ///< of the checks

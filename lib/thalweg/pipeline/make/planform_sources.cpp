@@ -427,12 +427,20 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     return rivers;
 }
 
-/// Land where a raster has heights: rivers end at its holes as at the sea.
-Mask with_data(Mask land, Raster<float> const& raster) {
-    for (std::int64_t i = 0; i < raster.cells(); ++i) {
-        if (std::isnan(raster[i])) {
-            land = land.cells() > 0 ? std::move(land) : Mask(raster.grid(), 1);
-            land[i] = 0;
+/// Land without the gaps of DEMs: rivers end there as at the sea.
+Mask without_gaps(Mask land, Plan const& plan) {
+    auto const leave_out = [&](std::int64_t i, Grid const& grid) {
+        land = land.cells() > 0 ? std::move(land) : Mask(grid, 1);
+        land[i] = 0;
+    };
+    for (std::int64_t i = 0; i < plan.raster.cells(); ++i) {
+        if (std::isnan(plan.raster[i])) {
+            leave_out(i, plan.raster.grid());
+        }
+    }
+    for (std::int64_t i = 0; i < plan.land.cells(); ++i) {
+        if (plan.land[i] == 0) {
+            leave_out(i, plan.land.grid());
         }
     }
     return land;
@@ -452,7 +460,7 @@ SourceRivers rivers_by_source(Plan const& plan, StageLog& stage_log, Run const& 
 
 SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run) {
     SourceRivers rivers = rivers_by_source(plan, stage_log, run);
-    rivers.land = with_data(std::move(rivers.land), plan.raster);
+    rivers.land = without_gaps(std::move(rivers.land), plan);
     return rivers;
 }
 

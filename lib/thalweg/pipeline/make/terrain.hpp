@@ -45,7 +45,15 @@ struct ConditioningChanges {
     flow::DemChange depressions;
 };
 
-/// How terrain came into equilibrium with its rivers.
+/// What terrain took from the DEM of surface.like.
+struct LikeStatistics {
+    double mean_slope_deg = 0.0;
+    double wanted_correlation = 0.0; ///< of unit gradients, lag_m apart; NaN: not known
+    double lag_m = 0.0;
+    double roughness = 0.0;   ///< found for it
+    double correlation = 0.0; ///< met; NaN: not sought
+};
+
 /// What rivers with heights of a file told of the terrain, as surface::RebuiltTerrain.
 struct RebuildStatistics {
     double river_spacing_m = 0.0;
@@ -53,6 +61,7 @@ struct RebuildStatistics {
     double smooth_slope_deg = 0.0;
 };
 
+/// How terrain came into equilibrium with its rivers.
 struct EquilibriumStatistics {
     surface::Edge edge = surface::Edge::open; ///< of the terrain, by recipe, mask or sea
     std::int64_t channel_cells = 0;           ///< in which rivers run
@@ -64,6 +73,7 @@ struct EquilibriumStatistics {
     bool in_region = false;
     std::vector<surface::RegionInflow> inflows;
     std::optional<RebuildStatistics> rebuilt; ///< where heights of a file are kept
+    std::optional<LikeStatistics> like;       ///< where surface.like is set
 };
 
 /// Arcs made of valleys that the terrain has beside its rivers.

@@ -12,6 +12,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/measure/relief/slopes.hpp>
+#include <thalweg/measure/texture/texture.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/lakes.hpp>
 #include <thalweg/network/channels/side_valleys.hpp>
@@ -93,9 +95,33 @@ bool has_sea(Mask const& land) {
     return std::any_of(land.values().begin(), land.values().end(), [](std::uint8_t is_land) { return is_land == 0; });
 }
 
-surface::Edge edge_of(Plan const& plan, Planform const& planform, Mask const& land) {
+/// Whether the gaps of a DEM are the sea: rivers that end there do so near height 0.
+bool are_sea(Mask const& land, Channels const& channels) {
+    constexpr float most_m = 10.0F;
+    constexpr double most_of_them = 0.9;
+    constexpr std::int64_t near = 2;
+    Grid const& grid = land.grid();
+    double ends = 0.0;
+    double low = 0.0;
+    for (std::size_t n = 0; n < channels.cell.size(); ++n) {
+        Cell const c = grid.at(channels.cell[n]);
+        bool beside = false;
+        for (std::int64_t k = 0; channels.receiver[n] < 0 && k < (2 * near + 1) * (2 * near + 1); ++k) {
+            Cell const other{c.col + k % (2 * near + 1) - near, c.row + k / (2 * near + 1) - near};
+            beside = beside || (grid.contains(other) && land[other] == 0);
+        }
+        ends += beside ? 1.0 : 0.0;
+        low += beside && std::fabs(channels.z[n]) <= most_m ? 1.0 : 0.0;
+    }
+    return ends > 0.0 && low >= most_of_them * ends;
+}
+
+surface::Edge edge_of(Plan const& plan, Planform const& planform, Mask const& land, Channels const& channels) {
     if (plan.recipe.surface->equilibrium.edge) {
         return *plan.recipe.surface->equilibrium.edge;
+    }
+    if (plan.land.cells() > 0 && !has_coastlines(plan)) {
+        return are_sea(plan.land, channels) ? surface::Edge::coast : surface::Edge::closed;
     }
     bool const by_coastlines = plan.recipe.network->source == Source::lines && planform.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
@@ -110,11 +136,11 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     surface::EquilibriumParams params;
     params.theta = recipe.network->concavity;
     params.heights = use_of(heights);
-    params.bring_to_target = wanted.mean_slope_deg || relief_m > 0.0;
+    params.bring_to_target = wanted.mean_slope_deg || plan.like || relief_m > 0.0;
     if (relief_m > 0.0) {
         params.relief_m = relief_m;
     } else if (params.bring_to_target) {
-        params.mean_slope_deg = *wanted.mean_slope_deg;
+        params.mean_slope_deg = wanted.mean_slope_deg ? *wanted.mean_slope_deg : plan.like->mean_slope_deg;
     } else if (recipe.network->source == Source::lines) { // given heights have their own slope
         params.mean_slope_deg = usual_slope_deg(recipe.grid.cell_m);
     }
@@ -208,6 +234,22 @@ Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const&
     return remarks;
 }
 
+/// Checks that rivers lie in valleys of rebuilt terrain, with a warning where they stand above much of it.
+Remarks valley_remarks(Raster<float> const& dem, Channels const& channels, bool has_sea, Run const& run) {
+    constexpr double most_sunken = 0.1;
+    double const share = measure::sunken_share(dem, channels.cell, {.has_sea = has_sea}, run);
+    Remarks remarks;
+    remarks.checks.push_back({"land_below_rivers", share, most_sunken, share <= most_sunken});
+    if (share > most_sunken) {
+        run.say(
+            fmt::format("warning: {:.0f} % of the land lies lower than the river nearest to it: the rivers stand on "
+                        "walls. Their slopes tell too little of the land's: give it, with --set "
+                        "surface.mean_slope=20 or --like DEM.",
+                        100.0 * share));
+    }
+    return remarks;
+}
+
 /// One note for all lakes of a file that cover no cell, with a warning where levels are lost.
 std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels, Run const& run) {
     std::vector<std::uint8_t> seen(polygons.polygons.size() + 1);
@@ -283,6 +325,7 @@ struct Solved {
     surface::EquilibriumTerrain land;
     surface::EquilibriumParams params;
     std::optional<RebuildStatistics> rebuilt = {};
+    std::optional<LikeStatistics> like = {};
 };
 
 /// Whether the terrain is rebuilt from rivers with heights of a file.
@@ -311,17 +354,56 @@ surface::RebuildParams rebuild_params_of(EquilibriumRecipe const& wanted, surfac
 }
 
 Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::EquilibriumFields const& fields,
-                       surface::EquilibriumParams params, StageLog& stage_log, Run const& run) {
-    if (plan.recipe.surface->equilibrium.edge == surface::Edge::open) {
-        run.say("warning: surface.edge = \"open\" is not used: around heights of a file the terrain ends at the grid, "
-                "and all water drains to the rivers");
-    }
+                       surface::EquilibriumParams params, Run const& run) {
     params.edge = params.edge == surface::Edge::open ? surface::Edge::closed : params.edge;
-    surface::RebuiltTerrain rebuilt = stage_log.stage("fill", [&] {
-        return surface::rebuild(channels, fields, rebuild_params_of(plan.recipe.surface->equilibrium, params), run);
-    });
+    surface::RebuiltTerrain rebuilt =
+        surface::rebuild(channels, fields, rebuild_params_of(plan.recipe.surface->equilibrium, params), run);
     return {std::move(rebuilt.terrain), params,
             RebuildStatistics{rebuilt.survey.spacing_m, rebuilt.survey.concavity, rebuilt.smooth_slope_deg}};
+}
+
+/// Correlation of gradients at the distance at which the DEM of surface.like has it.
+double correlation_of(Raster<float> const& dem, LikeDem const& like, Run const& run) {
+    auto const lag = std::ranges::find(measure::texture_lags_m, like.lag_m) - measure::texture_lags_m.begin();
+    return measure::gradient_texture(dem, {}, run).correlation.at(static_cast<std::size_t>(lag));
+}
+
+/// Solves, and again with another roughness until gradients are correlated as in the DEM of surface.like.
+template <class Solve>
+Solved with_texture(LikeDem const& like, surface::EquilibriumParams params, Solve const& solve, Run const& run) {
+    constexpr double close = 0.01;
+    constexpr double worth_a_word = 0.03;
+    constexpr int most_rounds = 4;
+    constexpr double most_roughness = 0.88;
+    double change = -0.22; // of the correlation by roughness: measured in Big Tujunga and Jacksboro
+    Solved solved = solve(params);
+    solved.like = LikeStatistics{like.mean_slope_deg, like.correlation, like.lag_m, params.roughness, std::nan("")};
+    if (std::isnan(like.correlation) || params.roughness != surface::EquilibriumParams{}.roughness) {
+        return solved;
+    }
+    double here = correlation_of(solved.land.dem, like, run);
+    for (int round = 1; round < most_rounds && std::fabs(here - like.correlation) > close; ++round) {
+        double const before = params.roughness;
+        params.roughness = std::clamp(before + (like.correlation - here) / change, 0.0, most_roughness);
+        if (params.roughness == before) {
+            break;
+        }
+        solved = solve(params);
+        double const there = correlation_of(solved.land.dem, like, run);
+        change = std::min((there - here) / (params.roughness - before), -0.05);
+        here = there;
+    }
+    solved.like = LikeStatistics{like.mean_slope_deg, like.correlation, like.lag_m, params.roughness, here};
+    run.tell("like",
+             fmt::format("with a roughness of {:.2g} gradients {:g} m apart are correlated by {:.2f} ({:.2f} in "
+                         "the DEM)",
+                         params.roughness, like.lag_m, here, like.correlation));
+    if (std::fabs(here - like.correlation) > worth_a_word) {
+        run.say(fmt::format("warning: the texture of surface.like cannot be reached with surface.roughness alone: the "
+                            "terrain is {} than that DEM",
+                            here < like.correlation ? "rougher" : "smoother"));
+    }
+    return solved;
 }
 
 /// Solves for the land.
@@ -330,11 +412,17 @@ Solved solve(Plan const& plan, Planform const& planform, Channels const& channel
     surface::EquilibriumFields const fields = equilibrium_fields(plan, planform, channels, run);
     run.at(0.0, fmt::format("fill {} cells", planform.grid.cells()).c_str());
     surface::EquilibriumParams const params =
-        params_of(plan, plan.recipe.network->heights, edge_of(plan, planform, fields.land));
-    if (rebuilds(plan)) {
-        return rebuild_terrain(plan, channels, fields, params, stage_log, run);
+        params_of(plan, plan.recipe.network->heights, edge_of(plan, planform, fields.land, channels));
+    if (rebuilds(plan) && plan.recipe.surface->equilibrium.edge == surface::Edge::open) {
+        run.say("warning: surface.edge = \"open\" is not used: around heights of a file the terrain ends at the grid, "
+                "and all water drains to the rivers");
     }
-    return {stage_log.stage("fill", [&] { return surface::equilibrium(channels, fields, params, run); }), params};
+    auto const solve_with = [&](surface::EquilibriumParams const& with) {
+        return rebuilds(plan) ? rebuild_terrain(plan, channels, fields, with, run)
+                              : Solved{surface::equilibrium(channels, fields, with, run), with};
+    };
+    return stage_log.stage(
+        "fill", [&] { return plan.like ? with_texture(*plan.like, params, solve_with, run) : solve_with(params); });
 }
 
 EquilibriumStatistics statistics_of(Solved const& solved, Channels const& channels) {
@@ -342,6 +430,7 @@ EquilibriumStatistics statistics_of(Solved const& solved, Channels const& channe
     EquilibriumStatistics statistics;
     statistics.edge = solved.params.edge;
     statistics.rebuilt = solved.rebuilt;
+    statistics.like = solved.like;
     statistics.channel_cells = static_cast<std::int64_t>(channels.cell.size());
     statistics.shortened_cells = static_cast<std::int64_t>(land.shortened.size());
     statistics.walled_cells = static_cast<std::int64_t>(land.walled.size());
@@ -363,7 +452,7 @@ void warn_of_region(surface::EquilibriumTerrain const& land, std::optional<doubl
     }
 }
 
-void warn_of_heights(Raster<float> const& dem, Run const& run) {
+void warn_of_heights(Raster<float> const& dem, bool rebuilt, Run const& run) {
     constexpr float most_m = 9000.0F;
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
@@ -372,10 +461,10 @@ void warn_of_heights(Raster<float> const& dem, Run const& run) {
         high = z > high ? z : high;
     }
     if (high - low > most_m) {
-        run.say(
-            fmt::format("warning: the terrain is {:.0f} m high, higher than any on Earth. --set surface.relief=1000 "
-                        "gives it a height of 1000 m.",
-                        high - low));
+        run.say(fmt::format("warning: the terrain is {:.0f} m high, higher than any on Earth. {}", high - low,
+                            rebuilt ? "Land far from all rivers rises with the distance: add rivers there, or leave it "
+                                      "out with surface.mask."
+                                    : "--set surface.relief=1000 gives it a height of 1000 m."));
     }
 }
 
@@ -514,8 +603,14 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
                                                        : "A smaller grid.cell gives slopes room between rivers.";
         append(result.remarks, wall_remarks(surface, rivers.channels, remedy, run));
     }
+    if (solved.rebuilt) {
+        append(result.remarks, valley_remarks(surface.dem, rivers.channels,
+                                              solved.params.edge == surface::Edge::coast ||
+                                                  solved.params.edge == surface::Edge::mainland,
+                                              run));
+    }
     warn_of_region(surface, plan.recipe.surface->equilibrium.region, run);
-    warn_of_heights(surface.dem, run);
+    warn_of_heights(surface.dem, solved.rebuilt.has_value(), run);
     Typed typed{planform.network, planform.types};
     if (!surface.shortened.empty()) {
         network::Shortened shortened = network::shorten(planform.network, rivers, surface.shortened);

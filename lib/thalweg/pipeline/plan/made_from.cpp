@@ -19,12 +19,19 @@ std::string state_in_words(Plan const& plan, Recipe const& decisive) {
     return state_in_words(decisive) + (plan.heights_of_file ? "\nheights of the file" : "");
 }
 
+/// Rebuilt terrain ends at the gaps of the DEM that it is compared with.
+OutputRecipe output_of_rivers(Recipe const& recipe) {
+    OutputRecipe output;
+    output.against = recipe.output.against;
+    return output;
+}
+
 /// A recipe without what only the surface reads.
 Recipe of_rivers(Recipe recipe) {
     recipe.skeleton.reset();
     recipe.detail.reset();
     recipe.patches.clear();
-    recipe.output = {};
+    recipe.output = output_of_rivers(recipe);
     if (recipe.surface) {
         SurfaceRecipe surface;
         surface.method = recipe.surface->method;
@@ -87,7 +94,7 @@ std::string planform_made_from(Plan const& plan) {
 std::string surface_made_from(Plan const& plan) {
     Recipe recipe = plan.recipe;
     recipe.patches.clear();
-    recipe.output = {};
+    recipe.output = output_of_rivers(recipe);
     if (recipe.surface) {
         recipe.surface->drain = SurfaceRecipe{}.drain;
     }

@@ -13,6 +13,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/messages.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
@@ -142,6 +143,19 @@ Recipe recipe_from(std::string const& path) {
     Recipe recipe = read_recipe(io::read_text(path, 2 << 20), path);
     recipe.folder = fs::path(path).parent_path().string();
     return recipe;
+}
+
+Recipe rebuild_recipe(Recipe recipe, Run const& run) {
+    refuse_if<BadInput>(!recipe.network || recipe.network->source != Source::lines,
+                        "pipeline.rebuild_recipe: there are no rivers of a file: name a file of lines with heights");
+    if (!recipe.surface) {
+        recipe.surface.emplace();
+    }
+    recipe.surface->method = Method::equilibrium;
+    if (recipe.network->heights == Heights::automatic) {
+        recipe.network->heights = Heights::file;
+    }
+    return recipe.output.against.empty() ? recipe : on_grid_of_against(std::move(recipe), run);
 }
 
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {

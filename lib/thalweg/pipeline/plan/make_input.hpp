@@ -33,6 +33,15 @@ Recipe raster_recipe(std::string const& path);
 /// \throws BadInput when the path is neither, with its content
 Recipe data_recipe(std::string const& path);
 
+/// Makes a recipe of rivers from a file one that rebuilds the terrain between them: in equilibrium, with the heights of
+/// the file where it leaves these open, and on the cells of the DEM of output.against, where it names one, as far as
+/// its [grid] leaves them open. Rivers are clipped there.
+/// \param recipe of lines
+/// \return the recipe
+/// \throws BadInput when the rivers are not lines of a file; when neither the DEM nor the recipe has a CRS; as
+/// io::read_dem
+Recipe rebuild_recipe(Recipe recipe, Run const& run = {});
+
 /// Sets in a recipe what make_terrain() would choose from its rivers and its DEM: CRS, cell size and, from a DEM, the
 /// frame; paths become absolute.
 /// \param recipe any

@@ -327,16 +327,32 @@ Plan plan_forest(Recipe recipe, Raster<float> const& raster, StageLog& stage_log
     return plan;
 }
 
-/// Clips lines to their grid, and to the cells of a raster that have heights.
-RiverLines clipped(RiverLines lines, Grid const& grid, Raster<float> const& raster) {
+/// Clips lines to their grid, and to its land.
+RiverLines clipped(RiverLines lines, Grid const& grid, Mask const& land) {
     lines = network::clip_lines(lines, grid);
-    if (raster.cells() > 0) {
-        Mask land(grid);
-        std::ranges::transform(raster.values(), land.values().begin(), [](float z) { return std::isnan(z) ? 0 : 1; });
+    if (land.cells() > 0) {
         lines = network::clip_lines(lines, land);
     }
     refuse_if<BadInput>(lines.lines.empty(), "grid: no river of {} runs inside the grid", lines.name);
     return lines;
+}
+
+Mask with_heights(Raster<float> const& raster) {
+    Mask land(raster.grid());
+    std::ranges::transform(raster.values(), land.values().begin(), [](float z) { return std::isnan(z) ? 0 : 1; });
+    return land;
+}
+
+/// Chooses heights of the file where the recipe leaves them open and lines have them.
+Plan with_heights_of_lines(Plan plan, RiverLines const& lines) {
+    Heights& heights = plan.recipe.network->heights;
+    if (heights == Heights::automatic && lines.has_z && !on_raster(plan.recipe)) {
+        plan.heights_of_file = true;
+        heights = Heights::file;
+    }
+    refuse_if<BadInput>(heights == Heights::file && !lines.has_z,
+                        "network.heights = \"file\", but {} has lines without Z; choose other heights", lines.name);
+    return plan;
 }
 
 Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
@@ -355,18 +371,19 @@ Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log,
     Grid const grid = frame_lines(lines, plan.recipe.grid);
     run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why));
     plan.grid = grid;
-    plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid, raster) : std::move(lines);
+    plan = with_heights_of_lines(std::move(plan), lines);
+    if (!plan.recipe.output.against.empty()) {
+        AgainstOnGrid on = against_on_grid(plan.recipe, grid, run);
+        plan.against = std::move(on.dem);
+        bool const rebuilt = in_equilibrium(plan.recipe) && plan.recipe.network->heights == Heights::file;
+        plan.land = rebuilt ? std::move(on.land) : Mask{};
+    }
+    Mask const land = raster.cells() > 0 ? with_heights(raster) : plan.land;
+    plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid, land) : std::move(lines);
     LinesRecipe const& wanted = plan.recipe.network->lines;
     if (wanted.orientation == network::Orientation::automatic) {
         plan.line_dem = read_dem_in(file_in(plan.recipe, wanted.dem), grid.crs, "network.lines.dem", {}, run);
     }
-    if (plan.recipe.network->heights == Heights::automatic && plan.lines.has_z && !on_raster(plan.recipe)) {
-        plan.heights_of_file = true;
-        plan.recipe.network->heights = Heights::file;
-    }
-    refuse_if<BadInput>(plan.recipe.network->heights == Heights::file && !plan.lines.has_z,
-                        "network.heights = \"file\", but {} has lines without Z; choose other heights",
-                        plan.lines.name);
     return plan;
 }
 
@@ -440,12 +457,24 @@ Plan with_surface_settled(Plan plan) {
     SurfaceRecipe& wanted = *plan.recipe.surface;
     EquilibriumRecipe& land = wanted.equilibrium;
     bool const has_rivers = plan.recipe.network.has_value();
-    if (has_rivers && heights_follow_terrain(plan.recipe) && !land.mean_slope_deg && !(wanted.dilate.relief_m > 0.0)) {
+    if (has_rivers && heights_follow_terrain(plan.recipe) && !land.mean_slope_deg && land.like.empty() &&
+        !(wanted.dilate.relief_m > 0.0)) {
         land.mean_slope_deg = plan.recipe.network->source == Source::lines
                                   ? usual_slope_deg(plan.recipe.grid.cell_m)
                                   : surface::EquilibriumParams{}.mean_slope_deg;
     }
     wanted.drain = wanted.drain.value_or(has_rivers ? flow::Conditioning::carve : flow::Conditioning::none);
+    return plan;
+}
+
+/// Reads the DEMs that the terrain shall be like, and be compared with.
+Plan with_dems(Plan plan, Run const& run) {
+    if (plan.recipe.surface && !plan.recipe.surface->equilibrium.like.empty()) {
+        plan.like = measure_like(plan.recipe, plan.recipe.grid.cell_m, run);
+    }
+    if (plan.against.cells() == 0) {
+        plan.against = read_against(plan.recipe, plan.recipe.grid.crs, run);
+    }
     return plan;
 }
 
@@ -494,6 +523,7 @@ Plan resolve(Recipe const& recipe, Run const& run) {
     plan = with_rivers_settled(std::move(plan), run);
     plan = with_surface_settled(std::move(plan));
     require_files(plan.recipe);
+    plan = with_dems(std::move(plan), run);
     require_fit(plan);
     plan.timings_s = stage_log.take();
     return plan;

@@ -36,6 +36,13 @@ struct ForestLand {
     std::vector<Finding> notes; ///< on outlets moved to the coast
 };
 
+/// What terrain takes from the DEM of surface.like.
+struct LikeDem {
+    double mean_slope_deg = 0.0;
+    double correlation = 0.0; ///< [-1, 1] of unit gradients, lag_m apart; NaN: the DEM is too small
+    double lag_m = 0.0;       ///< one of measure::texture_lags_m
+};
+
 /// A recipe with defaults resolved and input files loaded: everything known before rivers are drawn. It does not change
 /// later: results of rivers and surface are stored with these.
 struct Plan {
@@ -48,8 +55,12 @@ struct Plan {
     std::optional<Polygons> region;            ///< that a Tokunaga tree fills
     std::optional<network::TokunagaTree> tree; ///< fills the region or the grid, whose size it may determine
     std::optional<ForestLand> forest;          ///< if rivers are a forest
-    FeaturePoints points;                      ///< of skeleton.points; their CRS is the grid's, also without points
-    Timings timings_s;                         ///< of reading and growing
+    std::optional<LikeDem> like;               ///< where surface.like is set
+    Raster<float> against; ///< of output.against, on the grid where that is known, else as its file has it
+    /// 0: a gap of that DEM, where terrain is rebuilt from heights of a file; without cells: there is none
+    Mask land;
+    FeaturePoints points; ///< of skeleton.points; their CRS is the grid's, also without points
+    Timings timings_s;    ///< of reading and growing
 };
 
 /// Checks a recipe and its input files and resolves everything that depends on them. Rivers, strokes, regions, outlets,

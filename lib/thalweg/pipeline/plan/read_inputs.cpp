@@ -18,6 +18,8 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/slopes.hpp>
+#include <thalweg/measure/texture/texture.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
@@ -27,6 +29,15 @@
 
 namespace thalweg::pipeline {
 namespace {
+
+/// A DEM without a CRS in this one.
+Raster<float> in_crs(Raster<float> const& dem, std::string const& crs) {
+    Grid grid = dem.grid();
+    grid.crs = crs;
+    Raster<float> framed(grid);
+    std::ranges::copy(dem.values(), framed.values().begin());
+    return framed;
+}
 
 Raster<float> valued_polygons(Polygons const& polygons, Grid const& grid) {
     Raster<std::int32_t> const number = blend::number_polygons(polygons, grid);
@@ -117,6 +128,65 @@ Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std:
     return io::warp_to_grid(dem, lattice, fmt::format("{} = \"{}\"", what, source.path), run);
 }
 
+LikeDem measure_like(Recipe const& recipe, double cell_m, Run const& run) {
+    constexpr std::int64_t least_cells = 100;
+    constexpr double least_lag_cells = 4.0;
+    std::string const& name = recipe.surface->equilibrium.like;
+    std::string const what = fmt::format("surface.like = \"{}\"", name);
+    Raster<float> const dem = io::read_dem(file_in(recipe, name), run);
+    Grid lattice;
+    lattice.cell_m = cell_m;
+    lattice.crs = dem.grid().crs.empty() ? "" : io::metric_crs(dem.grid(), what);
+    double const own_m = io::ground_cell(dem.grid()).side_m;
+    if (own_m > 1.5 * cell_m) {
+        run.say(fmt::format("warning: {} has cells of {:.4g} m, the grid of {:.4g} m: its slopes are too gentle and "
+                            "its texture too smooth for these. A finer DEM, or --set grid.cell={:.4g}, helps.",
+                            what, own_m, cell_m, own_m));
+    }
+    Raster<float> const there = io::warp_to_grid(dem, lattice, what, run);
+    measure::Slopes const slopes = measure::slopes(there, run);
+    refuse_if<BadInput>(slopes.cells < least_cells || !(slopes.mean_deg > 0.0),
+                        "{} has {} cells of {:.4g} m with a slope: it takes {} and a mean slope above 0", what,
+                        slopes.cells, cell_m, least_cells);
+    measure::GradientTexture const texture = measure::gradient_texture(there, {}, run);
+    LikeDem found{slopes.mean_deg, std::nan(""), 0.0};
+    for (std::size_t k = 0; k < measure::texture_lags_m.size() && std::isnan(found.correlation); ++k) {
+        if (measure::texture_lags_m[k] >= least_lag_cells * cell_m) {
+            found.correlation = texture.correlation[k];
+            found.lag_m = measure::texture_lags_m[k];
+        }
+    }
+    run.tell("like", fmt::format("{}: mean slope {:.3g} degrees, gradients {:g} m apart are correlated by {:.2f}", name,
+                                 found.mean_slope_deg, found.lag_m, found.correlation));
+    return found;
+}
+
+Raster<float> read_against(Recipe const& recipe, std::string const& crs, Run const& run) {
+    std::string const& name = recipe.output.against;
+    if (name.empty()) {
+        return {};
+    }
+    Raster<float> dem = io::read_dem(file_in(recipe, name), run);
+    return dem.grid().crs.empty() ? in_crs(dem, crs) : dem;
+}
+
+AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, Run const& run) {
+    std::string const what = fmt::format("output.against = \"{}\"", recipe.output.against);
+    Raster<float> dem = read_against(recipe, grid.crs, run);
+    AgainstOnGrid found{io::resample(dem, grid, what, run), {}};
+    for (float& z : dem.values()) {
+        z = std::isnan(z) ? 0.0F : z;
+    }
+    Raster<float> const without_gaps = io::resample(dem, grid, what, run);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (std::isnan(found.dem[i]) && !std::isnan(without_gaps[i])) {
+            found.land = found.land.cells() > 0 ? std::move(found.land) : Mask(grid, 1);
+            found.land[i] = 0;
+        }
+    }
+    return found;
+}
+
 namespace {
 
 /// The reason for the cell size.
@@ -147,7 +217,7 @@ Recipe with_slope(Recipe recipe, bool has_z) {
     bool const graded = heights == Heights::graded || (heights == Heights::automatic && !has_z);
     EquilibriumRecipe& wanted = recipe.surface->equilibrium;
     double const usual = usual_slope_deg(recipe.grid.cell_m);
-    if (graded && !wanted.mean_slope_deg && !(recipe.surface->dilate.relief_m > 0.0) &&
+    if (graded && !wanted.mean_slope_deg && wanted.like.empty() && !(recipe.surface->dilate.relief_m > 0.0) &&
         usual != surface::EquilibriumParams{}.mean_slope_deg) {
         wanted.mean_slope_deg = usual;
     }
@@ -216,13 +286,6 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) 
 
 namespace {
 
-/// The same heights in another frame of as many cells.
-Raster<float> framed_by(Raster<float> const& dem, Grid const& grid) {
-    Raster<float> framed(grid);
-    std::ranges::copy(dem.values(), framed.values().begin());
-    return framed;
-}
-
 /// The grid of a recipe, where a DEM settles what it leaves open: its own cells, or as large ones in another coordinate
 /// system, from its north-western corner to its south-eastern one.
 Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::string const& what) {
@@ -263,6 +326,24 @@ std::string words_for_cells(Grid const& grid) {
 
 } // namespace
 
+Recipe on_grid_of_against(Recipe recipe, Run const& run) {
+    std::string const what = fmt::format("output.against = \"{}\"", recipe.output.against);
+    GridRecipe& wanted = recipe.grid;
+    Raster<float> dem = io::read_dem(file_in(recipe, recipe.output.against), run);
+    refuse_if<BadInput>(dem.grid().crs.empty() && wanted.crs.empty(),
+                        "{} has no coordinate system: name that of its cells (--crs EPSG:n)", what);
+    dem = dem.grid().crs.empty() ? in_crs(dem, io::projected_crs(wanted.crs)) : std::move(dem);
+    wanted.crs = io::projected_crs(wanted.crs.empty() ? io::metric_crs(dem.grid(), what) : wanted.crs);
+    Grid const grid = grid_of_raster(dem, wanted, what);
+    check_memory(grid.width, grid.height);
+    wanted.width = grid.width;
+    wanted.height = grid.height;
+    wanted.cell_m = grid.cell_m;
+    wanted.origin = {grid.west, grid.north};
+    wanted.clip = true;
+    return recipe;
+}
+
 OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     std::string const what = fmt::format("surface.source = \"{}\"", recipe.surface->source);
     Raster<float> given = io::read_dem(file_in(recipe, recipe.surface->source), run);
@@ -275,9 +356,7 @@ OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     if (is_nowhere) {
         run.tell("note", fmt::format("{} has no coordinate system: its cells count as metres in {:.60}",
                                      recipe.surface->source, wanted.crs));
-        Grid placed = given.grid();
-        placed.crs = wanted.crs;
-        given = framed_by(given, placed);
+        given = in_crs(given, wanted.crs);
     }
     Grid const own = given.grid();
     Grid const grid = grid_of_raster(given, wanted, what);

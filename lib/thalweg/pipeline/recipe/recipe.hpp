@@ -152,6 +152,7 @@ struct EquilibriumRecipe {
     double uplift_wave_m = 12'000.0;
     std::string erodibility; ///< raster on the grid, or polygons with a field of that name; "" for none
     std::string lakes;       ///< polygons, with levels or without; "" for none
+    std::string like;        ///< DEM whose mean slope and texture the terrain gets; "" for none
     double lake_share = 0.0; ///< [0, 1] of the reaches with enough water, that run through a lake
 };
 
@@ -261,6 +262,7 @@ struct OutputRecipe {
     io::Schema schema = io::Schema::native;             ///< another one: a network file more, in its words
     HeightUnit units = HeightUnit::metre;               ///< of heights in dem.tif, networks, contours and TINs
     std::optional<std::vector<OutputFiles>> files = {}; ///< in the order of the enumeration; nothing: all
+    std::string against;                                ///< DEM that the terrain is compared with; "" for none
 
     /// \return whether files are written where the recipe makes them
     bool has(OutputFiles wanted) const;

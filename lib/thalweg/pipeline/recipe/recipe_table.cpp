@@ -476,6 +476,10 @@ std::span<Row const> recipe_rows() {
         key("surface.lake_share", number, "", {0, 1}, "by_equilibrium",
             "share of the reaches with enough water that run through a lake",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.lake_share; }),
+        key("surface.like", file, "", {}, "by_equilibrium",
+            "DEM of any place whose mean slope and texture, at the grid's cell size, the terrain gets; mean_slope, "
+            "relief and a roughness other than its default come before it",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.like; }),
         key("surface.drain", word, "",
             {{"auto", std::nullopt},
              {"carve", flow::Conditioning::carve},
@@ -622,7 +626,11 @@ std::span<Row const> recipe_rows() {
         key("output.files", words, "",
             {"dem", "network", "contours", "catchments", "areas", "tin", "pictures", "page", "qgis"}, "",
             "files to write beside recipe.toml and report.json; left out: all that the recipe makes",
-            [](Recipe& r, Item) -> Field { return &r.output.files; }, {.standard = "all"})};
+            [](Recipe& r, Item) -> Field { return &r.output.files; }, {.standard = "all"}),
+        key("output.against", file, "", {}, "[network] and [surface]",
+            "DEM that the terrain is compared with in report.json and report.html, beside simpler terrains around the "
+            "same rivers; it decides nothing of the terrain",
+            [](Recipe& r, Item) -> Field { return &r.output.against; })};
     return rows;
 }
 

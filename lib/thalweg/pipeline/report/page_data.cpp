@@ -12,9 +12,12 @@
 #include <nlohmann/json.hpp>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/draw/comparison.hpp>
 #include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/internal/report.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -445,6 +448,53 @@ ordered_json shown(std::vector<Finding> const& findings, Grid const& grid) {
     return {{"count", findings.size()}, {"shown", list}};
 }
 
+/// The comparison with a DEM, with a map of differences.
+ordered_json against_on_page(Against const& against, Terrain const& terrain) {
+    constexpr int width_px = 900;
+    auto const shape = [](std::string const& name, ReliefShape const& of) {
+        ordered_json points = ordered_json::array();
+        for (measure::HypsometricPoint const& point : of.hypsometry) {
+            points.push_back({point.share_above, to_millimetres(point.z)});
+        }
+        return std::pair{ordered_json{{"name", name}, {"shares_of_2_deg", of.slopes}},
+                         ordered_json{{"name", name}, {"points", points}}};
+    };
+    ordered_json rows = ordered_json::array();
+    auto const [slopes_of_dem, heights_of_dem] = shape("DEM", against.real);
+    ordered_json slopes = ordered_json::array({slopes_of_dem});
+    ordered_json hypsometry = ordered_json::array({heights_of_dem});
+    for (TerrainAgainst const& one : against.terrains) {
+        ordered_json row{{"key", one.key}, {"name", one.name}};
+        row.update(ordered_json::parse(figures_against(one)));
+        rows.push_back(std::move(row));
+        auto const [slopes_here, heights_here] = shape(one.name, one.shape);
+        slopes.push_back(slopes_here);
+        hypsometry.push_back(heights_here);
+    }
+    draw::Picture const picture = differences_against(against, terrain, width_px);
+    std::string const& bytes = picture.bytes;
+    std::string const image = io::base64({reinterpret_cast<std::uint8_t const*>(bytes.data()), bytes.size()});
+    Grid const& grid = against.difference.grid();
+    return {{"dem", against.dem},
+            {"cells", against.cells},
+            {"rows", rows},
+            {"real",
+             {{"mean_slope_deg", against.real.mean_slope_deg},
+              {"hypsometric_integral", against.real.hypsometric_integral}}},
+            {"slopes", slopes},
+            {"hypsometry", hypsometry},
+            {"scatter",
+             {{"low", against.pairs.low_m},
+              {"high", against.pairs.high_m},
+              {"side", against.pairs.side},
+              {"counts", against.pairs.counts}}},
+            {"difference",
+             {{"limit_m", draw::limit_of_differences(against.difference)},
+              {"width", grid.width},
+              {"height", grid.height},
+              {"image", "data:image/png;base64," + image}}}};
+}
+
 ordered_json timings_array(Made const& t) {
     ordered_json out = ordered_json::array();
     for (StageTime const& time : timings_of(t)) {
@@ -504,35 +554,37 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
     if (t.recipe.network || !t.terrain.rivers.network.planform.arcs().empty()) {
         add_rivers(t, stems, figures);
     }
-    ordered_json const data{{"version", version()},
-                            {"title", title_of(t.recipe)},
-                            {"seed", t.recipe.seed},
-                            {"command", params.command},
-                            {"recipe", params.recipe},
-                            {"grid", grid_object(t.terrain.grid)},
-                            {"heights", heights_object(heights)},
-                            {"contour_m", params.contour_interval_m},
-                            {"rivers",
-                             {{"step", lines.step},
-                              {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
-                              {"arcs", arcs_object(t, lines)}}},
-                            {"ridges", ridges_object(t, lines)},
-                            {"sea", sea_object(params.sea)},
-                            {"lakes", params.lakes.cells() > 0},
-                            {"summits", summits_array(params.summits, t.terrain.grid)},
-                            {"profiles", profiles_array(stems, t.terrain.grid)},
-                            {"curve", curve_object(t)},
-                            {"hypsometry", hypsometry_object(t)},
-                            {"laws", ordered_json::parse(page_laws(t.assessment.laws))},
-                            {"relief", t.assessment.relief ? ordered_json::parse(relief_json(*t.assessment.relief))
-                                                           : ordered_json(nullptr)},
-                            {"statistics", figures.take()},
-                            {"given", given_array(t.assessment.given, t.assessment.given_areas)},
-                            {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
-                            {"timings", timings_array(t)},
-                            {"repairs", shown(repairs_of(t), t.terrain.grid)},
-                            {"findings", shown(t.assessment.findings, t.terrain.grid)},
-                            {"notes", notes_array(t, heights, params.notes)}};
+    ordered_json const data{
+        {"version", version()},
+        {"title", title_of(t.recipe)},
+        {"seed", t.recipe.seed},
+        {"command", params.command},
+        {"recipe", params.recipe},
+        {"grid", grid_object(t.terrain.grid)},
+        {"heights", heights_object(heights)},
+        {"contour_m", params.contour_interval_m},
+        {"rivers",
+         {{"step", lines.step},
+          {"prune", t.recipe.network ? t.recipe.network->prune_cells.value_or(0.0) : 0.0},
+          {"arcs", arcs_object(t, lines)}}},
+        {"ridges", ridges_object(t, lines)},
+        {"sea", sea_object(params.sea)},
+        {"lakes", params.lakes.cells() > 0},
+        {"summits", summits_array(params.summits, t.terrain.grid)},
+        {"profiles", profiles_array(stems, t.terrain.grid)},
+        {"curve", curve_object(t)},
+        {"hypsometry", hypsometry_object(t)},
+        {"laws", ordered_json::parse(page_laws(t.assessment.laws))},
+        {"relief",
+         t.assessment.relief ? ordered_json::parse(relief_json(*t.assessment.relief)) : ordered_json(nullptr)},
+        {"against", t.assessment.against ? against_on_page(*t.assessment.against, t.terrain) : ordered_json(nullptr)},
+        {"statistics", figures.take()},
+        {"given", given_array(t.assessment.given, t.assessment.given_areas)},
+        {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
+        {"timings", timings_array(t)},
+        {"repairs", shown(repairs_of(t), t.terrain.grid)},
+        {"findings", shown(t.assessment.findings, t.terrain.grid)},
+        {"notes", notes_array(t, heights, params.notes)}};
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

@@ -348,6 +348,18 @@ void add_drainage(Made const& t, ordered_json& report) {
     }
 }
 
+ordered_json against_object(Against const& against) {
+    ordered_json terrains;
+    for (TerrainAgainst const& terrain : against.terrains) {
+        terrains[terrain.key] = ordered_json::parse(figures_against(terrain));
+    }
+    return {{"dem", against.dem},
+            {"cells", against.cells},
+            {"mean_slope_deg", against.real.mean_slope_deg},
+            {"hypsometric_integral", against.real.hypsometric_integral},
+            {"terrains", terrains}};
+}
+
 void add_lines(Made const& t, ordered_json& report) {
     if (t.terrain.tin) {
         report["tin"] = {{"vertices", t.terrain.tin->vertices.size()}, {"triangles", t.terrain.tin->triangles.size()}};
@@ -376,6 +388,13 @@ void add_statistics(Made const& t, ordered_json& report) {
                                  {"side_valleys_left_out", t.terrain.side_valleys.left_out},
                                  {"in_region", e.in_region},
                                  {"inflows", ordered_json::parse(inflows_json(t.terrain.grid, e.inflows))}};
+        if (e.like) {
+            report["equilibrium"]["like"] = {{"mean_slope_deg", e.like->mean_slope_deg},
+                                             {"lag_m", e.like->lag_m},
+                                             {"wanted_correlation", e.like->wanted_correlation},
+                                             {"correlation", e.like->correlation},
+                                             {"roughness", e.like->roughness}};
+        }
         if (e.rebuilt) {
             report["equilibrium"]["rebuilt"] = {{"river_spacing_m", e.rebuilt->river_spacing_m},
                                                 {"river_concavity", e.rebuilt->river_concavity},
@@ -415,11 +434,29 @@ std::string write_report(Made const& t, std::vector<std::string> const& files, T
     add_drainage(t, report);
     add_lines(t, report);
     add_statistics(t, report);
+    if (t.assessment.against) {
+        report["against"] = against_object(*t.assessment.against);
+    }
     report["checks"] = checks_array(t.assessment.checks);
     report["findings"] = findings_array(t.assessment.findings);
     report["repairs"] = findings_array(repairs_of(t));
     report["files"] = files;
     return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+std::string figures_against(TerrainAgainst const& terrain) {
+    measure::Likeness const& like = terrain.like;
+    ordered_json const figures{{"correlation", like.correlation},
+                               {"correlation_above_river", like.correlation_above_river},
+                               {"rmse_m", like.rmse_m},
+                               {"bias_m", like.bias_m},
+                               {"same_reach", like.same_reach},
+                               {"divides_found", like.divides_found},
+                               {"divides_right", like.divides_right},
+                               {"slopes_difference", like.slopes_difference},
+                               {"mean_slope_deg", terrain.shape.mean_slope_deg},
+                               {"hypsometric_integral", terrain.shape.hypsometric_integral}};
+    return figures.dump();
 }
 
 std::string checks_json(std::vector<Check> const& checks) {

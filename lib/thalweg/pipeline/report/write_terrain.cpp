@@ -14,6 +14,7 @@
 #include <thalweg/core/run/beside.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/draw/comparison.hpp>
 #include <thalweg/draw/diagrams.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/sections.hpp>
@@ -33,6 +34,7 @@
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
+#include <thalweg/pipeline/report/internal/report.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
@@ -162,6 +164,15 @@ void write_dem(Made const& t, io::OutputFolder const& out, Run const& run) {
     io::write_dem(unit == HeightUnit::metre ? dem : in_unit(dem, unit), out.path("dem.tif"), unit, run);
 }
 
+/// The hillshade of the DEM that a terrain is compared with: the terrain minus the difference.
+Raster<std::uint8_t> shade_of_dem(Against const& against, Raster<float> const& dem) {
+    Raster<float> real(dem.grid());
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        real[i] = dem[i] - against.difference[i];
+    }
+    return io::hillshade(real);
+}
+
 ElevatedNetwork const* network_of(Made const& t) {
     return t.recipe.network ? &t.terrain.rivers.network : nullptr;
 }
@@ -285,6 +296,10 @@ public:
         if (made_.assessment.catchments && writes(OutputFiles::catchments)) {
             add("write_catchments", [this](Run const& run) { write_catchments(made_, out_, run); });
         }
+        if (made_.assessment.against && writes(OutputFiles::pictures)) {
+            add_picture("write_against", "against.png",
+                        [this] { return comparison_against(*made_.assessment.against, made_.terrain, title_); });
+        }
         if (made_.assessment.water_areas && writes(OutputFiles::areas)) {
             add("write_areas", [this](Run const& run) { write_areas(*made_.assessment.water_areas, out_, run); });
         }
@@ -354,6 +369,23 @@ private:
 };
 
 } // namespace
+
+draw::Picture differences_against(Against const& against, Terrain const& terrain, int width_px) {
+    Raster<std::uint8_t> const shade = io::hillshade(terrain.surface->dem);
+    draw::ComparisonParams params;
+    params.width_px = width_px;
+    return draw::differences({shade, shade, against.difference, against.divides_of_dem, against.divides}, params);
+}
+
+draw::Picture comparison_against(Against const& against, Terrain const& terrain, std::string const& title) {
+    Raster<float> const& dem = terrain.surface->dem;
+    draw::ComparisonParams params;
+    params.title = title;
+    params.dem = against.dem;
+    return draw::comparison(
+        {shade_of_dem(against, dem), io::hillshade(dem), against.difference, against.divides_of_dem, against.divides},
+        params);
+}
 
 void write_rivers(Made const& made, std::string const& path, Run const& run) {
     refuse_if<BadInput>(!made.recipe.network,

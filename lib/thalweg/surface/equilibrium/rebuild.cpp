@@ -128,6 +128,9 @@ public:
         levels_ = level_inputs(land_, {}, rivers.grid, params.seed);
     }
 
+    /// Mean slope of the smooth terrain that was wanted last.
+    double smooth_deg() const { return target_deg_; }
+
     /// The finest level.
     TerrainLevel solve() {
         double const spacing_km = spacing_ * grid_.cell_m * 1e-3;
@@ -188,11 +191,22 @@ private:
         }
     }
 
-    /// Height of the river cell nearest to each cell.
+    /// The rivers, and the sea where it is, that land rises from.
+    NearestRiver nearest_base(TerrainLevel const& level) const {
+        std::vector<std::uint32_t> base(level.rivers.cell.begin(), level.rivers.cell.end());
+        for (std::size_t i = 0; has_sea(params_.edge) && i < level.type.size(); ++i) {
+            if (level.type[i] == CellType::sea) {
+                base.push_back(static_cast<std::uint32_t>(i));
+            }
+        }
+        return straight_to(level, base, run_);
+    }
+
+    /// Height of the river cell nearest to each cell; 0 at the sea.
     static Cells<float> valley_heights(TerrainLevel const& level, NearestRiver const& near) {
-        Cells<float> heights(level.z.size(), 0.0F);
+        Cells<float> heights(near.number.size(), 0.0F);
         for (std::size_t i = 0; i < heights.size(); ++i) {
-            if (near.number[i] != NearestRiver::none) {
+            if (near.number[i] < level.rivers.asked.size()) {
                 heights[i] = level.rivers.asked[near.number[i]];
             }
         }
@@ -220,20 +234,32 @@ private:
         }
     }
 
-    /// Raises land beside perched rivers. Returns their share of river cells.
-    double raise_below_rivers(TerrainLevel& level, Cells<float>& uplift, Cells<float>& boost) const {
+    /// Share of the land that lies lower than the river nearest to it.
+    double sunken_share(TerrainLevel const& level, Cells<float> const& valleys) const {
+        float const tolerance = 0.05F * gentleness_ * level.side;
+        std::int64_t land = 0;
+        std::int64_t sunken = 0;
+        for (std::size_t i = 0; i < level.z.size(); ++i) {
+            if (is_land(level.type[i])) {
+                ++land;
+                sunken += level.z[i] < valleys[i] - tolerance ? 1 : 0;
+            }
+        }
+        return land > 0 ? static_cast<double>(sunken) / static_cast<double>(land) : 0.0;
+    }
+
+    /// Raises land beside perched rivers.
+    void raise_below_rivers(TerrainLevel& level, Cells<float>& uplift, Cells<float>& boost) const {
         WallParams walls;
         walls.tolerance *= gentleness_;
         walls.least_height *= gentleness_;
         walls.reach = static_cast<float>(std::min(90.0 / grid_.cell_m, 0.2 * spacing_)) / level.side;
-        LandBelowRivers found = land_below_rivers(level, walls, run_);
-        for (std::size_t i = 0; i < found.lack.size(); ++i) {
-            float const more = std::min(found.lack[i], most_boost - boost[i]);
-            found.lack[i] = more;
-            boost[i] += more;
+        Cells<float> lack = land_below_rivers(level, walls, run_);
+        for (std::size_t i = 0; i < lack.size(); ++i) {
+            lack[i] = std::min(lack[i], most_boost - boost[i]);
+            boost[i] += lack[i];
         }
-        lift(level, uplift, found.lack);
-        return static_cast<double>(found.count) / static_cast<double>(level.rivers.cell.size());
+        lift(level, uplift, lack);
     }
 
     void scale_uplift(TerrainLevel& level, Cells<float> const& uplift) const {
@@ -250,20 +276,22 @@ private:
     int rounds_of(std::size_t number) const {
         constexpr int fine = 6;
         constexpr int coarse = 30;
-        auto const all = static_cast<int>(std::max<std::size_t>(1, levels_.size() - 1));
-        return fine + (coarse - fine) * static_cast<int>(number) / all;
+        auto const all = static_cast<int>(levels_.size()) - 1;
+        return all > 0 ? fine + (coarse - fine) * static_cast<int>(number) / all : coarse;
     }
 
     void smooth(LandLaw const& law) {
+        constexpr double most_sunken = 0.1; // real land: .03 or less
+        constexpr double most_deg = 40.0;
         TerrainLevel coarser;
         Cells<float> coarse_boost;
         for (std::size_t number = levels_.size(); number-- > 0;) {
             TerrainLevel level = empty_level(number, 0.0);
             bool const first = coarser.z.empty();
+            NearestRiver const near = nearest_base(level);
+            Cells<float> const valleys = valley_heights(level, near);
             if (first) {
-                NearestRiver const near = straight_to(level, level.rivers.cell, run_);
                 level.z.assign(static_cast<std::size_t>(level.cells()), 0.0F);
-                Cells<float> const valleys = valley_heights(level, near);
                 for (std::size_t i = 0; i < level.z.size(); ++i) {
                     float const far = std::isinf(near.distance[i]) ? 0.0F : near.distance[i] * level.side;
                     level.z[i] = valleys[i] + 0.8F * static_cast<float>(factor_) * far;
@@ -289,9 +317,10 @@ private:
                 scale_uplift(level, uplift);
                 relax_terrain(level, law, {}, steps, run_);
                 if (round % 2 == 1) {
-                    double const walled = raise_below_rivers(level, uplift, boost);
-                    if (round >= rounds / 2 && number > 0 && walled > 0.25) {
-                        target_deg_ = std::min(40.0, 1.08 * target_deg_);
+                    raise_below_rivers(level, uplift, boost);
+                    if (sunken_share(level, valleys) > most_sunken) {
+                        double const more = std::max(1.08 * target_deg_, mean_slope_deg(level, run_));
+                        target_deg_ = std::min(std::max(most_deg, target_deg_), more);
                     }
                 }
                 if (round >= 2 || first) {
@@ -457,10 +486,15 @@ private:
     std::array<SmoothLevel, textured_levels> smooth_;
 };
 
+struct BetweenRivers {
+    EquilibriumTerrain terrain;
+    double smooth_deg = 0.0; ///< as wanted, or more where rivers would stand above the land
+};
+
 /// The terrain around rivers with heights everywhere.
 /// \param smooth_deg mean slope of smooth terrain
-EquilibriumTerrain terrain_between(Channels const& rivers, EquilibriumFields const& fields, RebuildParams const& params,
-                                   RiverSurvey const& survey, double smooth_deg, Run const& run) {
+BetweenRivers terrain_between(Channels const& rivers, EquilibriumFields const& fields, RebuildParams const& params,
+                              RiverSurvey const& survey, double smooth_deg, Run const& run) {
     double base_m = 0.0; // of the sea
     if (!has_sea(params.edge)) {
         base_m = static_cast<double>(*std::min_element(rivers.z.begin(), rivers.z.end()));
@@ -472,9 +506,12 @@ EquilibriumTerrain terrain_between(Channels const& rivers, EquilibriumFields con
             z = static_cast<float>((static_cast<double>(z) - base_m) / cell_m);
         }
     }
-    TerrainLevel level = Rebuilder(drawn, fields, params, survey, smooth_deg, run).solve();
-    HeightConversion const raise{cell_m, base_m, tangent_of(params.mean_slope_deg.value_or(smooth_deg / of_smooth))};
-    return extract_rebuilt(std::move(level), rivers, {rivers.grid, fields.land, 0}, raise, run);
+    Rebuilder rebuilder(drawn, fields, params, survey, smooth_deg, run);
+    TerrainLevel level = rebuilder.solve();
+    HeightConversion const raise{cell_m, base_m,
+                                 tangent_of(params.mean_slope_deg.value_or(rebuilder.smooth_deg() / of_smooth))};
+    return {extract_rebuilt(std::move(level), rivers, {rivers.grid, fields.land, 0}, raise, run),
+            rebuilder.smooth_deg()};
 }
 
 /// What the mean slope of smooth terrain has to be multiplied by to have the mean slope or relief asked for.
@@ -516,18 +553,18 @@ RebuiltTerrain rebuild(Channels const& given, EquilibriumFields const& fields, R
     double off = std::numeric_limits<double>::infinity();
     for (int solve = 0; solve < most_solves && off > near_enough; ++solve) {
         double const tried_deg = std::min(steepest_deg, smooth_deg * step);
-        EquilibriumTerrain next = terrain_between(rivers, fields, params, out.survey, tried_deg, run);
-        next.target_share = share_reached(next, params, run);
-        if (std::fabs(next.target_share - 1.0) < off) {
-            off = std::fabs(next.target_share - 1.0);
+        BetweenRivers next = terrain_between(rivers, fields, params, out.survey, tried_deg, run);
+        next.terrain.target_share = share_reached(next.terrain, params, run);
+        if (std::fabs(next.terrain.target_share - 1.0) < off) {
+            off = std::fabs(next.terrain.target_share - 1.0);
             smooth_deg = tried_deg;
-            out.terrain = std::move(next);
+            out.smooth_slope_deg = next.smooth_deg;
+            out.terrain = std::move(next.terrain);
             step = wanted_step(out.terrain, rivers, params);
         } else {
             step = std::sqrt(step);
         }
     }
-    out.smooth_slope_deg = smooth_deg;
     return out;
 }
 

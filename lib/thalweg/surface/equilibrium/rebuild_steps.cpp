@@ -105,11 +105,11 @@ std::optional<std::size_t> lowest_land_beside(TerrainLevel const& level, std::ui
 
 } // namespace
 
-LandBelowRivers land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run) {
+Cells<float> land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run) {
     constexpr float margin = 4.0F; // [tolerance]
     constexpr double rate = 0.5;
     auto const offsets = level.offsets();
-    LandBelowRivers out;
+    Cells<float> out;
     float const tolerance = params.tolerance * level.side;
     for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
         std::uint32_t const cell = level.rivers.cell[n];
@@ -118,9 +118,8 @@ LandBelowRivers land_below_rivers(TerrainLevel const& level, WallParams const& p
         if (!lowest || level.z[*lowest] >= level.z[cell] + tolerance) {
             continue;
         }
-        ++out.count;
-        if (out.lack.empty()) {
-            out.lack.assign(level.z.size(), 0.0F);
+        if (out.empty()) {
+            out.assign(level.z.size(), 0.0F);
         }
         std::size_t end = *lowest;
         while (is_land(level.type[end])) {
@@ -131,23 +130,23 @@ LandBelowRivers land_below_rivers(TerrainLevel const& level, WallParams const& p
         auto const lack =
             static_cast<float>(rate * std::min(1.0, portable::log(static_cast<double>(std::max(wanted / has, 1.0F)))));
         for (std::size_t i = *lowest; is_land(level.type[i]); i = moved(i, offsets[level.direction[i]])) {
-            out.lack[i] = std::max(out.lack[i], lack);
+            out[i] = std::max(out[i], lack);
         }
     }
-    if (out.count == 0) {
+    if (out.empty()) {
         return out;
     }
     auto const reach = std::max<std::int64_t>(1, static_cast<std::int64_t>(params.reach));
     Rows const inner{level.width - 2, level.height - 2, level.width};
-    Cells<float> marks(out.lack.size());
-    std::transform(out.lack.begin(), out.lack.end(), marks.begin(), [](float of) { return of > 0.0F ? 1.0F : 0.0F; });
+    Cells<float> marks(out.size());
+    std::transform(out.begin(), out.end(), marks.begin(), [](float of) { return of > 0.0F ? 1.0F : 0.0F; });
     auto const first = static_cast<std::size_t>(level.width + 1);
-    blur(&out.lack[first], inner, {reach, 2}, run);
+    blur(&out[first], inner, {reach, 2}, run);
     blur(&marks[first], inner, {reach, 2}, run);
     constexpr float some = 1e-6F;
     float const whole = 0.7F * static_cast<float>(2 * reach + 1); // a path across a square
     for (std::size_t i = 0; i < marks.size(); ++i) {
-        out.lack[i] = marks[i] > some ? out.lack[i] / marks[i] * std::min(1.0F, marks[i] * whole) : 0.0F;
+        out[i] = marks[i] > some ? out[i] / marks[i] * std::min(1.0F, marks[i] * whole) : 0.0F;
     }
     return out;
 }

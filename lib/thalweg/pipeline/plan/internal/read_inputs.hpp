@@ -9,6 +9,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -38,6 +39,24 @@ Raster<float> read_field(io::Source const& source, Grid const& grid, std::string
 /// \throws Error as io::read_dem and io::warp_to_grid
 Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
                           std::optional<double> nodata, Run const& run);
+
+/// Measures the DEM of surface.like at a cell size.
+/// \throws BadInput when it has too few cells with slopes
+LikeDem measure_like(Recipe const& recipe, double cell_m, Run const& run);
+
+/// A recipe on the cells of the DEM of output.against, as far as its [grid] leaves them open; rivers are clipped there.
+/// \throws BadInput when the DEM has no CRS and the recipe none either; as io::read_dem
+Recipe on_grid_of_against(Recipe recipe, Run const& run);
+
+/// [m] The DEM of output.against; without cells for "". crs: of a DEM that has none.
+Raster<float> read_against(Recipe const& recipe, std::string const& crs, Run const& run);
+
+/// The DEM of output.against on a grid, and its gaps there.
+struct AgainstOnGrid {
+    Raster<float> dem;
+    Mask land; ///< 0: a gap; without cells: there is none
+};
+AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, Run const& run);
 
 // The lines of a recipe, and settings derived from them.
 

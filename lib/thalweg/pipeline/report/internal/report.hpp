@@ -6,11 +6,22 @@
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
+#include <thalweg/draw/picture.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
+#include <thalweg/pipeline/make/against.hpp>
 
 namespace thalweg::pipeline {
 
+/// Draws the differences of a terrain and the DEM it is compared with.
+draw::Picture differences_against(Against const& against, Terrain const& terrain, int width_px);
+
+/// Draws a terrain beside the DEM it is compared with.
+draw::Picture comparison_against(Against const& against, Terrain const& terrain, std::string const& title);
+
 // Parts of report.json common to other reports.
+
+/// Figures of a terrain beside a DEM as a JSON object.
+std::string figures_against(TerrainAgainst const& terrain);
 
 /// Findings as a JSON array.
 std::string findings_json(std::vector<Finding> const& findings);

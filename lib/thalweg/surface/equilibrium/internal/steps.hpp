@@ -350,12 +350,8 @@ struct WallParams {
     float reach = 3.0F;         ///< [cells of the level] beside a flow path
 };
 /// Along the flow paths from land beside river cells that stand above it: by how much [log] it has to rise, at most a
-/// half; 0 elsewhere. count: such river cells
-struct LandBelowRivers {
-    Cells<float> lack;
-    std::int64_t count = 0;
-};
-LandBelowRivers land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run);
+/// half; 0 elsewhere; empty: nowhere.
+Cells<float> land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run);
 
 /// By cell of a level: number of the link to which it drains; -1: none. link: by channel number
 Cells<std::int32_t> links_of(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run);
