@@ -32,8 +32,7 @@ LEFT_OUT = {"network.lines.path": "the layer RIVERS is that file", "network.line
 FIELDS = ("network.lines.type_field", "network.lines.rank_field", "network.lines.id_field", "network.lines.down_field")
 TEXT_FILES = ("skeleton.points",)  # that QGIS does not open as a layer without being told how
 LARGEST = 2**31 - 1  # whole number of QGIS
-# QGIS keeps one help a name.
-DEM_TEXT = "As an input: take this DEM as the terrain, cell by cell. As an output: the heights of the terrain."
+HEIGHTS_TEXT = "The heights of the terrain."
 COUNTS = {"two numbers": 2, "three numbers": 3, "four numbers": 4}
 SOURCES = ("RIVERS", "DEM", "RECIPE")
 WITHOUT_INPUT_CELL = 30.0  # [m] of a recipe without CELL
@@ -114,8 +113,9 @@ class Make(Algorithm):
             "rivers. A DEM is taken as the terrain, cell by cell. The recipe in the folder holds everything that decides the "
             "result: the same recipe gives the same bytes on any machine. The folder is written completely or not at all.\n"
             "Each advanced parameter is a key of the recipe; one that is left empty keeps its value.")
-    TAGS = ("terrain", "dem", "rivers", "synthetic", "landscape evolution", "catchments", "contours", "recipe", "dla",
-            "tokunaga")
+    TAGS: tuple[str, ...] = ("terrain", "dem", "rivers", "synthetic", "landscape evolution", "catchments", "contours", "recipe",
+                             "dla", "tokunaga")
+    FILES = {"PROJECT": "project.qgz", "REPORT": "report.html"}  # outputs that are no layers
 
     def __init__(self) -> None:
         super().__init__()
@@ -123,27 +123,24 @@ class Make(Algorithm):
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         try:
-            self.keys = program.find().keys
+            self.keys = tuple(key for key in program.find().keys if self.takes(key))
         except program.ProgramError:  # canExecute() tells
             self.keys = ()
         by_name = {key["key"]: key for key in self.keys}
-        self.add(QgsProcessingParameterFeatureSource("RIVERS", "Rivers", [QgsProcessing.TypeVectorLine], optional=True),
-                 "Lines of rivers. Without rivers, DEM or recipe, thalweg grows a valley on 1024x1024 cells.")
-        self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True), DEM_TEXT)
-        self.add(QgsProcessingParameterFile("RECIPE", "Recipe", extension="toml", optional=True), "A recipe of thalweg (TOML).")
+        self.add_sources()
         for name, label in (("seed", "Random seed"), ("grid.cell", "Cell size [m]")):
             if name in by_name:
                 self.add(parameter_of(by_name[name], label), help_of(by_name[name]))
         self.add(QgsProcessingParameterExtent("EXTENT", "Extent of the grid", optional=True),
                  "The grid covers this extent, in whole cells. Its CRS is that of the terrain, else that of the rivers or the "
-                 "DEM, else the extent's own. Default: that of the rivers and a margin of 5 %.")
+                 "DEM, else the extent's own. Default: that of the DEM, or of the rivers and a margin of 5 %.")
         self.add(QgsProcessingParameterCrs("CRS", "CRS of the terrain", optional=True),
                  "A projected CRS in metres. Default: that of the rivers or the DEM, or its UTM zone.")
         for name, label in (("output.units", "Unit of heights"), ("output.title", "Title")):
             if name in by_name:
                 self.add(parameter_of(by_name[name], label), help_of(by_name[name]))
         for key in self.keys:
-            if key["key"] not in PLAIN and key["key"] not in LEFT_OUT:
+            if key["key"] not in PLAIN:
                 self.add(parameter_of(key), help_of(key), advanced=True)
         titles = [title for _, _, title, _ in LAYERS.values()]
         self.add(QgsProcessingParameterEnum("LOAD", "Open after running", titles, allowMultiple=True, optional=True,
@@ -156,10 +153,22 @@ class Make(Algorithm):
                 self.give(QgsProcessingOutputVectorLayer(name, title, SHAPES[name]), f"{title}, where the terrain has them.")
             else:
                 self.give((QgsProcessingOutputRasterLayer if kind == "raster" else QgsProcessingOutputMapLayer)(name, title),
-                          DEM_TEXT if kind == "raster" else "The TIN, where the recipe makes one.")
+                          self.said.get(name, HEIGHTS_TEXT) if kind == "raster" else "The TIN, where the recipe makes one.")
         self.give(QgsProcessingOutputFile("PROJECT", "QGIS project"), "A QGIS project with every layer.")
         self.give(QgsProcessingOutputHtml("REPORT", "Report"), "The report, for a browser.")
         self.give(QgsProcessingOutputBoolean("CHECKS_OK", "Every check passed"), "Whether every check of the terrain passed.")
+
+    def takes(self, key: Key) -> bool:
+        """Return whether a key can be set here."""
+        return key["key"] not in LEFT_OUT
+
+    def add_sources(self) -> None:
+        """Declare what the terrain is made from."""
+        self.add(QgsProcessingParameterFeatureSource("RIVERS", "Rivers", [QgsProcessing.TypeVectorLine], optional=True),
+                 "Lines of rivers. Without rivers, DEM or recipe, thalweg grows a valley on 1024x1024 cells.")
+        self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True),  # QGIS keeps one help a name
+                 f"As an input: take this DEM as the terrain, cell by cell. As an output: {HEIGHTS_TEXT.lower()}")
+        self.add(QgsProcessingParameterFile("RECIPE", "Recipe", extension="toml", optional=True), "A recipe of thalweg (TOML).")
 
     def checkParameterValues(self, parameters: dict[str, Any], context: QgsProcessingContext) -> tuple[bool, str]:
         given = [name for name in SOURCES if self.is_set(parameters, name)]
@@ -217,7 +226,7 @@ class Make(Algorithm):
             "DEM": raster_input(self, parameters, "DEM", context)}
         for key in self.keys:
             name = parameter_name(key["key"])
-            if self.parameterDefinition(name) is not None and self.parameterDefinition(name).type() == "layer":
+            if self.parameterDefinition(name).type() == "layer":
                 inputs[name] = map_layer_input(self, parameters, name, context)
         return inputs
 
@@ -230,7 +239,7 @@ class Make(Algorithm):
                 found[key["key"]] = self.grid[key["key"]]
             elif name in files and key["is_file"]:
                 found[key["key"]] = files[name].path
-            elif key["key"] not in LEFT_OUT and self.is_set(parameters, name):
+            elif self.is_set(parameters, name):
                 if key["key"] in FIELDS:
                     word = (self.parameterAsFields(parameters, name, context) or [""])[0]
                 elif key["is_file"]:
@@ -268,7 +277,7 @@ class Make(Algorithm):
             found[name] = os.path.join(self.output, file) + (f"|layername={layer}" if layer else "")
             if number in opened:
                 open_after(context, found[name], title, name, kind, crs)
-        for name, file in (("PROJECT", "project.qgz"), ("REPORT", "report.html")):
+        for name, file in self.FILES.items():
             if os.path.exists(os.path.join(self.output, file)):
                 found[name] = os.path.join(self.output, file)
         return found

@@ -35,7 +35,8 @@ STAGES: dict[str, dict[str, tuple[int, int]]] = {
              "fill": (22, 50),
              "land": (5, 48), "project": (48, 50), "detail": (50, 52), "blend": (50, 54), "carve": (54, 55), "drain": (55, 57),
              "measure": (57, 60), "catchments": (60, 61), "certify": (61, 63), "ridges": (63, 64), "areas": (64, 65),
-             "laws": (65, 66), "relief": (66, 75), "check": (75, 76), "contours": (80, 85), "outline": (90, 92)},
+             "laws": (65, 66), "relief": (66, 75), "check": (75, 76), "compare": (76, 80), "contours": (80, 85),
+             "outline": (90, 92)},
     "check": {"adopt": (0, 30), "check": (30, 80), "read": (80, 90), "write": (90, 100)},
     "convert": {"read": (0, 60), "write": (60, 100)},
     "measure": {"read": (0, 40), "outline": (60, 90)},
@@ -44,6 +45,7 @@ STAGES: dict[str, dict[str, tuple[int, int]]] = {
     "draw": {"read": (0, 10), "adopt": (10, 15), "check": (15, 30), "map": (30, 50), "contours": (50, 55), "profile": (55, 65),
              "wireframe": (65, 90)},
 }
+STAGES["rebuild"] = STAGES["make"]
 
 
 class ProgramError(Exception):
@@ -109,8 +111,8 @@ def _said(path: str, *arguments: str) -> str:
 
 
 def _asked(path: str) -> Program:
-    if "--progress" not in _said(path, "make", "--help"):
-        raise ProgramError(f"{path} is older than this plugin needs: it has no option --progress. Install a newer thalweg, or "
+    if not re.search(r"(?m)^ +rebuild ", _said(path, "--help")):
+        raise ProgramError(f"{path} is older than this plugin needs: it has no command rebuild. Install a newer thalweg, or "
                            f"name another program in {WHERE}.")
     try:
         keys = tuple(json.loads(_said(path, "recipe", "--json"))["keys"])

@@ -16,6 +16,7 @@ from .convert import Convert
 from .draw import Draw
 from .make import Make
 from .measure import Measure
+from .rebuild import Rebuild
 from .tin import Tin
 
 ICON = os.path.join(os.path.dirname(__file__), "icon.svg")
@@ -61,7 +62,7 @@ class Provider(QgsProcessingProvider):
         ProcessingConfig.settingIcons.pop(self.name(), None)
 
     def loadAlgorithms(self) -> None:
-        for algorithm in (Make, Check, Convert, Measure, Tin, Blend, Draw):
+        for algorithm in (Make, Rebuild, Check, Convert, Measure, Tin, Blend, Draw):
             self.addAlgorithm(algorithm())
 
     def supportsNonFileBasedOutput(self) -> bool:

@@ -170,6 +170,7 @@ class Page(Case):
         gdal.Warp(degrees, str(BIGTUJUNGA), dstSRS="EPSG:4326")
         for words, name, parameters in (
                 ("has no CRS", "make", {"RIVERS": layer, "OUTPUT": "x"}),
+                ("has lines without Z", "rebuild", {"RIVERS": str(COAST), "CELL": 300, "OUTPUT": "x"}),
                 ("are geographic", "measure", {"DEM": degrees, "OUTPUT": "x"}),
                 ("2 arcs leave the node", "convert", {"NETWORK": str(COAST), "OUTPUT": "x.gpkg"}),
                 ("CELL: an extent with rivers or a recipe needs the cell size", "make",

@@ -7,14 +7,14 @@ import json
 import pathlib
 import re
 
-from support import COAST, JACKSBORO, PLUGINS, PROGRAM, Case, main, program, start
+from support import COAST, JACKSBORO, PLUGINS, PROGRAM, SMALL, Case, main, program, start
 
 application, plugin = start()
 
 from qgis.core import (QgsApplication, QgsProcessingContext, QgsProcessingParameterNumber,  # noqa: E402
                        QgsProcessingParameterDefinition)
 from processing.gui.AlgorithmDialog import AlgorithmDialog  # noqa: E402
-from thalweg_processing import make, program as runner  # noqa: E402
+from thalweg_processing import make, program as runner, rebuild  # noqa: E402
 
 KEYS = json.loads(program("recipe", "--json").stdout)["keys"]
 SOURCES = {path.stem: path.read_text() for path in pathlib.Path(PLUGINS, "thalweg_processing").glob("*.py")}
@@ -24,12 +24,24 @@ def algorithm(name):
     return QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{name}")
 
 
+def value_of(key):
+    """A value that a key takes, other than its default where it can be."""
+    least, greatest = make.bounds(key)
+    if key["type"] == "integer":
+        return int(greatest) if greatest is not None and greatest < 99 else int((least or 0) + 9)
+    if key["type"] == "number":
+        return ((least or 0) + min(greatest if greatest is not None else 1, (least or 0) + 1)) / 2
+    numbers = {"two numbers": "3, 4.5", "three numbers": "[3,4,5]", "four numbers": "0 0 9 9"}
+    return key["choices"][-1] if key["choices"] else numbers.get(key["type"], "x")
+
+
 class WhatTheProgramTakes(Case):
     def test_every_option_is_one_of_its_command(self):
         shared = ("algorithm", "program")
         for command in runner.STAGES:
             said = program("help", command).stdout
             files = [command, *shared] + (["network_input"] if command in ("check", "convert", "measure") else [])
+            files += ["make"] if command == "rebuild" else []
             options = {found for file in files for found in re.findall(r"(?<![\w-])--[a-z][a-z-]+", SOURCES[file])}
             options -= {"--help", "--version"}
             if command not in ("check", "convert", "measure"):
@@ -113,25 +125,36 @@ class WhatTheProgramTakes(Case):
 
     def test_every_value_is_read_as_it_was_given(self):
         """A dry run takes one value of each key; what it refuses is not how the value is written."""
-        numbers = {"two numbers": "3, 4.5", "three numbers": "[3,4,5]", "four numbers": "0 0 9 9"}
         for key in KEYS:
             if key["key"] in make.LEFT_OUT or key["is_file"] or key["key"] in (*make.FIELDS, "grid.crs"):
                 continue
             instance = algorithm("make")
             instance.grid = {}
-            name = make.parameter_name(key["key"])
-            least, greatest = make.bounds(key)
-            if key["type"] == "integer":
-                value = int(greatest) if greatest is not None and greatest < 99 else int((least or 0) + 9)
-            elif key["type"] == "number":
-                value = ((least or 0) + min(greatest if greatest is not None else 1, (least or 0) + 1)) / 2
-            else:
-                value = key["choices"][-1] if key["choices"] else numbers.get(key["type"], "x")
-            settings = instance.settings({name: value}, QgsProcessingContext(), {})
+            value = value_of(key)
+            settings = instance.settings({make.parameter_name(key["key"]): value}, QgsProcessingContext(), {})
             self.assertEqual(list(settings), [key["key"]])
             done = program("make", "--dry-run", "--set", f"{key['key']}={settings[key['key']]}", "-o", self.folder / "x")
             self.assertNotRegex(done.stderr, "is required|must be one of|unknown key|cannot read the value",
                                 f"{key['key']} {value}")
+
+    def test_rebuild_has_the_keys_of_make_that_are_of_use(self):
+        """A dry run takes one value of each key; a key of no use is refused with the rivers or the method that it needs."""
+        made, instance = self.folder / "made", algorithm("rebuild")
+        self.assertEqual(program("make", *SMALL, "-o", made).returncode, 0)
+        useless = r"it needs (network\.source|source|surface\.method|no \[network\])|do not go together|does not go with"
+        for key in KEYS:
+            if key["key"] in (*make.LEFT_OUT, *rebuild.LEFT_OUT):
+                self.assertIsNone(instance.parameterDefinition(make.parameter_name(key["key"])))
+                continue
+            value = value_of(key)
+            value = make.numbers_of(value, make.COUNTS[key["type"]]) if key["type"] in make.COUNTS else value
+            done = program("rebuild", made, "--dry-run", "--set", f"{key['key']}={value}", "-o", self.folder / "x")
+            if instance.parameterDefinition(make.parameter_name(key["key"])) is not None:
+                self.assertNotRegex(done.stderr, useless, key["key"])
+            elif done.returncode:  # 0: the value is the default
+                self.assertRegex(done.stderr, useless, key["key"])
+        for key in rebuild.LEFT_OUT:
+            self.assertIn(key, [known["key"] for known in KEYS])
 
     def test_help_is_complete(self):
         for command in runner.STAGES:
@@ -162,6 +185,7 @@ class WhatTheProgramTakes(Case):
                 ("make", {"EXTENT": "0,900,0,900 [EPSG:32631]", "GRID_ORIGIN": "1,2", "OUTPUT": "x"},
                  "Give EXTENT or GRID_ORIGIN, not both"),
                 ("make", {"DEM": str(JACKSBORO), "SURFACE_SOURCE": str(JACKSBORO), "OUTPUT": "x"}, "SURFACE_SOURCE"),
+                ("rebuild", {"RIVERS": str(COAST), "EXTENT": "0,1,0,1 [EPSG:32631]", "OUTPUT": "x"}, "CELL: an extent with"),
                 ("tin", {"OUTPUT": "x.2dm"}, "not none"),
                 ("tin", {"DEM": str(JACKSBORO), "BREAKLINES": str(COAST), "OUTPUT": "x.2dm"}, "takes no breaklines")):
             can, why = algorithm(command).checkParameterValues(parameters, context)

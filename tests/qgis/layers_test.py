@@ -9,7 +9,7 @@ import tomllib
 import unittest.mock
 import zipfile
 
-from support import COAST, JACKSBORO, SAMPLES, Case, main, program, start
+from support import COAST, JACKSBORO, SAMPLES, SMALL, Case, main, program, start
 
 application, plugin = start()
 
@@ -297,6 +297,24 @@ class Layers(Case):
         self.assertNotIn("CATCHMENTS", results)
         self.assertEqual(said.shares, sorted(said.shares))
         self.assertGreater(len(said.shares), 5)
+
+    def test_rebuild_takes_layers_as_qgis_shows_them(self):
+        self.assertEqual(program("make", *SMALL, "-o", self.folder / "made").returncode, 0)
+        arcs = QgsVectorLayer(f"{self.folder / 'made/network.gpkg'}|layername=arcs", "rivers", "ogr")
+        arcs.setSubsetString("strahler > 1")
+        dem = QgsRasterLayer(str(self.folder / "made/dem.tif"), "höhen")
+        dem.dataProvider().setUserNoDataValue(1, [QgsRasterRange(-9999, -9999)])
+        said = Said()
+        results = processing.run("thalweg:rebuild", {"RIVERS": arcs, "LIKE": dem, "AGAINST": dem,
+                                                     "OUTPUT": str(self.folder / "out")}, feedback=said)
+        self.assertGreater(results["CORRELATION"], 0.5)
+        self.assertLess(QgsVectorLayer(results["ARCS"], "arcs", "ogr").featureCount(),
+                        QgsVectorLayer(str(self.folder / "made/network.gpkg|layername=arcs"), "arcs", "ogr").featureCount())
+        self.assertEqual((QgsRasterLayer(results["DEM"]).width(), QgsRasterLayer(results["DEM"]).extent()),
+                         (dem.width(), dem.extent()))
+        self.assertEqual({path.name for path in (self.folder / "out/inputs").rglob("*.tif")}, {"höhen.tif", "höhen_2.tif"})
+        self.assertEqual(said.shares, sorted(said.shares))
+        self.assertEqual(self.leftovers(), [])
 
     def test_extent_in_another_crs(self):
         said = Said()

@@ -54,7 +54,7 @@ class Package(Case):
         environment["HOME"] = str(home)
         self.assertEqual(qgis_process("plugins", "enable", "thalweg_processing", environment=environment).returncode, 0)
         listed = json.loads(qgis_process("--json", "list", environment=environment).stdout)
-        self.assertEqual(len(listed["providers"]["thalweg"]["algorithms"]), 7)
+        self.assertEqual(len(listed["providers"]["thalweg"]["algorithms"]), 8)
         done = qgis_process("run", "thalweg:tin", "--", f"DEM={JACKSBORO}", "ERROR=30", f"OUTPUT={self.folder / 'tin.2dm'}",
                             environment=environment)
         self.assertEqual(done.returncode, 0, done.stderr)

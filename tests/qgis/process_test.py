@@ -6,9 +6,9 @@ import json
 import os
 import pathlib
 
-from support import BIGTUJUNGA, COAST, JACKSBORO, Case, main, program, qgis_process, run, same_files, start
+from support import BIGTUJUNGA, COAST, JACKSBORO, SMALL, Case, main, program, qgis_process, run, same_files, start
 
-ALGORITHMS = ("make", "check", "convert", "measure", "tin", "blend", "draw")
+ALGORITHMS = ("make", "rebuild", "check", "convert", "measure", "tin", "blend", "draw")
 
 
 class InTheProcessingExecutable(Case):
@@ -80,6 +80,25 @@ class InTheProcessingExecutable(Case):
         self.assertEqual(json.loads((self.folder / "grown/report.json").read_text())["recipe"]["grid"],
                          {"cell": 30.0, "crs": "EPSG:32632", "height": 233, "origin": [500010.0, 5007000.0], "width": 233})
 
+    def test_rebuild_and_compare(self):
+        made = self.folder / "made"
+        self.assertEqual(program("make", *SMALL, "-o", made).returncode, 0)
+        arcs, dem = made / "network.gpkg", made / "dem.tif"
+        results = run("rebuild", RIVERS=f"{arcs}|layername=arcs", AGAINST=dem, SEED=9, SURFACE_ROUGHNESS=0.3,
+                      OUTPUT=self.folder / "rebuilt")
+        self.assert_made(results)
+        self.assertEqual(program("rebuild", arcs, "--against", dem, "--seed", "9", "--set", "surface.roughness=0.3", "--set",
+                                 "network.lines.layer=arcs", "-o", self.folder / "alone").returncode, 0)
+        same_files(self, self.folder / "rebuilt", self.folder / "alone")
+        self.assert_layers(results, ["ARCS", "NODES", "CATCHMENTS", "CONTOURS"], ["DEM"])
+        self.assertTrue(pathlib.Path(results["PICTURE"]).read_bytes().startswith(b"\x89PNG"))
+        told = json.loads((self.folder / "rebuilt/report.json").read_text())["against"]["terrains"]["terrain"]
+        self.assertEqual({name.removesuffix("_m").removesuffix("_deg").upper(): value for name, value in told.items()},
+                         {name: value for name, value in results.items() if isinstance(value, float)})
+        results = run("rebuild", RIVERS=f"{arcs}|layername=arcs", OUTPUT=self.folder / "rebuilt")
+        self.assert_made(results)
+        self.assertFalse({"PICTURE", "CORRELATION", "RMSE"} & set(results))
+
     def test_check_mends_the_coast(self):
         results = run("check", NETWORK=COAST, FIX=self.folder / "mended.gpkg", FINDINGS=self.folder / "findings.gpkg")
         self.assert_made(results)
@@ -123,6 +142,7 @@ class InTheProcessingExecutable(Case):
                  "STATISTICS_MAX: write three numbers"),
                 ("make", {"RIVERS": COAST, "EXTENT": "0,1,0,1", "OUTPUT": self.folder / "x"}, "CELL: an extent with rivers"),
                 ("make", {"RECIPE": self.folder / "no.toml", "OUTPUT": self.folder / "x"}, "no.toml"),
+                ("rebuild", {"RIVERS": COAST, "CELL": 300, "OUTPUT": self.folder / "x"}, "has lines without Z"),
                 ("tin", {"DEM": JACKSBORO, "LINES": COAST, "OUTPUT": self.folder / "x.2dm"},
                  "Give exactly one of DEM, POINTS, TEXT"),
                 ("measure", {"DEM": JACKSBORO, "WHAT": 3, "OUTPUT": self.folder / "x"}, "catchments need rivers"),

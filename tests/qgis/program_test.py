@@ -57,7 +57,7 @@ class WithSetting(Case):
     def fake(self, script, asked=True):
         """A program that answers as thalweg does to what the plugin asks, and else does as the script says."""
         path = self.folder / "fake"
-        answers = f'case "$*" in "make --help" | "recipe --json" | --version) exec {PROGRAM} "$@" ;; esac\n' if asked else ""
+        answers = f'case "$*" in --help | "recipe --json" | --version) exec {PROGRAM} "$@" ;; esac\n' if asked else ""
         path.write_text(f"#!/bin/sh\n{answers}{script}\n")
         path.chmod(0o755)
         self.use(path)
@@ -114,7 +114,7 @@ class Wrong(WithSetting):
         with self.assertRaisesRegex(QgsProcessingException, words):
             run("make", {"OUTPUT": str(self.folder / "out")}, Said())
         self.assertFalse((self.folder / "out").exists())
-        self.assertEqual(len(QgsApplication.processingRegistry().providerById("thalweg").algorithms()), 7)
+        self.assertEqual(len(QgsApplication.processingRegistry().providerById("thalweg").algorithms()), 8)
 
     def test_not_in_path(self):
         path = os.environ["PATH"]
@@ -136,11 +136,11 @@ class Wrong(WithSetting):
 
     def test_too_old(self):
         self.fake("echo Usage: thalweg make", asked=False)
-        self.refused("older than this plugin needs: it has no option --progress")
+        self.refused("older than this plugin needs: it has no command rebuild")
 
     def test_another_program(self):
         self.use("/bin/false")
-        self.refused("/bin/false make --help: it ended with exit status 1")
+        self.refused("/bin/false --help: it ended with exit status 1")
 
     def test_no_program_at_all(self):
         path = self.folder / "text"

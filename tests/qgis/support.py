@@ -22,7 +22,7 @@ PROGRAM = pathlib.Path(os.environ["THALWEG"]).resolve()
 PLUGINS = os.environ.get("PLUGINS", str(ROOT / "qgis"))
 PROFILE = pathlib.Path(tempfile.mkdtemp(prefix="thalweg qgis ü-"))  # a user's folder may have such a name
 atexit.register(shutil.rmtree, PROFILE, ignore_errors=True)
-SMALL = {"GRID_WIDTH": 128, "GRID_HEIGHT": 128, "NETWORK_FOREST_OUTLET_SPACING": 0}  # a second's work
+SMALL = ("--set=grid.width=128", "--set=grid.height=128", "--set=network.forest.outlet_spacing=0")  # a second's work
 
 for name in ("home", "run", "temp"):
     (PROFILE / name).mkdir(mode=0o700)
