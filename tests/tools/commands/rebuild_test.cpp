@@ -117,7 +117,8 @@ TEST(Rebuild, GapsOfTheDemAreNoLand) {
                    "island.toml -q --only dem,network --set grid.width=200 --set grid.height=160 -o island",
                0);
     json const island = report_of(place / "island");
-    expect_run(place, "rebuild island --against island/dem.tif --only dem,pictures -q -o out", 0);
+    expect_run(place, "rebuild island --against island/dem.tif --only dem,pictures -o out", 0, "gaps",
+               " cells without data in island/dem.tif are no land");
     json const report = report_of(place / "out");
     EXPECT_EQ(report["dem"]["nodata"], island["dem"]["nodata"]);
     EXPECT_EQ(report["recipe"]["surface"]["edge"], "coast"); // rivers end at the gaps near height 0

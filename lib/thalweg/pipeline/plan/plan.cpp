@@ -377,6 +377,9 @@ Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log,
         plan.against = std::move(on.dem);
         bool const rebuilt = in_equilibrium(plan.recipe) && plan.recipe.network->heights == Heights::file;
         plan.land = rebuilt ? std::move(on.land) : Mask{};
+        if (auto const gaps = std::ranges::count(plan.land.values(), 0); gaps > 0) {
+            run.tell("gaps", fmt::format("{} cells without data in {} are no land", gaps, plan.recipe.output.against));
+        }
     }
     Mask const land = raster.cells() > 0 ? with_heights(raster) : plan.land;
     plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid, land) : std::move(lines);

@@ -320,6 +320,16 @@ Grid grid_of_raster(Raster<float> const& dem, GridRecipe const& wanted, std::str
     return grid;
 }
 
+/// A recipe's grid with the frame of this one.
+GridRecipe on_cells_of(Grid const& grid, GridRecipe wanted) {
+    check_memory(grid.width, grid.height);
+    wanted.width = grid.width;
+    wanted.height = grid.height;
+    wanted.cell_m = grid.cell_m;
+    wanted.origin = {grid.west, grid.north};
+    return wanted;
+}
+
 std::string words_for_cells(Grid const& grid) {
     return fmt::format("{}x{} cells of {:.6g} in {:.60}", grid.width, grid.height, grid.cell_m, grid.crs);
 }
@@ -335,11 +345,7 @@ Recipe on_grid_of_against(Recipe recipe, Run const& run) {
     dem = dem.grid().crs.empty() ? in_crs(dem, io::projected_crs(wanted.crs)) : std::move(dem);
     wanted.crs = io::projected_crs(wanted.crs.empty() ? io::metric_crs(dem.grid(), what) : wanted.crs);
     Grid const grid = grid_of_raster(dem, wanted, what);
-    check_memory(grid.width, grid.height);
-    wanted.width = grid.width;
-    wanted.height = grid.height;
-    wanted.cell_m = grid.cell_m;
-    wanted.origin = {grid.west, grid.north};
+    wanted = on_cells_of(grid, std::move(wanted));
     wanted.clip = true;
     return recipe;
 }
@@ -360,11 +366,7 @@ OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     }
     Grid const own = given.grid();
     Grid const grid = grid_of_raster(given, wanted, what);
-    check_memory(grid.width, grid.height);
-    wanted.width = grid.width;
-    wanted.height = grid.height;
-    wanted.cell_m = grid.cell_m;
-    wanted.origin = {grid.west, grid.north};
+    wanted = on_cells_of(grid, std::move(wanted));
     OnRaster settled{std::move(recipe), io::resample(given, grid, what, run)};
     refuse_if<BadInput>(std::ranges::all_of(settled.dem.values(), [](float z) { return std::isnan(z); }),
                         "{} has no height within the grid, which reaches from ({}, {}) to ({}, {}) in {:.60}: leave "
