@@ -19,6 +19,7 @@
 #include <thalweg/pipeline/make/against.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
+#include <thalweg/pipeline/make/features.hpp>
 #include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>

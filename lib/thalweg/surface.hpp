@@ -8,6 +8,7 @@
 #include <thalweg/surface/dilation/increment.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
+#include <thalweg/surface/equilibrium/features.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>

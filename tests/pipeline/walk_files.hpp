@@ -55,6 +55,8 @@ public:
               test::geojson(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
         write("points.csv", points(0.0));
         write("higher.csv", points(200.0));
+        write("crests.geojson", test::geojson(line("[500300,4999300,700],[500900,4999400,650],[501400,4999000,700]") +
+                                              "," + line("[501000,4998700],[501600,4998500]")));
         write("patch_mask.geojson", test::geojson(polygon(square(500800, 4998900, 200))));
         raster("mask.asc", 64, 30, 500000, 4998080, [](int c, int r) { return c + r < 6 ? 0.0 : 1.0; });
         raster("uplift.asc", 100, 60, 498000, 4998000, [](int c, int) { return 1.0 + 0.05 * c; });

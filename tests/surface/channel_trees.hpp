@@ -4,12 +4,14 @@
 
 #include <algorithm>
 #include <cstdint>
+#include <limits>
 #include <vector>
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/surface/equilibrium/equilibrium.hpp>
 
 /// Rivers at random, for whatever is drawn around them.
 namespace channel_trees {
@@ -69,6 +71,36 @@ inline Channels grown(Grid const& grid, std::vector<std::int64_t> const& ends, M
         }
     }
     return rivers;
+}
+
+/// Rivers straight through the grid, southwards.
+inline Channels parallel(Grid const& grid, std::vector<std::int64_t> const& columns) {
+    Channels rivers;
+    rivers.grid = grid;
+    for (std::int64_t const col : columns) {
+        for (std::int64_t row = grid.height - 1; row >= 0; --row) {
+            bool const ends = row == grid.height - 1;
+            rivers.receiver.push_back(ends ? -1 : static_cast<std::int64_t>(rivers.cell.size()) - 1);
+            rivers.cell.push_back(grid.index({col, row}));
+        }
+    }
+    return rivers;
+}
+
+/// Heights and ridges at random, up to one in eight cells.
+inline std::vector<surface::FeatureCell> any_features(Grid const& grid, std::uint64_t seed) {
+    std::vector<surface::FeatureCell> out;
+    std::uint64_t const rare = 8 + random_word(seed, 61, 0) % 200;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        std::uint64_t const word = random_word(seed, 62, static_cast<std::uint64_t>(i));
+        bool const crest = grid.at(i).col == grid.width / 3;
+        if (crest || word % rare == 0) {
+            float const z = word / rare % 3 == 0 ? std::numeric_limits<float>::quiet_NaN()
+                                                 : static_cast<float>(word / rare % 1000) - 300.0F;
+            out.push_back({i, z, crest});
+        }
+    }
+    return out;
 }
 
 } // namespace channel_trees

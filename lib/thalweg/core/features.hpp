@@ -23,7 +23,7 @@ struct FeaturePoints {
 struct RidgeLine {
     std::vector<Vec3> line; ///< [m] at least two vertices, no two in a row at the same place in plan
     std::int64_t left = 0;  ///< label of the stream to the left of the line
-    std::int64_t right = 0; ///< label of the stream to the right; differs from left
+    std::int64_t right = 0; ///< label of the stream to the right; differs from left, unless both are 0: of a file
 };
 
 /// The ridges between streams. Law: no ridge meets a river; ridges meet only at their ends.

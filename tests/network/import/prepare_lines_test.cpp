@@ -289,9 +289,51 @@ TEST(FillHeights, OfHeightsThatMeetTheLowestCounts) {
     }
 }
 
+TEST(FillHeights, HeightsAtSomeVerticesStay) {
+    auto const filled =
+        fill_heights(lines_of({{{0, 0, none}, {50, 0, 100}, {75, 0, none}, {150, 0, 80}, {170, 0, none}},
+                               {{170, 0, none}, {200, 0, none}, {300, 0, 70}},
+                               {{75, 50, none}, {75, 0, none}}}),
+                     0.1);
+    EXPECT_EQ(filled.filled, 3);
+    EXPECT_EQ(filled.partly, 2);
+    EXPECT_EQ(filled.first, 1);
+    EXPECT_EQ(heights(filled.lines, 0), (std::vector<double>{105, 100, 95, 80, 78}));
+    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{78, 78 - 8 * (30.0 / 130), 70}));
+    EXPECT_EQ(heights(filled.lines, 2), (std::vector<double>{100, 95}));
+}
+
+TEST(FillHeights, AnEndThatMeetsAKnownHeightTakesIt) {
+    auto const filled = fill_heights(
+        lines_of({{{0, 0, 100}, {100, 0, 90}}, {{100, 0, none}, {150, 0, none}, {200, 0, 60}, {300, 0, none}}}), 0.1);
+    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{90, 75, 60, 50}));
+}
+
 TEST(FillHeights, ARiverOfItsOwnBeginsAtTheNearestHeight) {
     auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}}, {{90, 200, none}, {90, 100, none}}}), 0.1);
     EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{100, 90}));
+}
+
+TEST(FillHeights, WhatStandsForNoHeightIsNone) {
+    auto const sea = network::without_placeholders(lines_of({{{0, 0, 9}, {1, 0, 4}, {2, 0, 0}}}));
+    EXPECT_EQ(sea.vertices, 0) << "a mouth may lie at 0";
+    EXPECT_EQ(sea.lines.lines[0].vertices[2].z, 0.0);
+    auto const zeros =
+        network::without_placeholders(lines_of({{{0, 0, 9}, {1, 0, 0}, {2, 0, 5}, {3, 0, 0}}, {{9, 9, 0}, {9, 8, 7}}}));
+    EXPECT_TRUE(zeros.zeros);
+    EXPECT_EQ(zeros.vertices, 3);
+    EXPECT_TRUE(std::isnan(zeros.lines.lines[0].vertices[1].z));
+    EXPECT_TRUE(std::isnan(zeros.lines.lines[1].vertices[0].z));
+    auto const no_data = network::without_placeholders(lines_of({{{0, 0, -9999}, {1, 0, 4}, {2, 0, 0}}}));
+    EXPECT_EQ(no_data.vertices, 1);
+    EXPECT_FALSE(no_data.zeros);
+}
+
+TEST(FillHeights, ALineByItself) {
+    EXPECT_EQ(network::with_heights_between({{0, 0, none}, {1, 0, 4}, {2, 0, none}, {4, 0, 10}, {9, 0, none}}),
+              (std::vector<Vec3>{{0, 0, 4}, {1, 0, 4}, {2, 0, 6}, {4, 0, 10}, {9, 0, 10}}));
+    EXPECT_TRUE(std::isnan(network::with_heights_between({{0, 0, none}, {1, 0, none}}).front().z));
+    EXPECT_TRUE(network::with_heights_between({}).empty());
 }
 
 TEST(CutLoops, NothingToCut) {

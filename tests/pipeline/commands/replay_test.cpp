@@ -54,6 +54,8 @@ std::map<std::string, Case> const cases = {
           "[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers.geojson\"\ndem = \"north.asc\"\n[surface]\n",
       "inputs/dem/north.asc"}},
     {"skeleton.points", {grid + "[skeleton]\npoints = \"points.csv\"\n", "inputs/points/points.csv"}},
+    {"skeleton.ridge_lines",
+     {dla + "[skeleton]\nridge_lines = \"crests.geojson\"\n[surface]\n", "inputs/ridge_lines/crests.geojson"}},
     {"surface.source", {"[surface]\nmethod = \"raster\"\nsource = \"hills.asc\"\n", "inputs/source/hills.asc"}},
     {"surface.mask", {dla + "[surface]\nmask = \"mask.asc\"\n", "inputs/mask/mask.asc"}},
     {"surface.uplift", {dla + "[surface]\nuplift = \"uplift.asc\"\n", "inputs/uplift/uplift.asc"}},

@@ -162,6 +162,7 @@ std::map<std::string, Words> const values = {
     {"skeleton.ridge_noise", {"15"}},
     {"skeleton.midpoint_inverse", {"3"}},
     {"skeleton.points", {"higher.csv"}},
+    {"skeleton.ridge_lines", {"crests.geojson"}},
     {"skeleton.scatter", {"40"}},
     {"skeleton.spacing", {"4"}},
     {"surface.relief", {"300"}},

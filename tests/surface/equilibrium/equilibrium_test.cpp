@@ -162,6 +162,9 @@ Scene any_scene() {
         *rc::gen::element(RiverHeights::graded, RiverHeights::graded, RiverHeights::soft, RiverHeights::fixed)
              .as("heights");
     scene.params.heads = *rc::gen::element(Heads::cut, Heads::kept).as("heads");
+    if (*rc::gen::element(false, false, true).as("features")) {
+        scene.fields.features = channel_trees::any_features(grid, seed);
+    }
     if (scene.params.heights != RiverHeights::graded) {
         add_heights(scene.rivers, seed);
     }
@@ -502,6 +505,45 @@ TEST(Equilibrium, ThreadsDoNotMatterSeedsDo) {
     EXPECT_EQ(one, bytes(5));
     scene.params.seed = 8;
     EXPECT_NE(one, bytes(1));
+}
+
+TEST(Equilibrium, ComesNearKnownHeightsAndNoWaterCrossesRidges) {
+    Grid const grid = test::frame(160, 160, 30.0);
+    Scene scene;
+    scene.rivers = channel_trees::grown(grid, {80}, {}, 300, Room::apart, 4);
+    Raster<float> const before = equilibrium(scene.rivers, {}, scene.params).dem;
+    scene.fields.features = {{grid.index({30, 30}), 1.4F * before[{30, 30}]},
+                             {grid.index({120, 60}), 0.8F * before[{120, 60}]},
+                             {grid.index({60, 120}), 1.2F * before[{60, 120}]}};
+    Raster<float> const after = equilibrium(scene.rivers, scene.fields, scene.params).dem;
+    for (surface::FeatureCell const& feature : scene.fields.features) {
+        EXPECT_NEAR(after[feature.cell], feature.z, 0.1F * std::fabs(feature.z - before[feature.cell]));
+    }
+}
+
+TEST(Equilibrium, NoWaterCrossesRidges) {
+    constexpr std::int64_t crest = 40;
+    Scene scene = square(120, Edge::closed);
+    scene.rivers = channel_trees::parallel(scene.rivers.grid, {20, 100});
+    Grid const& grid = scene.rivers.grid;
+    auto const crossing = [&](EquilibriumTerrain const& land) {
+        std::int64_t count = 0;
+        for (std::int64_t i = 0; i < grid.cells(); ++i) {
+            std::int64_t at = i;
+            while (grid.at(at).col != 20 && grid.at(at).col != 100) {
+                at = next(grid, at, land.direction[at]);
+            }
+            count += (grid.at(i).col < crest) != (grid.at(at).col == 20) && grid.at(i).col != crest ? 1 : 0;
+        }
+        return count;
+    };
+    std::int64_t const without = crossing(equilibrium(scene.rivers, {}, scene.params));
+    for (std::int64_t row = 0; row < grid.height; ++row) {
+        scene.fields.features.push_back({grid.index({crest, row}), std::numeric_limits<float>::quiet_NaN(), true});
+    }
+    std::int64_t const with = crossing(equilibrium(scene.rivers, scene.fields, scene.params));
+    EXPECT_GT(without, 1500);
+    EXPECT_LT(with, 150);
 }
 
 TEST(Equilibrium, HasTheReliefAsked) {

@@ -258,6 +258,130 @@ TEST(Rebuild, LakesHaveTheirLevels) {
     }
 }
 
+/// Cells of a DEM higher than all others that are so many cells or fewer away.
+std::vector<surface::FeatureCell> summits(Raster<float> const& dem, std::int64_t apart) {
+    std::vector<surface::FeatureCell> out;
+    Grid const& grid = dem.grid();
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        Cell const c = grid.at(i);
+        bool highest = true;
+        for (std::int64_t row = c.row - apart; row <= c.row + apart; ++row) {
+            for (std::int64_t col = c.col - apart; col <= c.col + apart; ++col) {
+                Cell const other{col, row};
+                highest = highest && (!grid.contains(other) || other == c || dem[other] < dem[c]);
+            }
+        }
+        if (highest) {
+            out.push_back({i, dem[i]});
+        }
+    }
+    return out;
+}
+
+std::vector<double> misses(Raster<float> const& dem, std::vector<surface::FeatureCell> const& asked) {
+    std::vector<double> out;
+    for (surface::FeatureCell const& feature : asked) {
+        out.push_back(std::fabs(static_cast<double>(dem[feature.cell]) - static_cast<double>(feature.z)));
+    }
+    std::ranges::sort(out);
+    return out;
+}
+
+TEST(Rebuild, ARiverMayEndInASink) {
+    Channels rivers = channel_trees::grown(test::frame(80, 60, 30.0), {30 * 80 + 40, 10 * 80 + 8}, {}, 300,
+                                           channel_trees::Room::apart, 3);
+    rivers.z.assign(rivers.cell.size(), 0.0F);
+    for (std::size_t n = 0; n < rivers.cell.size(); ++n) {
+        std::int64_t const r = rivers.receiver[n];
+        rivers.z[n] = r < 0 ? 50.0F : rivers.z[static_cast<std::size_t>(r)] + 2.0F;
+    }
+    RebuiltTerrain const out = rebuild(rivers);
+    expect_lawful(rivers, out);
+    flow::FlowField const drainage = flow::route(out.terrain.dem, std::vector<std::int64_t>{rivers.cell[0]});
+    EXPECT_GT(drainage.area_cells[rivers.cell[0]], 1000) << "the land around drains to it";
+    EXPECT_EQ(out.terrain.dem[rivers.cell[0]], 50.0F);
+}
+
+TEST(Rebuild, GoesThroughKnownHeights) {
+    Land const truth = land(200, 1000, 5);
+    std::vector<surface::FeatureCell> const asked = summits(truth.dem, 4);
+    ASSERT_GT(asked.size(), 30U);
+    RebuiltTerrain const without = rebuild(truth.rivers);
+    RebuiltTerrain const with = rebuild(truth.rivers, {.features = asked});
+    expect_lawful(truth.rivers, with);
+    std::vector<double> const far = misses(without.terrain.dem, asked);
+    std::vector<double> const near = misses(with.terrain.dem, asked);
+    EXPECT_GT(far[far.size() / 2], 20.0);
+    EXPECT_LT(near[near.size() / 2], 0.5);
+    EXPECT_LT(near[near.size() * 9 / 10], 0.1 * far[far.size() * 9 / 10]);
+    std::vector<double> real;
+    std::vector<double> one;
+    std::vector<double> other;
+    for (std::int64_t i = 0; i < truth.dem.cells(); ++i) {
+        real.push_back(static_cast<double>(truth.dem[i]));
+        one.push_back(static_cast<double>(without.terrain.dem[i]));
+        other.push_back(static_cast<double>(with.terrain.dem[i]));
+    }
+    EXPECT_GT(correlation(real, other), correlation(real, one));
+}
+
+TEST(ThroughHeights, HasThemAndChangesNothingElsewhere) {
+    Raster<float> plain(test::frame(60, 40, 10.0), 100.0F);
+    plain[{5, 5}] = unknown;
+    std::vector<std::int64_t> const rivers{plain.grid().index({30, 20})};
+    std::vector<surface::FeatureCell> const asked{{plain.grid().index({5, 5}), 7.0F},
+                                                  {plain.grid().index({40, 20}), 160.0F},
+                                                  {plain.grid().index({30, 20}), 55.0F},
+                                                  {plain.grid().index({24, 20}), unknown, true},
+                                                  {plain.grid().index({24, 28}), 80.0F}};
+    std::vector<surface::FeatureCell> sorted = asked;
+    std::ranges::sort(sorted, {}, &surface::FeatureCell::cell);
+    Raster<float> const dem = surface::through_heights(plain, rivers, sorted);
+    EXPECT_EQ((dem[{40, 20}]), 160.0F);
+    EXPECT_EQ((dem[{24, 28}]), 80.0F);
+    EXPECT_EQ((dem[{30, 20}]), 100.0F) << "rivers keep theirs";
+    EXPECT_TRUE(std::isnan(dem[{5, 5}]));
+    EXPECT_EQ((dem[{51, 20}]), 100.0F) << "ten cells from the river, so ten cells far";
+    EXPECT_GT((dem[{44, 20}]), (dem[{46, 20}]));
+    EXPECT_GT((dem[{46, 20}]), 100.0F);
+    EXPECT_TRUE(std::ranges::equal(surface::through_heights(plain, rivers, {}).values(), plain.values(),
+                                   [](float a, float b) { return a == b || (std::isnan(a) && std::isnan(b)); }));
+    EXPECT_TRUE(has(message_of<BadInput>([&] { surface::through_heights(plain, {}, sorted); }), "no rivers"));
+    EXPECT_TRUE(has(message_of<BadInput>([&] { surface::through_heights(plain, rivers, asked); }), "in order"));
+    EXPECT_TRUE(has(message_of<BadInput>([&] { surface::through_heights(plain, {-1}, sorted); }), "-1"));
+}
+
+TEST(Rebuild, NoWaterCrossesARidge) {
+    constexpr std::int64_t side = 120;
+    Channels rivers = channel_trees::parallel(test::frame(side, side, 30.0), {20, 100});
+    for (std::int64_t const cell : rivers.cell) {
+        rivers.z.push_back(static_cast<float>(3 * (side - rivers.grid.at(cell).row)));
+    }
+    for (std::int64_t const crest : {60, 40, 85}) {
+        surface::EquilibriumFields fields;
+        for (std::int64_t row = 0; row < side; ++row) {
+            fields.features.push_back({rivers.grid.index({crest, row}), unknown, true});
+        }
+        RebuiltTerrain const out = rebuild(rivers, fields);
+        expect_lawful(rivers, out);
+        flow::FlowField const drainage = flow::route(out.terrain.dem);
+        std::int64_t crossing = 0;
+        std::int64_t lower = 0;
+        for (std::int64_t i = 0; i < rivers.grid.cells(); ++i) {
+            std::int64_t at = i;
+            while (rivers.grid.at(at).col != 20 && rivers.grid.at(at).col != 100) {
+                at = drainage.receiver(at);
+            }
+            std::int64_t const col = rivers.grid.at(i).col;
+            crossing += (col < crest && rivers.grid.at(at).col == 100) || (col > crest && rivers.grid.at(at).col == 20);
+            bool const beside = col == crest - 1 || col == crest + 1;
+            lower += beside && out.terrain.dem[i] > out.terrain.dem[rivers.grid.index({crest, rivers.grid.at(i).row})];
+        }
+        EXPECT_LT(crossing, rivers.grid.cells() / 200);
+        EXPECT_LT(lower, side / 5);
+    }
+}
+
 TEST(Rebuild, AnyRiversAreRebuilt) {
     EXPECT_TRUE(rc::check("any rivers are rebuilt", [] {
         auto const width = *rc::gen::inRange<std::int64_t>(1, 60).as("width");
@@ -277,7 +401,9 @@ TEST(Rebuild, AnyRiversAreRebuilt) {
             some.z[n] = random_word(seed, 52, n) % 3 == 0 ? some.z[n] : unknown;
         }
         for (Channels const& one : {rivers, some}) {
-            RebuiltTerrain const out = rebuild(one);
+            surface::EquilibriumFields fields;
+            fields.features = seed % 2 == 0 ? channel_trees::any_features(grid, seed) : fields.features;
+            RebuiltTerrain const out = rebuild(one, fields);
             for (float const z : out.terrain.dem.values()) {
                 RC_ASSERT(std::isfinite(z));
             }

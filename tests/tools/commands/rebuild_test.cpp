@@ -97,6 +97,29 @@ TEST(Rebuild, TheMeanSlopeAndTheTextureMayBeThoseOfADem) {
                0, "has cells of 90 m, the grid of 30 m");
 }
 
+TEST(Rebuild, HeightsAtSomeVerticesStayAndRiversMayEndInASink) {
+    Workplace const place;
+    // The last vertex of the first and both ends of the second lack heights; the third ends inland.
+    test::write(
+        place / "rivers.geojson",
+        test::geojson(test::line("[500300,5003500,190],[500700,5002500],[500900,5001600,130],[500900,5000700]") + "," +
+                      test::line("[502000,5003400],[501500,5002000,160],[500900,5000700]") + "," +
+                      test::line("[500900,5000700],[501000,5000010,80]") + "," +
+                      test::line("[503500,5003000,260],[503300,5001500,210]")));
+    Outcome const run = expect_run(place,
+                                   "rebuild rivers.geojson --set grid.cell=30 --set network.inland=sink "
+                                   "--set surface.mean_slope=15 --only dem,network -o out",
+                                   0, "3 of 4 lines in", "3 of them have some, which stay");
+    json const report = report_of(place / "out");
+    expect_checks_hold(report);
+    EXPECT_LT(report["given"]["heights"]["most_off_m"], 0.5) << report["given"].dump();
+    // Without a slope: rivers of plains are told, and a DEM is asked for.
+    test::write(place / "plain.geojson", test::geojson(test::line("[500300,5003500,12],[500900,5000700,10]") + "," +
+                                                       test::line("[503500,5003500,13],[503300,5000700,10]")));
+    expect_run(place, "rebuild plain.geojson --set grid.cell=30 --only dem,network -o plain", 0, "the land is gentle",
+               "--like DEM");
+}
+
 TEST(Rebuild, RiversWhoseSlopesTellTooLittleStillLieInValleys) {
     Workplace const place;
     expect_run(place, truth + "truth", 0);

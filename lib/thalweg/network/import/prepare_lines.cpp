@@ -281,8 +281,35 @@ CutLine cut_loops(std::vector<Vec3> const& line, double near_m) {
 
 namespace {
 
+bool has_height(Vec3 const& v) {
+    return std::isfinite(v.z);
+}
+
 bool has_heights(RiverLine const& line) {
-    return std::all_of(line.vertices.begin(), line.vertices.end(), [](Vec3 const& v) { return std::isfinite(v.z); });
+    return std::all_of(line.vertices.begin(), line.vertices.end(), has_height);
+}
+
+bool has_some_heights(RiverLine const& line) {
+    return std::any_of(line.vertices.begin(), line.vertices.end(), has_height);
+}
+
+/// Heights of vertices without, linear by length between those with; the ends have heights.
+void interpolate(std::vector<Vec3>& line) {
+    for (std::size_t from = 0; from + 1 < line.size();) {
+        std::size_t to = from + 1;
+        while (!has_height(line[to])) {
+            ++to;
+        }
+        std::vector<double> along{0.0};
+        for (std::size_t i = from + 1; i <= to; ++i) {
+            along.push_back(along.back() + distance(in_plan(line[i - 1]), in_plan(line[i])));
+        }
+        double const rise = line[to].z - line[from].z;
+        for (std::size_t i = from + 1; i < to; ++i) {
+            line[i].z = line[from].z + rise * (along.back() > 0.0 ? along[i - from] / along.back() : 0.0);
+        }
+        from = to;
+    }
 }
 
 /// Lines whose heights are determined one after another.
@@ -291,10 +318,10 @@ public:
     Filling(std::vector<RiverLine>& lines, double slope) : lines_(lines), slope_(slope) {
         double falling = 0.0;
         for (std::size_t i = 0; i < lines.size(); ++i) {
+            auto const& v = lines[i].vertices;
+            learn(v);
             if (has_heights(lines[i])) {
-                auto const& v = lines[i].vertices;
                 falling += v.front().z > v.back().z ? 1.0 : v.front().z < v.back().z ? -1.0 : 0.0;
-                learn(v);
             } else {
                 open_.push_back(i);
             }
@@ -323,34 +350,56 @@ private:
 
     void learn(std::vector<Vec3> const& line) {
         for (Vec3 const& v : line) {
-            auto const [known, is_new] = known_.try_emplace({v.x, v.y}, v.z);
-            known->second = std::min(known->second, v.z);
+            if (has_height(v)) {
+                auto const [known, is_new] = known_.try_emplace({v.x, v.y}, v.z);
+                known->second = std::min(known->second, v.z);
+            }
         }
     }
 
-    std::optional<double> height_at(Vec3 const& v) const {
-        auto const found = known_.find({v.x, v.y});
-        return found == known_.end() ? std::nullopt : std::optional(found->second);
+    /// Gives an end the height of lines that it meets.
+    void meet(Vec3& end) const {
+        auto const found = known_.find({end.x, end.y});
+        end.z = has_height(end) || found == known_.end() ? end.z : found->second;
     }
 
-    /// Fills all lines with this number of known ends.
+    /// [m] by which a line rises from its last vertex to its first.
+    double rise_of(std::vector<Vec3> const& line) const {
+        return slope_ * length_in_plan(line) * (drawn_downstream_ ? 1.0 : -1.0);
+    }
+
+    /// Heights from the known ones of a line, which has some: beyond them by slope.
+    void draw(std::vector<Vec3>& line) const {
+        auto const first = std::find_if(line.begin(), line.end(), has_height);
+        auto const last = std::find_if(line.rbegin(), line.rend(), has_height);
+        double const before = rise_of({line.begin(), first + 1});
+        double const after = rise_of({last.base() - 1, line.end()});
+        double const from = first->z + before;
+        double const to = last->z - after;
+        line.front().z = first == line.begin() ? first->z : from;
+        line.back().z = last == line.rbegin() ? last->z : to;
+        interpolate(line);
+    }
+
+    /// Fills all lines with this number of known ends; with known heights between them as with one.
     bool fill_those_with(int ends) {
         std::vector<std::size_t> now;
         std::vector<std::size_t> later;
         for (std::size_t const i : open_) {
-            auto const& v = lines_[i].vertices;
-            int const known = (height_at(v.front()) ? 1 : 0) + (height_at(v.back()) ? 1 : 0);
-            (known == ends ? now : later).push_back(i);
+            Vec3 first = lines_[i].vertices.front();
+            Vec3 last = lines_[i].vertices.back();
+            meet(first);
+            meet(last);
+            int const known = (has_height(first) ? 1 : 0) + (has_height(last) ? 1 : 0);
+            bool const takes = known == ends || (ends == 1 && known == 0 && has_some_heights(lines_[i]));
+            (takes ? now : later).push_back(i);
         }
-        for (std::size_t const i : now) {
+        for (std::size_t const i : now) { // one after another, as they may meet
             auto& v = lines_[i].vertices;
-            double const rise = slope_ * length_in_plan(v) * (drawn_downstream_ ? 1.0 : -1.0); // from last to first
-            std::optional<double> const first = height_at(v.front());
-            std::optional<double> const last = height_at(v.back());
-            draw(v, first.value_or(last.value_or(0.0) + rise), last.value_or(first.value_or(0.0) - rise));
-        }
-        for (std::size_t const i : now) {
-            learn(lines_[i].vertices);
+            meet(v.front());
+            meet(v.back());
+            draw(v);
+            learn(v);
         }
         open_ = std::move(later);
         return !now.empty();
@@ -358,49 +407,72 @@ private:
 
     void fill_beside_nearest(std::size_t i) {
         auto& v = lines_[i].vertices;
-        double const rise = slope_ * length_in_plan(v);
-        Vec2 const mouth = in_plan(drawn_downstream_ ? v.back() : v.front());
+        Vec3& mouth = drawn_downstream_ ? v.back() : v.front();
         double nearest = std::numeric_limits<double>::infinity();
-        double low = 0.0;
         for (auto const& [place, z] : known_) {
-            double const away = distance(mouth, {place.first, place.second});
+            double const away = distance(in_plan(mouth), {place.first, place.second});
             if (away < nearest) {
                 nearest = away;
-                low = z;
+                mouth.z = z;
             }
         }
-        draw(v, drawn_downstream_ ? low + rise : low, drawn_downstream_ ? low : low + rise);
+        draw(v);
         learn(v);
-    }
-
-    static void draw(std::vector<Vec3>& line, double first, double last) {
-        double const length = length_in_plan(line);
-        double along = 0.0;
-        for (std::size_t i = 0; i < line.size(); ++i) {
-            along += i == 0 ? 0.0 : distance(in_plan(line[i - 1]), in_plan(line[i]));
-            double const share = length > 0.0 ? along / length : 0.0;
-            line[i].z = i + 1 == line.size() ? last : first + (last - first) * share;
-        }
     }
 
     std::vector<RiverLine>& lines_;
     double slope_;
     bool drawn_downstream_ = true;
     std::map<WayPoint, double> known_; ///< the lowest height at each position
-    std::vector<std::size_t> open_;    ///< lines without heights
+    std::vector<std::size_t> open_;    ///< lines without heights, or with some
 };
 
 } // namespace
 
+WithoutPlaceholders without_placeholders(RiverLines lines) {
+    constexpr double no_data_m = -9999.0;
+    constexpr double above_m = 1.0;
+    WithoutPlaceholders out;
+    auto const is_high = [](Vec3 const& v) { return v.z > above_m; };
+    out.zeros = std::ranges::any_of(lines.lines, [&](RiverLine const& line) {
+        auto const first = std::ranges::find_if(line.vertices, is_high);
+        auto const last = std::find_if(line.vertices.rbegin(), line.vertices.rend(), is_high).base();
+        return first < last && std::any_of(first, last, [](Vec3 const& v) { return v.z == 0.0; });
+    });
+    for (RiverLine& line : lines.lines) {
+        for (Vec3& v : line.vertices) {
+            if (v.z <= no_data_m || (out.zeros && v.z == 0.0)) {
+                v.z = std::numeric_limits<double>::quiet_NaN();
+                ++out.vertices;
+            }
+        }
+    }
+    out.lines = std::move(lines);
+    out.lines.has_z = out.lines.has_z && out.vertices == 0;
+    return out;
+}
+
+std::vector<Vec3> with_heights_between(std::vector<Vec3> line) {
+    auto const first = std::find_if(line.begin(), line.end(), has_height);
+    if (first != line.end()) {
+        line.front().z = first->z;
+        line.back().z = std::find_if(line.rbegin(), line.rend(), has_height)->z;
+        interpolate(line);
+    }
+    return line;
+}
+
 FilledHeights fill_heights(RiverLines lines, double slope) {
     refuse_if<BadParameter>(!(slope > 0.0), "network.fill_heights: slope {}; give one above 0", slope);
-    FilledHeights out{std::move(lines), 0, 0};
+    FilledHeights out{std::move(lines)};
     Filling filling(out.lines.lines, slope);
     if (filling.open().empty() || !filling.tells_anything()) {
         return out;
     }
     out.filled = static_cast<std::int64_t>(filling.open().size());
     out.first = out.lines.lines[filling.open().front()].feature;
+    out.partly =
+        std::ranges::count_if(filling.open(), [&](std::size_t i) { return has_some_heights(out.lines.lines[i]); });
     filling.fill();
     out.lines.has_z = true;
     return out;

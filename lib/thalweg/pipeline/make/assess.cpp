@@ -3,6 +3,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
 
 #include <fmt/format.h>
 
@@ -102,7 +105,7 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
             return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(plan, terrain), run);
         });
     }
-    if (has_ridges(plan.recipe)) {
+    if (!terrain.ridges.lines.empty()) {
         found.surface_ridges =
             stage_log.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
         measure::Agreement const& within_a_cell = found.surface_ridges->extracted[1];
@@ -168,6 +171,47 @@ void warn_of_heights(Plan const& plan, GivenHeights const& given, Run const& run
     }
 }
 
+/// Warns of given points and ridges that the terrain does not have, with a finding each.
+void warn_of_features(GivenFeatures const& given, std::vector<Finding>& findings, Run const& run) {
+    constexpr std::size_t listed = 1000;
+    constexpr double most_crossed = 0.05; // of a ridge's cells
+    constexpr double most_at_rivers = 0.5;
+    std::vector<PointOff> missed;
+    std::ranges::copy_if(given.points, std::back_inserter(missed),
+                         [&](PointOff const& p) { return !(std::fabs(p.z_m - p.asked_m) <= given.tolerance_m); });
+    std::ranges::stable_sort(missed, std::greater<>(), [](PointOff const& p) {
+        double const off = std::fabs(p.z_m - p.asked_m);
+        return std::isnan(off) ? std::numeric_limits<double>::infinity() : off;
+    });
+    auto const words = [](PointOff const& p) {
+        return fmt::format("point {} at ({:.1f}, {:.1f}) asks for {:.6g} m, the {} {}", p.number, p.at.x, p.at.y,
+                           p.asked_m, p.in_river ? "river there has" : "terrain has",
+                           std::isnan(p.z_m) ? "no height there" : fmt::format("{:.6g} m", p.z_m));
+    };
+    for (std::size_t i = 0; i < std::min(listed, missed.size()); ++i) {
+        findings.push_back(
+            {"point_missed", missed[i].number, missed[i].at, missed[i].z_m - missed[i].asked_m, words(missed[i])});
+    }
+    if (!missed.empty()) {
+        run.say(fmt::format("warning: {} of the {} points of {} are missed by more than {:g} m. The worst: {}",
+                            missed.size(), given.points.size(), given.points_file, given.tolerance_m,
+                            words(missed.front())));
+    }
+    std::vector<RidgeOff> crossed;
+    std::ranges::copy_if(given.ridges, std::back_inserter(crossed), [](RidgeOff const& r) {
+        auto const cells = static_cast<double>(r.cells);
+        return static_cast<double>(r.crossed) > most_crossed * cells ||
+               static_cast<double>(r.in_rivers) > most_at_rivers * cells;
+    });
+    if (!crossed.empty()) {
+        RidgeOff const& first = crossed.front();
+        run.say(fmt::format("warning: {} of the {} ridges of {} are crossed by water or lie at rivers. The first, "
+                            "feature {}: of {} cells {} lie at rivers, and water crosses {}",
+                            crossed.size(), given.ridges.size(), given.ridges_file, first.feature, first.cells,
+                            first.in_rivers, first.crossed));
+    }
+}
+
 } // namespace
 
 bool Assessment::passed() const {
@@ -197,6 +241,11 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     if (found.given_heights) {
         run.tell("heights", line_of(*found.given_heights));
         warn_of_heights(plan, *found.given_heights, run);
+    }
+    found.given_features = given_features(plan, terrain);
+    if (found.given_features) {
+        run.tell("features", line_of(*found.given_features));
+        warn_of_features(*found.given_features, found.findings, run);
     }
     if (terrain.drainage && found.given) {
         found.given_areas = given_areas(plan, planform, terrain);

@@ -13,6 +13,7 @@
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/against.hpp>
+#include <thalweg/pipeline/make/features.hpp>
 #include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
@@ -44,10 +45,11 @@ struct SurfaceMeasures {
 
 /// What is measured of surface and rivers, and whether they are what the recipe sets.
 struct Assessment : SurfaceMeasures {
-    std::optional<GivenLength> given = {};          ///< where rivers are read from lines
-    std::optional<GivenHeights> given_heights = {}; ///< where the DEM is to have heights of these
-    std::optional<Against> against = {};            ///< where the recipe names a DEM to compare with
-    std::optional<GivenAreas> given_areas = {};     ///< where the lines have areas and the terrain drains
+    std::optional<GivenLength> given = {};            ///< where rivers are read from lines
+    std::optional<GivenHeights> given_heights = {};   ///< where the DEM is to have heights of these
+    std::optional<GivenFeatures> given_features = {}; ///< where the recipe names points or ridges between rivers
+    std::optional<Against> against = {};              ///< where the recipe names a DEM to compare with
+    std::optional<GivenAreas> given_areas = {};       ///< where the lines have areas and the terrain drains
     std::vector<Check> checks = {};
     std::vector<Finding> findings = {}; ///< of the checks
     Timings timings_s = {};

@@ -5,6 +5,7 @@
 
 #include <cmath>
 #include <limits>
+#include <map>
 
 #include <fmt/format.h>
 
@@ -14,6 +15,7 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>
+#include <thalweg/pipeline/make/internal/features.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/made_from.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -25,6 +27,7 @@
 #include <thalweg/skeleton/ridges.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 #include <thalweg/surface/diffusion/diffusion.hpp>
+#include <thalweg/surface/equilibrium/features.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 
 namespace thalweg::pipeline {
@@ -116,11 +119,11 @@ Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley, Run
 /// What a surface is drawn through.
 struct Ground {
     Valley const& valley;
-    RidgeLines const& ridges;
+    RidgeLines const& ridges; ///< midway between streams
     std::optional<Tin> const& tin;
-    FeaturePoints const& points;
-    Mask const& inside; ///< cells that get heights
-    bool whole;         ///< all of them
+    FeaturePoints const& points; ///< given, with those of given ridges
+    Mask const& inside;          ///< cells that get heights
+    bool whole;                  ///< all of them
 };
 
 /// A surface with the heights of valley cells.
@@ -146,6 +149,30 @@ void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams con
                             params.increment, jumps[0].from, jumps[0].to, jumps[0].x,
                             jumps.size() > 1 ? fmt::format(", and {} times more", jumps.size() - 1) : ""));
     }
+}
+
+/// A surface that passes through points between rivers.
+Raster<float> through_points(Raster<float> dem, Ground const& ground, Run const& run) {
+    if (ground.points.points.empty()) {
+        return dem;
+    }
+    Grid const& grid = dem.grid();
+    std::map<std::int64_t, float> highest;
+    for (Vec3 const& p : ground.points.points) {
+        auto const [place, is_new] = highest.try_emplace(grid.index(grid.cell_of(in_plan(p))), static_cast<float>(p.z));
+        place->second = std::max(place->second, static_cast<float>(p.z));
+    }
+    std::vector<surface::FeatureCell> cells;
+    for (auto const& [cell, z] : highest) {
+        cells.push_back({cell, z});
+    }
+    std::vector<std::int64_t> rivers;
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        if (!std::isnan(ground.valley.z[i])) {
+            rivers.push_back(i);
+        }
+    }
+    return surface::through_heights(std::move(dem), rivers, cells, run);
 }
 
 surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run) {
@@ -207,7 +234,12 @@ Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
         }
         return {surface_of(std::move(dem))};
     }
-    return wanted.method == Method::diffuse ? diffused(plan, ground, run) : Filled{dilated(plan, ground, run)};
+    if (wanted.method == Method::diffuse) {
+        return diffused(plan, ground, run);
+    }
+    Filled made{dilated(plan, ground, run)};
+    made.surface.dem = through_points(std::move(made.surface.dem), ground, run);
+    return made;
 }
 
 std::string about(Plan const& plan, Filled const& filled) {
@@ -277,15 +309,18 @@ struct UndrainedTerrain {
     Remarks remarks = {};
 };
 
+RidgeLines joined(RidgeLines some, RidgeLines const& others) {
+    append(some.lines, others.lines);
+    return some;
+}
+
 /// Draws the surface that the plan asks for through the rivers' cells, which keep their heights, and through points; in
 /// equilibrium rivers have their heights from it.
 UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
     Recipe const& recipe = plan.recipe;
     if (!plan.grid) { // else it was checked before the rivers were grown
         check_detail(recipe, planform.grid.width, planform.grid.height);
-        if (recipe.skeleton) {
-            require_on_grid(plan.points, planform.grid, recipe.skeleton->points);
-        }
+        require_skeleton_on_grid(plan, planform.grid);
     }
     bool const balanced = in_equilibrium(recipe);
     EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, stage_log, run) : EquilibriumResult{};
@@ -301,9 +336,13 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
         remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
         own = std::move(found.points);
     }
-    FeaturePoints const& points = own ? *own : plan.points;
+    FeaturePoints points = own ? std::move(*own) : plan.points;
     RidgeLines ridges = ridges_between(plan, rivers, planform.grid, stage_log, run);
-    std::optional<Tin> tin = triangulated(plan, rivers.network, ridges, points, stage_log, run);
+    RidgeLines given = balanced                         ? ridges_on(plan, solved.dem)
+                       : plan.ridge_lines.lines.empty() ? RidgeLines{}
+                                                        : ridges_with_heights(plan, valley, run);
+    std::optional<Tin> tin = triangulated(plan, rivers.network, joined(ridges, given), points, stage_log, run);
+    append(points.points, as_points(given, planform.grid).points);
     bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
     Filled made = balanced ? Filled{surface_of(std::move(solved.dem))}
                            : filled(plan, {valley, ridges, tin, points, inside, whole}, stage_log, run);
@@ -317,7 +356,7 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     return {.rivers = std::move(rivers),
             .valley = std::move(valley),
             .surface = std::move(made.surface),
-            .ridges = std::move(ridges),
+            .ridges = joined(std::move(ridges), given),
             .tin = std::move(tin),
             .channels = std::move(solved.channels),
             .lakes = solved.lakes,

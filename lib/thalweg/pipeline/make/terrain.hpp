@@ -56,6 +56,7 @@ struct LikeStatistics {
 
 /// What rivers with heights of a file told of the terrain, as surface::RebuiltTerrain.
 struct RebuildStatistics {
+    double source_km2 = 0.0; ///< as surface::RiverSurvey
     double river_spacing_m = 0.0;
     double river_concavity = 0.0;
     double smooth_slope_deg = 0.0;
@@ -98,7 +99,7 @@ struct Terrain {
     flow::ContributingAreas areas;                    ///< of their arcs: by the drainage, or by the nearest river
     std::optional<surface::Dilated> surface;          ///< none where the recipe asks for rivers alone
     std::optional<flow::FlowField> drainage;          ///< of the surface
-    RidgeLines ridges;                                ///< between streams, where they are asked for
+    RidgeLines ridges;                                ///< between streams and given, where they are asked for
     std::optional<Tin> tin;                           ///< of rivers and points, where the surface is drawn over one
     Channels channels;                                ///< of rivers with which the surface is in equilibrium
     std::int64_t lakes = 0;                           ///< in them

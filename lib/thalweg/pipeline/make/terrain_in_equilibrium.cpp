@@ -20,6 +20,7 @@
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/pipeline/make/internal/features.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -80,6 +81,7 @@ surface::EquilibriumFields equilibrium_fields(Plan const& plan, Planform const& 
     fields.uplift = with_pattern(read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run),
                                  recipe, grid, run);
     fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
+    fields.features = feature_cells(plan, grid);
     return fields;
 }
 
@@ -353,13 +355,35 @@ surface::RebuildParams rebuild_params_of(EquilibriumRecipe const& wanted, surfac
     return params;
 }
 
+/// Warns where rivers tell little of how steep the land between them is, and nothing else does.
+void warn_of_survey(surface::RiverSurvey const& survey, Run const& run) {
+    constexpr double least_km2 = 0.1;
+    constexpr double least_deg = 5.0;
+    constexpr double of_smooth = 0.8; // mean slope of smooth terrain relative to that of the terrain
+    char const* const remedy = "Give it, with --like DEM or --set surface.mean_slope=";
+    double const slope_deg = survey.mean_slope_deg / of_smooth;
+    if (survey.source_km2 > 0.0 && survey.source_km2 < least_km2) {
+        run.say(fmt::format("warning: half of the rivers begin where less than {:.2g} km² drain: they are rills or "
+                            "gullies, whose slope tells little of the land's, taken for {:.0f} degrees. {}{:.0f}",
+                            survey.source_km2, slope_deg, remedy, 20.0));
+    } else if (slope_deg < least_deg) {
+        run.say(fmt::format("warning: by its rivers the land is gentle, {:.1f} degrees on average; below {:g} degrees "
+                            "they tell little of its slope. {}{:.1f}",
+                            slope_deg, least_deg, remedy, 0.5 * slope_deg));
+    }
+}
+
 Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::EquilibriumFields const& fields,
                        surface::EquilibriumParams params, Run const& run) {
     params.edge = params.edge == surface::Edge::open ? surface::Edge::closed : params.edge;
     surface::RebuiltTerrain rebuilt =
         surface::rebuild(channels, fields, rebuild_params_of(plan.recipe.surface->equilibrium, params), run);
+    if (!params.bring_to_target) {
+        warn_of_survey(rebuilt.survey, run);
+    }
     return {std::move(rebuilt.terrain), params,
-            RebuildStatistics{rebuilt.survey.spacing_m, rebuilt.survey.concavity, rebuilt.smooth_slope_deg}};
+            RebuildStatistics{rebuilt.survey.source_km2, rebuilt.survey.spacing_m, rebuilt.survey.concavity,
+                              rebuilt.smooth_slope_deg}};
 }
 
 /// Correlation of gradients at the distance at which the DEM of surface.like has it.

@@ -404,6 +404,30 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     return points;
 }
 
+/// The points inside the grid, where what lies off it is left out, with a word.
+FeaturePoints inside(FeaturePoints points, Recipe const& recipe, Grid const& grid, Run const& run) {
+    auto const count = points.points.size();
+    std::erase_if(points.points, [&](Vec3 const& p) {
+        return p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north;
+    });
+    if (points.points.size() < count) {
+        run.say(fmt::format("warning: {} of the {} points of {} lie off the grid and are left out",
+                            count - points.points.size(), count, recipe.skeleton->points));
+    }
+    return points;
+}
+
+/// Reads the points and ridges of [skeleton].
+Plan with_skeleton(Plan plan, Run const& run) {
+    plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
+    plan.ridge_lines = read_ridge_lines(plan.recipe, run);
+    if (plan.grid && plan.recipe.grid.clip) {
+        plan.points = inside(std::move(plan.points), plan.recipe, *plan.grid, run);
+        plan.ridge_lines = network::clip_lines(plan.ridge_lines, *plan.grid);
+    }
+    return plan;
+}
+
 /// Plans terrain without rivers.
 Plan plan_points(Recipe recipe, Run const& run) {
     Plan plan;
@@ -448,8 +472,7 @@ Plan with_rivers_settled(Plan plan, Run const& run) {
     rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
     rivers.meander = rivers.meander.value_or(meander_of(plan));
     refuse_unused_keys(plan.recipe); // possible now that the rivers' heights are known
-    plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
-    return plan;
+    return with_skeleton(std::move(plan), run);
 }
 
 /// Resolves settings that depend on the method of the surface.
@@ -488,9 +511,7 @@ void require_fit(Plan const& plan) {
     }
     check_memory(plan.grid->width, plan.grid->height);
     check_detail(plan.recipe, plan.grid->width, plan.grid->height);
-    if (plan.recipe.skeleton) {
-        require_on_grid(plan.points, *plan.grid, plan.recipe.skeleton->points);
-    }
+    require_skeleton_on_grid(plan, *plan.grid);
 }
 
 /// The DEM that is the surface, if there is one, on the grid that it settles.

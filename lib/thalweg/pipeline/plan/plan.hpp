@@ -59,8 +59,9 @@ struct Plan {
     Raster<float> against; ///< of output.against, on the grid where that is known, else as its file has it
     /// 0: a gap of that DEM, where terrain is rebuilt from heights of a file; without cells: there is none
     Mask land;
-    FeaturePoints points; ///< of skeleton.points; their CRS is the grid's, also without points
-    Timings timings_s;    ///< of reading and growing
+    FeaturePoints points;   ///< of skeleton.points; their CRS is the grid's, also without points
+    RiverLines ridge_lines; ///< of skeleton.ridge_lines; a line has heights at all vertices or NaN at all
+    Timings timings_s;      ///< of reading and growing
 };
 
 /// Checks a recipe and its input files and resolves everything that depends on them. Rivers, strokes, regions, outlets,

@@ -260,13 +260,45 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
     }
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
+    network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));
+    if (checked.vertices > 0) {
+        run.say(fmt::format("warning: {} vertices in {} have {} for a height, which is taken for none{}",
+                            checked.vertices, checked.lines.name, checked.zeros ? "0" : "-9999 m or less",
+                            checked.zeros ? ": a line has it between higher ones" : ""));
+    }
+    lines = std::move(checked.lines);
     network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
     if (filled.filled > 0) {
-        run.say(fmt::format("warning: {} of {} lines in {} have no heights, the first is feature {}. They get heights "
-                            "from the lines they meet, with network.slope where they meet only one.",
-                            filled.filled, count, filled.lines.name, filled.first));
+        std::string const partly =
+            filled.partly > 0 ? fmt::format(" {} of them have some, which stay.", filled.partly) : "";
+        run.say(fmt::format("warning: {} of {} lines in {} lack heights, the first is feature {}.{} They get heights "
+                            "from their own vertices and the lines they meet, with network.slope beyond the last one "
+                            "known.",
+                            filled.filled, count, filled.lines.name, filled.first, partly));
     }
     return std::move(filled.lines);
+}
+
+RiverLines read_ridge_lines(Recipe const& recipe, Run const& run) {
+    if (!recipe.skeleton || recipe.skeleton->ridge_lines.empty()) {
+        return {};
+    }
+    RiverLines ridges = io::read_rivers({.path = file_in(recipe, recipe.skeleton->ridge_lines),
+                                         .crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs)},
+                                        run);
+    for (Finding const& finding : ridges.findings) {
+        run.tell("note", finding.text);
+    }
+    bool const all_zero = std::ranges::all_of(ridges.lines, [](RiverLine const& ridge) {
+        return std::ranges::all_of(ridge.vertices, [](Vec3 const& v) { return !std::isfinite(v.z) || v.z == 0.0; });
+    });
+    for (RiverLine& ridge : ridges.lines) {
+        for (Vec3& v : ridge.vertices) {
+            v.z = all_zero ? std::nan("") : v.z;
+        }
+        ridge.vertices = network::with_heights_between(std::move(ridge.vertices));
+    }
+    return ridges;
 }
 
 OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) {

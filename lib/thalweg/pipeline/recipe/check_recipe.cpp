@@ -158,9 +158,8 @@ void check_equilibrium(Recipe const& recipe, Faults& faults) {
            faults, "surface.relief and surface.mean_slope do not go together: one follows from the other");
     add_if(!e.lakes.empty() && e.lake_share > 0.0, faults,
            "surface.lakes and surface.lake_share do not go together: lakes come from a file or are chosen at random");
-    add_if(recipe.skeleton && (recipe.skeleton->ridges != Ridges::none || !recipe.skeleton->points.empty()), faults,
-           "[skeleton] does not go with surface.method = \"equilibrium\": its ridges and heights "
-           "follow from the rivers");
+    add_if(recipe.skeleton && recipe.skeleton->ridges != Ridges::none, faults,
+           "skeleton.ridges does not go with surface.method = \"equilibrium\": its ridges follow from the rivers");
 }
 
 void check_forest(Recipe const& recipe, Faults& faults) {

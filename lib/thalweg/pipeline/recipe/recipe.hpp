@@ -190,6 +190,7 @@ struct SkeletonRecipe {
     double ridge_wavelength_m = 1000.0;  ///< [m] > 0, of its longest waves
     double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
     std::string points;                  ///< file of points with heights; "" for none
+    std::string ridge_lines;             ///< file of ridges, with or without heights; "" for none
     std::int64_t scatter = 0;            ///< points at random; 0 for none
     double spacing_cells = 0.0;          ///< [cells] least distance of points at random
     skeleton::HeightLaw law = skeleton::HeightLaw::uniform;

@@ -94,11 +94,14 @@ std::span<std::pair<std::string_view, std::string_view> const> named_conditions(
     // those that name others stand before these
     static constexpr std::pair<std::string_view, std::string_view> conditions[] = {
         // ridges or random points rise above the rivers
-        {"rises", "(with_ridges) or ((beside_rivers) and skeleton.scatter > 0)"},
+        {"rises", R"((with_ridges) or ((beside_rivers) and skeleton.scatter > 0) or )"
+                  R"((skeleton.ridge_lines and surface.method = "dilate" or "diffuse" or "tin"))"},
         {"with_ridges", R"((beside_rivers) and skeleton.ridges = "voronoi" or "segments")"},
         // around rivers by a method that honours ridges and points
         {"beside_rivers",
          R"(([network] and surface.method = "diffuse" or "tin") or (by_dilation and surface.base = "tin"))"},
+        // around rivers by a method that goes through given points and ridges
+        {"through_features", R"([network] and surface.method = "equilibrium" or "dilate" or "diffuse" or "tin")"},
         // around rivers, or between points
         {"by_diffusion", R"(surface.method = "diffuse" and ([network] or (from_points)))"},
         // terrain that is interpolated between points, in a file or random
@@ -359,9 +362,13 @@ std::span<Row const> recipe_rows() {
             "L: heights of cells up to this far from rivers, ridges and points by inverse midpoint displacement; 0: "
             "none",
             [](Recipe& r, Item) -> Field { return &r.skeleton->midpoint_inverse_cells; }),
-        key("skeleton.points", file, "", {}, "((from_points) or beside_rivers) and skeleton.scatter = 0",
+        key("skeleton.points", file, "", {}, "((from_points) or through_features) and skeleton.scatter = 0",
             "points with heights: CSV, XYZ, or a file of points (GeoPackage, ...)",
             [](Recipe& r, Item) -> Field { return &r.skeleton->points; }),
+        key("skeleton.ridge_lines", file, "", {}, "through_features",
+            "lines that are ridges, with or without Z (GeoPackage, Shapefile, ...): no water crosses them, and the "
+            "terrain has their heights",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_lines; }),
         key("skeleton.scatter", integer, "", {0, 1e7}, "((from_points) or beside_rivers) and no skeleton.points",
             "number of random points, between the rivers or, without [network], including the extremes of [statistics]",
             [](Recipe& r, Item) -> Field { return &r.skeleton->scatter; }),

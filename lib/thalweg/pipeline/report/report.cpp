@@ -360,7 +360,44 @@ ordered_json against_object(Against const& against) {
             {"terrains", terrains}};
 }
 
+ordered_json features_object(GivenFeatures const& given) {
+    constexpr std::size_t listed = 1000;
+    ordered_json out;
+    if (!given.points.empty()) {
+        ordered_json points = ordered_json::array();
+        for (std::size_t i = 0; i < std::min(listed, given.points.size()); ++i) {
+            PointOff const& p = given.points[i];
+            points.push_back({{"point", p.number},
+                              {"x", p.at.x},
+                              {"y", p.at.y},
+                              {"asked_m", p.asked_m},
+                              {"z_m", p.z_m},
+                              {"in_river", p.in_river}});
+        }
+        out["points"] = {{"count", given.points.size()},
+                         {"tolerance_m", given.tolerance_m},
+                         {"missed", given.missed()},
+                         {"each", points}};
+    }
+    if (!given.ridges.empty()) {
+        ordered_json ridges = ordered_json::array();
+        for (std::size_t i = 0; i < std::min(listed, given.ridges.size()); ++i) {
+            RidgeOff const& r = given.ridges[i];
+            ridges.push_back(
+                {{"feature", r.feature}, {"cells", r.cells}, {"at_rivers", r.in_rivers}, {"crossed", r.crossed}});
+            if (r.most_m) {
+                ridges.back()["most_m"] = *r.most_m;
+            }
+        }
+        out["ridge_lines"] = {{"count", given.ridges.size()}, {"each", ridges}};
+    }
+    return out;
+}
+
 void add_lines(Made const& t, ordered_json& report) {
+    if (t.assessment.given_features) {
+        report["features"] = features_object(*t.assessment.given_features);
+    }
     if (t.terrain.tin) {
         report["tin"] = {{"vertices", t.terrain.tin->vertices.size()}, {"triangles", t.terrain.tin->triangles.size()}};
     }
@@ -396,7 +433,8 @@ void add_statistics(Made const& t, ordered_json& report) {
                                              {"roughness", e.like->roughness}};
         }
         if (e.rebuilt) {
-            report["equilibrium"]["rebuilt"] = {{"river_spacing_m", e.rebuilt->river_spacing_m},
+            report["equilibrium"]["rebuilt"] = {{"source_km2", e.rebuilt->source_km2},
+                                                {"river_spacing_m", e.rebuilt->river_spacing_m},
                                                 {"river_concavity", e.rebuilt->river_concavity},
                                                 {"smooth_slope_deg", e.rebuilt->smooth_slope_deg}};
         }

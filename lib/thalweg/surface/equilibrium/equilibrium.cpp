@@ -180,6 +180,7 @@ void check_rivers(Channels const& rivers, EquilibriumFields const& fields) {
     check_land(rivers, fields.land);
     check_field(rivers.grid, fields.uplift, fields.land, "uplift");
     check_field(rivers.grid, fields.erodibility, fields.land, "erodibility");
+    check_features(rivers.grid, fields.features, "surface.equilibrium");
     check_channel_heights(rivers);
     check_levels(rivers);
 }
@@ -188,13 +189,22 @@ namespace {
 
 constexpr int fine_rounds = 6;
 constexpr int coarse_rounds = 30;
+constexpr int more_for_heights = 6;
+constexpr int pulled_after = 2; // rounds of the finest level, which has its valleys by then
 // factor of the tangent that finally counts as perched: such tips will not be lowered any more
 constexpr float of_perched = 3.0F;
 
+/// What the land of levels is like.
+struct LandOfLevels {
+    ErodibilityFields const& fields;
+    ErodibilityParams const& rock;
+    std::vector<FeatureCell> const& features;
+    Grid const& grid; ///< of these
+};
+
 /// Prepares a level for its rounds.
 TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const& coarser, TerrainLevel const& region,
-                      ErodibilityFields const& fields, ErodibilityParams const& rock, EquilibriumParams const& params,
-                      Run const& run) {
+                      LandOfLevels const& land, EquilibriumParams const& params, Run const& run) {
     TerrainLevel level;
     level.width = input.extent.width + 2;
     level.height = input.extent.height + 2;
@@ -202,8 +212,9 @@ TerrainLevel prepared(LevelInput&& input, std::size_t number, TerrainLevel const
     level.side = static_cast<float>(std::int64_t{1} << number);
     level.rivers = std::move(input.rivers);
     set_cell_types(level, input.land, params.edge, number == 0 ? RiverBanks::kept : RiverBanks::none);
+    set_crests(level, land.features, land.grid);
     run.check();
-    set_erodibility(level, fields, rock, run);
+    set_erodibility(level, land.fields, land.rock, run);
     copy_firmness(level, coarser);
     jitter(level, params.seed, run);
     run.check();
@@ -240,8 +251,11 @@ void free_finished_memory(TerrainLevel& level) {
 /// Computes the heights of a level from those of the coarser one.
 class Solver {
 public:
-    Solver(EquilibriumParams const& params, Channels const& rivers, Window const& window, Run const& run)
-        : params_(params), rivers_(rivers), window_(window), run_(run), law_(params, window.grid.cell_m) {}
+    /// \param features heights above the first river's end, in units
+    Solver(EquilibriumParams const& params, Channels const& rivers, std::vector<FeatureCell> const& features,
+           Window const& window, Run const& run)
+        : params_(params), rivers_(rivers), features_(features), window_(window), run_(run),
+          law_(params, window.grid.cell_m) {}
 
     /// The frame is set from the nearest rivers where the region has no information.
     void solve(TerrainLevel& level, std::size_t number, std::size_t levels, RegionFrame const& frame) {
@@ -252,8 +266,14 @@ public:
         set_boundary_heights(level, edge);
         run_.check();
         Cells<Relaxation> steps;
+        Pull pull;
+        if (!level.crests.empty()) {
+            pull.floor.assign(level.z.size(), -std::numeric_limits<float>::infinity());
+        }
         flood_terrain(level);
-        int const rounds = rounds_of(number, levels);
+        KnownHeights const known = number == 0 ? known_heights(level, features_, window_.grid) : KnownHeights{};
+        std::optional<PullToHeights> heights;
+        int const rounds = rounds_of(number, levels) + (known.cell.empty() ? 0 : more_for_heights);
         bool const given = params_.heights != RiverHeights::graded && !level.rivers.asked.empty();
         if (number == 0 && !given && params_.heads == Heads::kept) {
             take(remove_touching_tips(level));
@@ -285,7 +305,14 @@ public:
                 relax_finest_rivers(level, rounds - round);
             }
             run_.check();
-            relax_terrain(level, law_.land, {}, steps, run_);
+            if (heights) {
+                heights->follow_rivers(level, pull);
+            } else if (round >= pulled_after && !known.cell.empty()) {
+                heights.emplace(level, law_.land, known, pull, run_);
+            }
+            raise_crests(level, pull.floor);
+            relax_terrain(level, law_.land, pull, steps, run_);
+            change_erodibility_at_crests(level, run_);
             if (params_.heads == Heads::kept && round % 2 == 1 && rounds - round >= to_come_down) {
                 reduce_erodibility(level, law_);
             }
@@ -331,6 +358,7 @@ private:
             slide_terrain(level, run_);
             run_.check();
         }
+        open_crests(level);
         set_steepest_receivers(level, run_);
         accumulate_areas(level, run_);
     }
@@ -353,6 +381,7 @@ private:
 
     EquilibriumParams const& params_;
     Channels const& rivers_;
+    std::vector<FeatureCell> const& features_;
     Window const& window_;
     Run const& run_;
     EquilibriumLaw law_;
@@ -394,13 +423,14 @@ Solved solved(Channels const& rivers, EquilibriumFields const& fields, Equilibri
     Region const region = region_around(rivers, fields, params);
     std::vector<LevelInput> levels = level_inputs(land, region, rivers.grid, params.seed);
     Window const window{rivers.grid, fields.land, land.margin};
-    Solver solver(params, rivers, window, run);
+    Solver solver(params, rivers, fields.features, window, run);
     ErodibilityParams const rock = erodibility_of(params, window);
     TerrainLevel level;
     TerrainLevel around; // the region's finest level
     std::vector<RegionInflow> inflows;
     for (std::size_t number = levels.size(); number-- > 0;) {
-        level = prepared(std::move(levels[number]), number, level, around, land.fields, rock, params, run);
+        level = prepared(std::move(levels[number]), number, level, around,
+                         {land.fields, rock, fields.features, rivers.grid}, params, run);
         RegionFrame const frame =
             around.z.empty() || !params.inflow ? RegionFrame{} : frame_by_region(level, around, params.seed);
         solver.solve(level, number, levels.size(), frame);
@@ -660,13 +690,8 @@ EquilibriumTerrain terrain_with_heights(Channels const& rivers, EquilibriumField
     return land;
 }
 
-} // namespace
-
-EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
-                               Run const& run) {
-    check_params(params);
-    check_rivers(rivers, fields);
-    run.check();
+EquilibriumTerrain balanced(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                            Run const& run) {
     Channels drawn = rivers;
     drawn.z.clear();
     drawn.lake_z.clear();
@@ -693,6 +718,46 @@ EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& 
         return terrain_with_levels(rivers, fields, wanted, std::move(graded), raise, run);
     }
     return graded_terrain(std::move(graded), rivers, fields, params, raise, run);
+}
+
+/// Known heights as heights above the first river's end, in the solver's units.
+std::vector<FeatureCell> in_units(std::vector<FeatureCell> features, EquilibriumTerrain const& land,
+                                  Channels const& rivers) {
+    double const metres = land.rise * rivers.grid.cell_m;
+    auto const end_m = static_cast<double>(land.dem[rivers.cell.front()]);
+    for (FeatureCell& feature : features) {
+        feature.z = static_cast<float>((static_cast<double>(feature.z) - end_m) / metres);
+    }
+    return features;
+}
+
+/// Solves again where heights are known, as metres per unit follow from the terrain.
+EquilibriumTerrain through_features(Channels const& rivers, EquilibriumFields const& fields,
+                                    EquilibriumParams const& params, Run const& run) {
+    constexpr int solves = 4;
+    EquilibriumFields with = fields;
+    for (FeatureCell& feature : with.features) {
+        feature.z = none;
+    }
+    EquilibriumTerrain land = balanced(rivers, with, params, run);
+    bool const has_heights = std::any_of(fields.features.begin(), fields.features.end(),
+                                         [](FeatureCell const& feature) { return !std::isnan(feature.z); });
+    for (int solve = 1; has_heights && solve < solves; ++solve) {
+        with.features = in_units(fields.features, land, rivers);
+        land = balanced(rivers, with, params, run);
+    }
+    return land;
+}
+
+} // namespace
+
+EquilibriumTerrain equilibrium(Channels const& rivers, EquilibriumFields const& fields, EquilibriumParams const& params,
+                               Run const& run) {
+    check_params(params);
+    check_rivers(rivers, fields);
+    run.check();
+    return fields.features.empty() ? balanced(rivers, fields, params, run)
+                                   : through_features(rivers, fields, params, run);
 }
 
 } // namespace thalweg::surface

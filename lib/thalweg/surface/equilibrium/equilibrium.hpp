@@ -10,6 +10,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/direction.hpp>
+#include <thalweg/surface/equilibrium/features.hpp>
 
 namespace thalweg::surface {
 
@@ -36,9 +37,10 @@ enum class Heads : std::uint8_t {
 
 /// Fields that vary over the terrain, on the rivers' grid; empty: none.
 struct EquilibriumFields {
-    Mask land;                 ///< 0: sea, without heights; every river cell is land
-    Raster<float> uplift;      ///< > 0, only ratios count
-    Raster<float> erodibility; ///< > 0, only ratios count (lithology)
+    Mask land;                         ///< 0: sea, without heights; every river cell is land
+    Raster<float> uplift;              ///< > 0, only ratios count
+    Raster<float> erodibility;         ///< > 0, only ratios count (lithology)
+    std::vector<FeatureCell> features; ///< by cell, each once; on rivers and the sea they have no effect
 };
 
 /// Options of equilibrium().

@@ -284,7 +284,7 @@ Cells<float> spread(Cells<float> const& marks, TerrainLevel const& level, std::i
 }
 
 void add_firmness(TerrainLevel& level, std::size_t i, float more) {
-    if (!(more > 0.0F) || level.type[i] == CellType::river) {
+    if (more == 0.0F || level.type[i] == CellType::river) {
         return;
     }
     level.firmness[i] += more;
@@ -308,7 +308,17 @@ void reduce_erodibility(TerrainLevel& level, EquilibriumLaw const& law) {
     level.firmness.resize(marks.size(), 0.0F);
     marks = spread(marks, level, std::max<std::int64_t>(1, static_cast<std::int64_t>(reach_cells / level.side)));
     for (std::size_t i = 0; i < marks.size(); ++i) {
-        add_firmness(level, i, std::min(marks[i], firmest - level.firmness[i]));
+        add_firmness(level, i, std::max(0.0F, std::min(marks[i], firmest - level.firmness[i])));
+    }
+}
+
+void change_erodibility_at_crests(TerrainLevel& level, Run const& run) {
+    WallParams walls;
+    walls.reach = reach_cells / level.side;
+    Cells<float> const lack = land_off_crests(level, walls, run);
+    level.firmness.resize(std::max(level.firmness.size(), lack.size()), 0.0F);
+    for (std::size_t i = 0; i < lack.size(); ++i) {
+        add_firmness(level, i, std::clamp(lack[i], -firmest - level.firmness[i], firmest - level.firmness[i]));
     }
 }
 

@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cstring>
+#include <optional>
 #include <thread>
 
 #include <thalweg/core/numbers/random.hpp>
@@ -134,26 +135,44 @@ void flood_terrain(TerrainLevel& level) {
             settle_bank(level, i, offsets);
         }
     });
-    Buckets queue(level);
+    std::optional<Buckets> queue(level);
     for (std::size_t i = 0; i < level.type.size(); ++i) {
         if (!is_land(level.type[i])) {
             level.direction[i] = level.type[i] == CellType::river ? level.direction[i] : no_direction;
         }
         if (level.direction[i] != unreached && level.type[i] != CellType::outside) {
-            queue.push(i, level.z[i]);
+            queue->push(i, level.z[i]);
         }
     }
+    bool closed = !level.crests.empty(); // crests give no way
+    auto const passes = [&](std::size_t from, std::size_t to) {
+        return !closed || level.is_crest[from] == 0 || level.is_crest[to] != 0;
+    };
     auto const reach = [&, z = level.z.data(), direction = level.direction.data()](std::size_t from, std::size_t k) {
         std::size_t const n = moved(from, offsets[k]);
-        if (direction[n] == unreached) {
+        if (direction[n] == unreached && passes(from, n)) {
             direction[n] = static_cast<std::int8_t>((k + 4) % 8);
             float const rise = rise_to(level, n) * level.least * level.side;
             z[n] = std::max(z[n], z[from] + rise * step_lengths[k]);
-            queue.push(n, z[n]);
+            queue->push(n, z[n]);
         }
     };
-    for (auto i = queue.pop(); i != Buckets::none; i = queue.pop()) {
-        if (std::uint32_t const next = queue.head(); next != Buckets::none) {
+    auto const pop = [&] {
+        auto const next = queue->pop();
+        if (next != Buckets::none || !closed) {
+            return next;
+        }
+        closed = false; // what crests enclose drains across them
+        queue.emplace(level);
+        for (std::uint32_t const crest : level.crests) {
+            if (level.direction[crest] != unreached) {
+                queue->push(crest, level.z[crest]);
+            }
+        }
+        return queue->pop();
+    };
+    for (auto i = pop(); i != Buckets::none; i = pop()) {
+        if (std::uint32_t const next = queue->head(); next != Buckets::none) {
             for (std::int64_t const beside : {-level.width, std::int64_t{0}, level.width}) {
                 std::size_t const n = moved(next, beside);
                 __builtin_prefetch(level.direction.data() + n);
@@ -206,6 +225,7 @@ void set_steepest_receivers(TerrainLevel& level, Run const& run) {
     auto const offsets = level.offsets();
     auto* const steepest = widest_lanes() == Lanes::avx2 ? &avx2::steepest_row : &plain::steepest_row;
     std::int64_t const inner = level.width - 2;
+    std::vector<std::int8_t> const beside_crests = directions_beside_crests(level);
     each_inner_row(level, run, [&](std::size_t first) {
         steepest(&level.z[first], &level.shift[first], &level.type[first], &level.direction[first], level.width, inner);
         for (std::size_t i = first; i < first + static_cast<std::size_t>(inner); ++i) {
@@ -214,6 +234,7 @@ void set_steepest_receivers(TerrainLevel& level, Run const& run) {
             }
         }
     });
+    keep_off_crests(level, beside_crests);
 }
 
 namespace {

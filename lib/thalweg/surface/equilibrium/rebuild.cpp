@@ -112,10 +112,12 @@ struct SmoothLevel {
 
 class Rebuilder {
 public:
-    Rebuilder(Channels const& rivers, EquilibriumFields const& fields, RebuildParams const& params,
-              RiverSurvey const& survey, double smooth_deg, Run const& run)
-        : params_(params), run_(run), grid_(rivers.grid), spacing_(survey.spacing_m / rivers.grid.cell_m),
-          target_deg_(smooth_deg), gentleness_(static_cast<float>(tangent_of(target_deg_) / usual_tangent)),
+    /// \param rivers, features heights in cells
+    Rebuilder(Channels const& rivers, std::vector<FeatureCell> const& features, EquilibriumFields const& fields,
+              RebuildParams const& params, RiverSurvey const& survey, double smooth_deg, Run const& run)
+        : params_(params), run_(run), grid_(rivers.grid), features_(features),
+          spacing_(survey.spacing_m / rivers.grid.cell_m), target_deg_(smooth_deg),
+          gentleness_(static_cast<float>(tangent_of(target_deg_) / usual_tangent)),
           least_(std::min(least_tangent, least_tangent * gentleness_)), link_(links_of_channels(rivers)) {
         EquilibriumParams padding;
         padding.edge = Edge::closed;
@@ -146,6 +148,7 @@ public:
 private:
     static constexpr double usual_tangent = 0.31;
     static constexpr std::size_t textured_levels = 3;
+    static constexpr int more_for_heights = 6;         ///< rounds
     static constexpr float most_boost = 2.0F;          ///< [log]
     static constexpr float least_correction = 0.1353F; ///< e^-2
     static constexpr float most_correction = 20.09F;   ///< e^3
@@ -165,6 +168,7 @@ private:
         if (has_sea(params_.edge)) {
             close_frame(level);
         }
+        set_crests(level, features_, grid_);
         ErodibilityParams rock;
         rock.roughness = roughness;
         rock.noise.seed = params_.seed;
@@ -248,18 +252,26 @@ private:
         return land > 0 ? static_cast<double>(sunken) / static_cast<double>(land) : 0.0;
     }
 
-    /// Raises land beside perched rivers.
-    void raise_below_rivers(TerrainLevel& level, Cells<float>& uplift, Cells<float>& boost) const {
+    /// Raises land beside perched rivers and on the lower sides of crests, and moves it to known heights.
+    void raise_where_wanted(TerrainLevel& level, KnownHeights const& known, Cells<float>& uplift,
+                            Cells<float>& boost) const {
         WallParams walls;
         walls.tolerance *= gentleness_;
         walls.least_height *= gentleness_;
         walls.reach = static_cast<float>(std::min(90.0 / grid_.cell_m, 0.2 * spacing_)) / level.side;
-        Cells<float> lack = land_below_rivers(level, walls, run_);
-        for (std::size_t i = 0; i < lack.size(); ++i) {
-            lack[i] = std::min(lack[i], most_boost - boost[i]);
-            boost[i] += lack[i];
+        for (Cells<float> lack : {land_below_rivers(level, walls, run_), land_off_crests(level, walls, run_),
+                                  land_off_known(level, known, walls, run_)}) {
+            for (std::size_t i = 0; i < lack.size(); ++i) {
+                lack[i] = std::clamp(lack[i], -most_boost - boost[i], most_boost - boost[i]);
+                boost[i] += lack[i];
+            }
+            lift(level, uplift, lack);
         }
-        lift(level, uplift, lack);
+    }
+
+    /// Least heights: none.
+    static Cells<float> no_floor(TerrainLevel const& level) {
+        return Cells<float>(level.z.size(), -std::numeric_limits<float>::infinity());
     }
 
     void scale_uplift(TerrainLevel& level, Cells<float> const& uplift) const {
@@ -306,6 +318,10 @@ private:
             lift(level, uplift, boost);
             flood_terrain(level);
             Cells<Relaxation> steps;
+            Pull pull;
+            if (!level.crests.empty()) {
+                pull.floor = no_floor(level);
+            }
             int const rounds = rounds_of(number);
             for (int round = 0; round < rounds; ++round) {
                 run_.at(share_done(number, round, rounds) * 0.5, "fill");
@@ -315,9 +331,10 @@ private:
                 }
                 accumulate_areas(level, run_);
                 scale_uplift(level, uplift);
-                relax_terrain(level, law, {}, steps, run_);
+                raise_crests(level, pull.floor);
+                relax_terrain(level, law, pull, steps, run_);
                 if (round % 2 == 1) {
-                    raise_below_rivers(level, uplift, boost);
+                    raise_where_wanted(level, {}, uplift, boost);
                     if (sunken_share(level, valleys) > most_sunken) {
                         double const more = std::max(1.08 * target_deg_, mean_slope_deg(level, run_));
                         target_deg_ = std::min(std::max(most_deg, target_deg_), more);
@@ -340,12 +357,13 @@ private:
     }
 
     /// Spring stiffness of a level's cells: weaker where rivers are far apart and valleys between them unknown, and
-    /// here and there along divides, where gullies may reach them.
+    /// here and there along divides, where gullies may reach them; greatest at known heights.
     Cells<float> springs(TerrainLevel const& level, LandLaw const& law, NearestRiver const& near,
-                         Cells<float> const& to_divide) const {
+                         Cells<float> const& to_divide, KnownHeights const& known) const {
         constexpr double everywhere = 0.1;
         constexpr double dense_m = 420.0; // spacing of rivers
         constexpr double firmer = 30.0;
+        constexpr double firmest = 3000.0;
         constexpr double divide_cells = 2.25;
         constexpr double river_cells = 1.5;
         constexpr double wave = 12.0; // [finest cells]
@@ -367,12 +385,20 @@ private:
             double const more = near_these > 0.0 ? firmer * near_these * firm(i) : 0.0;
             out[i] = static_cast<float>(least * (1.0 + more));
         });
+        if (!known.cell.empty()) {
+            NearestRiver const to_known = straight_to(level, known.cell, run_);
+            each_cell(level, [&](std::size_t i) {
+                auto const far = static_cast<double>(to_known.distance[i]);
+                double const more = far == 0.0 ? firmest : firmer * fading(to_known.distance[i], divide_cells);
+                out[i] = std::max(out[i], static_cast<float>(least * (1.0 + more)));
+            });
+        }
         return out;
     }
 
     /// Land close to a river is not lower than it, unless the smooth terrain is.
     Cells<float> floors(TerrainLevel const& level, Cells<float> const& smooth_z) const {
-        Cells<float> out(level.z.size(), -std::numeric_limits<float>::infinity());
+        Cells<float> out = no_floor(level);
         auto const offsets = level.offsets();
         for (std::uint32_t const river : level.rivers.cell) {
             float const z = level.z[river];
@@ -390,6 +416,10 @@ private:
         for (std::size_t number = std::min(textured_levels, levels_.size()); number-- > 0;) {
             SmoothLevel& like = smooth_[number];
             TerrainLevel const coarser = std::exchange(level, empty_level(number, params_.roughness));
+            NearestRiver const near = straight_to(level, level.rivers.cell, run_);
+            Cells<float> const valleys = valley_heights(level, near);
+            KnownHeights const known = known_heights(level, features_, grid_);
+            like.z = through_known(level, std::move(like.z), known, near, run_);
             if (coarser.z.empty()) {
                 level.z = like.z;
                 roughen(level, params_.seed, 0.2F * gentleness_, run_);
@@ -404,12 +434,10 @@ private:
             Cells<float> uplift = level.uplift;
             lift(level, uplift, boost);
             flood_terrain(level);
-            NearestRiver const near = straight_to(level, level.rivers.cell, run_);
-            Cells<float> const valleys = valley_heights(level, near);
             Pull pull;
-            pull.stiffness = springs(level, law, near, like.to_divide);
-            if (number == 0) {
-                pull.floor = floors(level, like.z);
+            pull.stiffness = springs(level, law, near, like.to_divide, known);
+            if (number == 0 || !level.crests.empty()) {
+                pull.floor = number == 0 ? floors(level, like.z) : no_floor(level);
             }
             Rows const inner{level.width - 2, level.height - 2, level.width};
             auto const first = static_cast<std::size_t>(level.width + 1);
@@ -428,7 +456,7 @@ private:
             Cells<float> const wanted = blurred_heights(like.z);
             float const some = 0.5F * gentleness_;
             Cells<Relaxation> steps;
-            int const rounds = rounds_of(number);
+            int const rounds = rounds_of(number) + (known.cell.empty() ? 0 : more_for_heights);
             for (int round = 0; round < rounds; ++round) {
                 run_.at(0.5 + share_done(number, round, rounds) * 0.5, "fill");
                 if (round > 0) {
@@ -443,6 +471,7 @@ private:
                     float const force = pull.stiffness[i] > 0.0F ? pull.stiffness[i] * z[i] : 0.0F;
                     level.uplift[i] = k * uplift[i] * correction[i] + force;
                 });
+                raise_crests(level, pull.floor);
                 relax_terrain(level, law, pull, steps, run_);
                 Cells<float> const has = blurred_heights(level.z);
                 each_cell(level, [&](std::size_t i) {
@@ -450,12 +479,13 @@ private:
                     correction[i] = std::clamp(correction[i] * step, least_correction, most_correction);
                 });
                 if (round % 2 == 1 || number == 0) {
-                    raise_below_rivers(level, uplift, boost);
+                    raise_where_wanted(level, known, uplift, boost);
                 }
                 run_.check();
             }
             like = {};
         }
+        open_crests(level);
         set_steepest_receivers(level, run_);
         accumulate_areas(level, run_);
         return level;
@@ -475,6 +505,7 @@ private:
     RebuildParams const& params_;
     Run const& run_;
     Grid const& grid_;
+    std::vector<FeatureCell> features_;
     double spacing_;    ///< [cells]
     double target_deg_; ///< mean slope of smooth terrain
     float gentleness_;  ///< scales small heights: 1 in mountains
@@ -506,7 +537,11 @@ BetweenRivers terrain_between(Channels const& rivers, EquilibriumFields const& f
             z = static_cast<float>((static_cast<double>(z) - base_m) / cell_m);
         }
     }
-    Rebuilder rebuilder(drawn, fields, params, survey, smooth_deg, run);
+    std::vector<FeatureCell> features = fields.features;
+    for (FeatureCell& feature : features) {
+        feature.z = static_cast<float>((static_cast<double>(feature.z) - base_m) / cell_m);
+    }
+    Rebuilder rebuilder(drawn, features, fields, params, survey, smooth_deg, run);
     TerrainLevel level = rebuilder.solve();
     HeightConversion const raise{cell_m, base_m,
                                  tangent_of(params.mean_slope_deg.value_or(rebuilder.smooth_deg() / of_smooth))};

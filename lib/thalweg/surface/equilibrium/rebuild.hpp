@@ -31,6 +31,7 @@ struct RiverSurvey {
     double spacing_m = 0.0;      ///< median distance of cells to the nearest river
     double concavity = 0.0;      ///< of the rivers: -d ln slope / d ln area, limited to 0.2 to 1.2
     double mean_slope_deg = 0.0; ///< of smooth terrain between them
+    double source_km2 = 0.0;     ///< [km²] median area that drains to sources
     Raster<float> steepness;     ///< factor of uplift, from the rivers' own steepness to the power 1/2; about 1
 };
 

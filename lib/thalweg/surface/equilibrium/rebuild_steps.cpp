@@ -105,34 +105,28 @@ std::optional<std::size_t> lowest_land_beside(TerrainLevel const& level, std::ui
 
 } // namespace
 
-Cells<float> land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run) {
-    constexpr float margin = 4.0F; // [tolerance]
+void mark_to_move(TerrainLevel const& level, std::size_t from, float wanted, WallParams const& params,
+                  Cells<float>& marks) {
     constexpr double rate = 0.5;
     auto const offsets = level.offsets();
-    Cells<float> out;
-    float const tolerance = params.tolerance * level.side;
-    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
-        std::uint32_t const cell = level.rivers.cell[n];
-        auto const lowest =
-            level.rivers.level[n] == 0 ? lowest_land_beside(level, cell, offsets) : std::optional<std::size_t>{};
-        if (!lowest || level.z[*lowest] >= level.z[cell] + tolerance) {
-            continue;
-        }
-        if (out.empty()) {
-            out.assign(level.z.size(), 0.0F);
-        }
-        std::size_t end = *lowest;
-        while (is_land(level.type[end])) {
-            end = moved(end, offsets[level.direction[end]]);
-        }
-        float const has = std::max(level.z[*lowest] - level.z[end], params.least_height * level.side);
-        float const wanted = level.z[cell] + margin * tolerance - level.z[end];
-        auto const lack =
-            static_cast<float>(rate * std::min(1.0, portable::log(static_cast<double>(std::max(wanted / has, 1.0F)))));
-        for (std::size_t i = *lowest; is_land(level.type[i]); i = moved(i, offsets[level.direction[i]])) {
-            out[i] = std::max(out[i], lack);
-        }
+    if (marks.empty()) {
+        marks.assign(level.z.size(), 0.0F);
     }
+    std::size_t end = from;
+    while (is_land(level.type[end]) && level.direction[end] >= 0) {
+        end = moved(end, offsets[level.direction[end]]);
+    }
+    float const has = std::max(level.z[from] - level.z[end], params.least_height * level.side);
+    float const shall = std::max(wanted - level.z[end], params.least_height * level.side);
+    float const ratio = wanted > level.z[from] ? shall / has : has / shall;
+    double const step = portable::log(static_cast<double>(std::max(ratio, 1.0F)));
+    auto const lack = static_cast<float>(rate * std::min(1.0, step));
+    for (std::size_t i = from; i != end; i = moved(i, offsets[level.direction[i]])) {
+        marks[i] = std::max(marks[i], lack);
+    }
+}
+
+Cells<float> spread_along(TerrainLevel const& level, Cells<float> out, WallParams const& params, Run const& run) {
     if (out.empty()) {
         return out;
     }
@@ -149,6 +143,23 @@ Cells<float> land_below_rivers(TerrainLevel const& level, WallParams const& para
         out[i] = marks[i] > some ? out[i] / marks[i] * std::min(1.0F, marks[i] * whole) : 0.0F;
     }
     return out;
+}
+
+Cells<float> land_below_rivers(TerrainLevel const& level, WallParams const& params, Run const& run) {
+    constexpr float margin = 4.0F; // [tolerance]
+    auto const offsets = level.offsets();
+    Cells<float> out;
+    float const tolerance = params.tolerance * level.side;
+    for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
+        std::uint32_t const cell = level.rivers.cell[n];
+        auto const lowest =
+            level.rivers.level[n] == 0 ? lowest_land_beside(level, cell, offsets) : std::optional<std::size_t>{};
+        if (!lowest || level.z[*lowest] >= level.z[cell] + tolerance) {
+            continue;
+        }
+        mark_to_move(level, *lowest, level.z[cell] + margin * tolerance, params, out);
+    }
+    return spread_along(level, std::move(out), params, run);
 }
 
 Cells<std::int32_t> links_of(TerrainLevel const& level, std::vector<std::int32_t> const& link, Run const& run) {
@@ -172,6 +183,10 @@ Cells<float> distance_to_divides(TerrainLevel const& level, std::vector<std::int
     std::vector<std::uint32_t> divides;
     each_inner(level, [&](std::size_t i) {
         if (!is_land(level.type[i])) {
+            return;
+        }
+        if (!level.is_crest.empty() && level.is_crest[i] != 0) {
+            divides.push_back(static_cast<std::uint32_t>(i));
             return;
         }
         for (std::size_t k = 0; k < offsets.size(); k += 2) {

@@ -255,14 +255,19 @@ RiverSurvey survey_rivers(Channels const& rivers, Run const& run) {
     constexpr double theta = 0.45;
     double tangents = 0.0;
     double sources = 0.0;
+    std::vector<float> source_km2;
     for (std::size_t n = 0; n < slope.size(); ++n) {
         std::size_t const at = profiles.below(n);
+        if (profiles.is_source(n)) {
+            source_km2.push_back(static_cast<float>(profiles.area_km2(n)));
+        }
         if (profiles.is_source(n) && slope[at] > 0.0) {
             double const k = slope[at] * portable::pow(std::max(profiles.area_km2(at), 0.1), theta);
             tangents += 3.7 * k / (1.0 + 5.1 * k);
             sources += 1.0;
         }
     }
+    survey.source_km2 = source_km2.empty() ? 0.0 : median_of(std::move(source_km2));
     constexpr double usual = 0.31;
     survey.mean_slope_deg = degrees_per_radian * portable::atan2(sources > 0.0 ? tangents / sources : usual, 1.0);
 

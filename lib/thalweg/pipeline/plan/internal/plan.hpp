@@ -111,6 +111,8 @@ Grid frame_land(FeaturePoints const& points, GridRecipe const& wanted);
 
 /// Throws BadInput naming the first point off the grid. name: the file, as in the recipe.
 void require_on_grid(FeaturePoints const& points, Grid const& grid, std::string const& name);
+/// The same for the points and ridges of a plan.
+void require_skeleton_on_grid(Plan const& plan, Grid const& grid);
 
 /// Appends the values of one vector to another.
 template <class T> void append(std::vector<T>& to, std::vector<T> from) {

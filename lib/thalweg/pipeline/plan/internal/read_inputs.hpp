@@ -63,6 +63,10 @@ AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, Run const&
 /// The lines of network.lines.path.
 RiverLines read_lines(Recipe const& recipe, Run const& run);
 
+/// The lines of skeleton.ridge_lines, in the grid's CRS. Where some vertices of a line have heights, the others get
+/// them by its length; where a file's heights are all 0, there are none: NaN.
+RiverLines read_ridge_lines(Recipe const& recipe, Run const& run);
+
 /// A recipe with the CRS and, if it was 0, the cell size of its grid chosen from its lines; and a mean slope chosen by
 /// the cell size.
 struct OnLines {

@@ -201,8 +201,10 @@ struct TerrainLevel {
     Cells<std::uint32_t> order;
     std::vector<OrderPart> bands;
     std::vector<std::uint32_t> joining;
-    std::vector<Inflow> inflow; ///< water from beyond the frame
-    Cells<float> firmness;      ///< [log] decrease of erodibility below the fields' values; empty: none
+    std::vector<Inflow> inflow;        ///< water from beyond the frame
+    std::vector<std::uint32_t> crests; ///< land cells that no water crosses where it finds another way, ascending
+    Cells<std::uint8_t> is_crest;      ///< by cell; empty: there are none
+    Cells<float> firmness;             ///< [log] decrease of erodibility below the fields' values; empty: none
 
     std::int64_t cells() const { return width * height; }
     Cell at(std::size_t i) const {
