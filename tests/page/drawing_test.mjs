@@ -318,6 +318,134 @@ describe('what is drawn', () => {
     assert.equal((await drawn()).masks.length, 0);
   });
 
+  for (const [where, options] of [['on the map', { map: true }], ['in 3-D', {}]]) test(`pins: each begins with the terrain's height ${where}, and its field is ready for another`, async () => {
+    await visit(three(), options);
+    await page.keyboard.press('h');
+    assert.equal(await page.getAttribute('#tool-pin', 'aria-pressed'), 'true');
+    await click(120, 40);
+    await settled();
+    const [{ verb, at: [x, y], height }] = sent();
+    assert.equal(verb, 'pin');
+    near([x, y], 0, [120, 40], 1);
+    const ground = await page.evaluate(([px, py]) => window.__thalweg.pick(...Object.values(window.__thalweg.project(px, py))).z, [x, y]);
+    assert.ok(Number.isInteger(height) && Math.abs(height - ground) < 3, `${height} is not near ${ground}`);
+    assert.equal(await page.evaluate(() => document.activeElement.id), 'pin-height');
+    assert.equal(await page.inputValue('#pin-height'), String(height));
+    await page.keyboard.type('431.5');
+    await page.keyboard.press('Enter');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'height', pin: 0, height: 431.5 });
+    assert.match(await page.textContent('#inspector .what'), /^Pin 1, 431\.5 m$/);
+    assert.equal(await page.evaluate(() => document.activeElement.tagName), 'CANVAS');
+    // What is typed counts without Enter too, once the next one is set.
+    await click(150, 50);
+    await settled();
+    await page.keyboard.type('77');
+    await click(175, 60);
+    await settled();
+    assert.deepEqual((await drawn()).pins.map((pin) => pin.height).slice(0, 2), [431.5, 77]);
+    await page.keyboard.press('Escape');
+    assert.equal((await drawn()).pins.length, 3);
+    // A pin that is there is taken, and keeps its height unless another is typed.
+    await click(150, 50);
+    assert.equal(await page.inputValue('#pin-height'), '77');
+    await page.keyboard.type('5');
+    await page.keyboard.press('Escape');
+    await settled();
+    assert.equal((await drawn()).pins[1].height, 77);
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'erase', pin: 1 });
+    await page.keyboard.press('Control+z');
+    await settled();
+    assert.equal((await drawn()).pins.length, 3);
+    await click(100, 80.5);
+    await settled();
+    assert.match(await page.textContent('#saying'), /a river runs here/);
+    assert.equal((await drawn()).pins.length, 3);
+  });
+
+  test('pins are moved and erased with the tool that selects', async () => {
+    await visit({ ...three(), pins: [{ at: [120, 40], height: 431.5 }, { at: [150, 50], height: 77 }] }, { map: true });
+    await page.keyboard.press('v');
+    assert.match(await page.textContent('#inspector'), /3 rivers, 2 pins\./);
+    await click(120, 40);
+    assert.match(await page.textContent('#inspector .what'), /^Pin 1, 431\.5 m$/);
+    await stroke([[120, 40], [125, 35], [130, 42]]);
+    near((await drawn()).pins[0].at, 0, [130, 42], 1);
+    assert.deepEqual([sent()[0].verb, sent()[0].of], ['move', { pin: 0 }]);
+    assert.match(await page.textContent('#inspector .what'), /^Pin 1/);
+    assert.ok(await page.isHidden('text=Delete vertex'));
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'erase', pin: 0 });
+  });
+
+  test('pins by the keyboard alone', async () => {
+    await visit(three());
+    await page.focus('#view canvas');
+    await page.keyboard.press('h');
+    await page.keyboard.press('Shift+ArrowUp');
+    await page.keyboard.press('Shift+ArrowUp');
+    await page.keyboard.press('Enter');
+    await settled();
+    await page.keyboard.type('12');
+    await page.keyboard.press('Enter');
+    await settled();
+    assert.equal((await drawn()).pins[0].height, 12);
+    await page.keyboard.press('Delete');
+    await settled();
+    assert.equal((await drawn()).pins.length, 0);
+  });
+
+  test('ridges, with heights at their ends, at one or at none', async () => {
+    await visit(three(), { map: true });
+    await page.keyboard.press('g');
+    assert.ok(await page.isHidden('#ridge-from'));
+    await stroke([[100, 20], [110, 30], [120, 25], [140, 40]]);
+    let { ridges } = await drawn();
+    assert.equal(ridges.length, 1);
+    near(ridges[0].line, 0, [100, 20], 1);
+    assert.match(await page.textContent('#inspector .what'), /^Ridge 1, .* km, heights by the terrain$/);
+    await page.fill('#ridge-from', '500');
+    await page.keyboard.press('Tab');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'heights', ridge: 0, from: 500, to: null });
+    assert.match(await page.textContent('#inspector .what'), /level 500 m$/);
+    await page.fill('#ridge-to', '420.5');
+    await page.keyboard.press('Enter');
+    await settled();
+    assert.match(await page.textContent('#inspector .what'), /500 m to 420\.5 m$/);
+    // The next one is another ridge; across a river it is red at once, and refused.
+    await to(120, 60);
+    await page.mouse.down();
+    for (const p of [[121, 75], [122, 90], [123, 110]]) await to(...p);
+    assert.match(await page.textContent('#saying'), /the ridge would cross river 1 here/);
+    await page.mouse.up();
+    await settled();
+    assert.match(await page.textContent('#saying'), /cross/);
+    ({ ridges } = await drawn());
+    assert.equal(ridges.length, 1);
+    await page.keyboard.press('Escape');
+    await page.keyboard.press('v');
+    await click(100.5, 20.5);
+    assert.match(await page.textContent('#inspector .what'), /^Ridge 1/);
+    assert.equal(await page.inputValue('#ridge-to'), '420.5');
+    await stroke([[100, 20], [90, 15]]);
+    near((await drawn()).ridges[0].line, 0, [90, 15], 1);
+    await page.fill('#ridge-from', '');
+    await page.fill('#ridge-to', '');
+    await page.keyboard.press('Tab');
+    await settled();
+    assert.deepEqual(sent().at(-1), { verb: 'heights', ridge: 0, from: null, to: null });
+    await page.click('#inspector >> text=Delete');
+    await settled();
+    assert.ok(['remove', 'erase'].includes(sent().at(-1).verb));
+    await page.keyboard.press('Control+z');
+    await settled();
+    assert.equal((await drawn()).ridges.length, 1);
+  });
+
   test('types, side streams and how many sources they have', async () => {
     await visit(three(), { map: true });
     await page.keyboard.press('v');

@@ -8,7 +8,7 @@ import { web } from './browser.mjs';
 const { bent, meeting } = await import(pathToFileURL(path.join(web, 'src/drawing.js')));
 const { foot } = await import(pathToFileURL(path.join(web, 'src/rivers.js')));
 
-export const sheet = (more) => ({ kind: 'drawn', branching: false, rivers: [], coasts: [], lakes: [], masks: [], ...more });
+export const sheet = (more) => ({ kind: 'drawn', branching: false, rivers: [], coasts: [], lakes: [], masks: [], pins: [], ridges: [], ...more });
 export const river = (...line) => ({ line, type: '', lambda: 0 });
 
 class Refusal extends Error {
@@ -75,8 +75,9 @@ const verbs = {
   list: (now, of) => {
     const [kind, n] = Object.entries(of)[0];
     const where = now[`${kind}s`];
-    const line = kind === 'river' ? where[n].line : kind === 'lake' ? where[n].ring : where[n];
-    const put = (next) => (where[n] = kind === 'river' ? { ...where[n], line: next } : kind === 'lake' ? { ...where[n], ring: next } : next);
+    const name = { river: 'line', ridge: 'line', lake: 'ring', pin: 'at' }[kind];
+    const line = name ? where[n][name] : where[n];
+    const put = (next) => (where[n] = name ? { ...where[n], [name]: next } : next);
     return { line, put, kind, n };
   },
   move(now, { of, vertex, to, reach: soft }) {
@@ -127,7 +128,17 @@ const verbs = {
   lake: (now, { points, level }) => now.lakes.push({ ring: points, level }),
   level: (now, { lake, level }) => (now.lakes[lake].level = level),
   mask: (now, { points }) => now.masks.push(points),
-  clear: (now) => Object.assign(now, { rivers: [], coasts: [], lakes: [], masks: [] }),
+  pin(now, { at, height }) {
+    if (joined(now.rivers, ...at)?.d < 0.75) throw new Refusal('a river runs here, and its height decides: set the pin beside it', at);
+    now.pins.push({ at, height });
+  },
+  height: (now, { pin, height }) => (now.pins[pin] = { ...now.pins[pin], height }),
+  ridge(now, { points }) {
+    refuseCrossings(now.rivers, points);
+    now.ridges.push({ line: points, from: null, to: null });
+  },
+  heights: (now, { ridge, from, to }) => (now.ridges[ridge] = { ...now.ridges[ridge], from, to }),
+  clear: (now) => Object.assign(now, { rivers: [], coasts: [], lakes: [], masks: [], pins: [], ridges: [] }),
 };
 
 /** The drawing after a verb, and what there is to say of it; throws what is refused, with a place. */

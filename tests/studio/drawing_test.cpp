@@ -104,6 +104,11 @@ void expect_lawful(Drawing const& drawing) {
         EXPECT_GE(lake.rings.front().size(), 3U);
         EXPECT_NE(lake.rings.front().front(), lake.rings.front().back());
     }
+    for (DrawnRidge const& ridge : drawing.ridges) {
+        ASSERT_GE(ridge.line.size(), 2U);
+        ASSERT_EQ(ridge.heights_m.size(), ridge.line.size());
+        EXPECT_EQ(std::ranges::adjacent_find(ridge.line), ridge.line.end());
+    }
     if (lines.lines.empty()) {
         return;
     }
@@ -348,6 +353,93 @@ TEST(Drawing, LakesHaveLevels) {
     EXPECT_THROW(drawn(lake.drawing, SetLevel{0, 1e6}), BadParameter);
 }
 
+TEST(Drawing, PinsStandOnLandBesideRivers) {
+    Drawn const one = after(two_rivers(), DrawPin{at(60.2, 20.7), 340.0});
+    EXPECT_EQ(one.drawing.pins, (std::vector<DrawnPin>{{at(60.2, 20.7), 340.0}}));
+    EXPECT_EQ(one.name, "a pin at 340 m");
+    EXPECT_EQ(one.drawing.rivers, two_rivers().rivers);
+    NotDrawn const wet = refusal(one.drawing, DrawPin{at(40.3, 20), 340.0});
+    EXPECT_TRUE(has(wet, "a river runs here"));
+    EXPECT_EQ(wet.at, at(40.3, 20));
+    EXPECT_TRUE(has(refusal(one.drawing, DrawPin{at(60.8, 20.1), 300.0}), "in this cell already"));
+    EXPECT_TRUE(has(refusal(one.drawing, DrawPin{{std::nan(""), 0.0}, 300.0}), "not a number"));
+    EXPECT_THROW(drawn(one.drawing, DrawPin{at(5, 5), 1e6}), BadParameter);
+    EXPECT_THROW(drawn(one.drawing, SetHeight{0, std::nan("")}), BadParameter);
+    EXPECT_TRUE(has(refusal(one.drawing, SetHeight{1, 300.0}), "a pin with the number 1 is not there"));
+    EXPECT_EQ(after(one.drawing, SetHeight{0, 90.5}).drawing.pins.front().height_m, 90.5);
+    EXPECT_EQ(after(one.drawing, DrawPin{at(1e6, -1e6), 1.0}).drawing.pins.back().at, at(80, 0)) << "in the grid";
+
+    Part const pin{Part::Kind::pin, 0};
+    EXPECT_EQ(after(one.drawing, MoveVertex{pin, 0, at(60.7, 20.2)}).drawing.pins.front().at, at(60.7, 20.2));
+    EXPECT_TRUE(has(refusal(one.drawing, MoveVertex{pin, 0, at(40, 20)}), "a river runs here"));
+    EXPECT_TRUE(has(refusal(one.drawing, InsertVertex{pin, 0, at(5, 5)}), "no vertices"));
+    EXPECT_TRUE(has(refusal(one.drawing, RemoveVertex{pin, 0}), "no vertices"));
+    EXPECT_TRUE(after(one.drawing, Erase{pin}).drawing.pins.empty());
+    EXPECT_TRUE(after(one.drawing, Clear{}).drawing.pins.empty());
+
+    EXPECT_TRUE(after(one.drawing, DrawRiver{line_of({{70, 10}, {50, 40}})}).said.empty());
+    Drawn const over = after(one.drawing, DrawRiver{line_of({{70.2, 10.7}, {50.2, 30.7}})});
+    ASSERT_EQ(over.said.size(), 1U);
+    EXPECT_EQ(over.said.front(), "1 pin lies in the river now: the river's height decides there");
+    Drawing const coast = after(one.drawing, DrawCoast{line_of({{2, 2}, {78, 2}})}).drawing;
+    EXPECT_TRUE(has(refusal(coast, DrawPin{at(20, 1), 5.0}), "in the sea"));
+}
+
+TEST(Drawing, RidgesEndShortOfRivers) {
+    Drawn const free = after(two_rivers(), DrawRidge{line_of({{50, 10}, {70, 30}}), 500.0, std::nullopt});
+    ASSERT_EQ(free.drawing.ridges.size(), 1U);
+    EXPECT_TRUE(free.said.empty());
+    EXPECT_EQ(free.drawing.ridges[0].line, line_of({{50, 10}, {70, 30}}));
+    EXPECT_EQ(free.drawing.ridges[0].heights_m, (std::vector<std::optional<double>>{500.0, std::nullopt}));
+
+    Drawn const cut = after(two_rivers(), DrawRidge{line_of({{70, 20}, {39, 20}})});
+    ASSERT_EQ(cut.drawing.ridges.size(), 1U);
+    EXPECT_NEAR(cut.drawing.ridges[0].line.back().x, at(41.75, 20).x, 0.3 * grid.cell_m);
+    EXPECT_EQ(cut.drawing.ridges[0].line.front(), at(70, 20));
+    ASSERT_EQ(cut.said.size(), 1U);
+    EXPECT_TRUE(cut.said[0].starts_with("the ridge ends short of the river"));
+    NotDrawn const across = refusal(two_rivers(), DrawRidge{line_of({{60, 20}, {20, 20}})});
+    EXPECT_TRUE(has(across, "cross or touch a river"));
+    ASSERT_TRUE(across.at);
+    EXPECT_LT(distance(*across.at, at(40, 20)), 2.0 * grid.cell_m);
+    EXPECT_TRUE(has(refusal(two_rivers(), DrawRidge{line_of({{40.5, 10}, {40.5, 50}})}), "cross or touch a river"));
+    EXPECT_TRUE(has(refusal(free.drawing, DrawRiver{line_of({{70, 15}, {50, 25}})}), "cross or touch a ridge"));
+    EXPECT_TRUE(
+        has(refusal(free.drawing, MoveVertex{{Part::Kind::ridge, 0}, 0, at(20, 40)}), "cross or touch a river"));
+
+    Drawing const coast = after(two_rivers(), DrawCoast{line_of({{2, 2}, {78, 2}})}).drawing;
+    Drawn const land = after(coast, DrawRidge{line_of({{60, 20}, {60, 0.5}})});
+    EXPECT_TRUE(test::has(land.said.at(0), "the ridge ends at the coast"));
+    EXPECT_TRUE(has(refusal(coast, DrawRidge{line_of({{50, 1}, {70, 1}})}), "in the sea: ridges run on land"));
+}
+
+TEST(Drawing, RidgesHaveHeightsAtTheirEndsOrNone) {
+    Part const ridge{Part::Kind::ridge, 0};
+    using Heights = std::vector<std::optional<double>>;
+    Drawing const one = after(two_rivers(), DrawRidge{line_of({{50, 10}, {70, 30}}), 500.0, 300.0}).drawing;
+    Drawing bent = after(one, InsertVertex{ridge, 1, at(62, 18)}).drawing;
+    EXPECT_EQ(bent.ridges[0].heights_m, (Heights{500.0, std::nullopt, 300.0}));
+    EXPECT_TRUE(has(refusal(bent, InsertVertex{ridge, 0, at(45, 5)}), "between two others"));
+    Drawing const moved = after(bent, MoveVertex{ridge, 1, at(65, 15), 5.0}).drawing;
+    EXPECT_EQ(moved.ridges[0].line, line_of({{50, 10}, {65, 15}, {70, 30}}));
+    EXPECT_EQ(moved.ridges[0].heights_m, bent.ridges[0].heights_m);
+    Drawing const merged = after(bent, MoveVertex{ridge, 1, at(50, 10)}).drawing;
+    EXPECT_EQ(merged.ridges[0].heights_m, (Heights{500.0, 300.0})) << "two vertices at one place are one";
+    EXPECT_EQ(after(bent, RemoveVertex{ridge, 1}).drawing.ridges[0], one.ridges[0]);
+    Drawing const shorter = after(bent, RemoveVertex{ridge, 2}).drawing;
+    EXPECT_EQ(shorter.ridges[0].heights_m, (Heights{500.0, 300.0})) << "the height is the end's";
+    EXPECT_TRUE(has(refusal(one, RemoveVertex{ridge, 0}), "erase it as a whole"));
+
+    bent.ridges[0].heights_m[1] = 450.0; // as a file may say
+    EXPECT_EQ(after(bent, SetRidgeHeights{0, 600.0, std::nullopt}).drawing.ridges[0].heights_m,
+              (Heights{600.0, 450.0, std::nullopt}));
+    EXPECT_EQ(after(bent, SetRidgeHeights{0, std::nullopt, std::nullopt}).drawing.ridges[0].heights_m, Heights(3));
+    EXPECT_THROW(drawn(one, SetRidgeHeights{0, 1e6, std::nullopt}), BadParameter);
+    EXPECT_TRUE(has(refusal(one, SetRidgeHeights{1, 1.0, 2.0}), "not there"));
+    EXPECT_TRUE(after(one, Erase{ridge}).drawing.ridges.empty());
+    EXPECT_TRUE(after(one, Clear{}).drawing.ridges.empty());
+}
+
 TEST(Drawing, SideStreamsGrowFromWholeRivers) {
     Drawing arcs = sheet();
     arcs.rivers = {{line_of({{10, 10}, {40, 20}})},
@@ -458,6 +550,100 @@ TEST(Drawing, FilesHoldLevelsAndHolesOfMasks) {
     EXPECT_EQ(read.mask_islands[0].size(), 1U);
 }
 
+namespace {
+
+/// Edits a document as a studio does, its files in a folder.
+class Sheets {
+public:
+    explicit Sheets(std::string const& toml) : document(document_of(toml)) { follow(); }
+
+    void become(Drawing const& now) {
+        Edit const edit =
+            edit_between(document, drawing, {now, "", {}}, [&](auto const& key, auto const& name, auto const& write) {
+                std::string const file = "inputs/" + std::to_string(++files_) + "/" + name;
+                std::filesystem::create_directories((folder_.path() / file).parent_path());
+                write((folder_.path() / file).string());
+                return TakeInput{key, file};
+            });
+        document = apply(document, edit).document;
+        follow();
+    }
+
+    Document document;
+    Drawing drawing;
+
+private:
+    void follow() {
+        document.recipe.folder = folder_.path().string();
+        drawing = read_drawing(document.recipe, grid);
+    }
+
+    io::TemporaryFolder folder_{"drawing"};
+    int files_ = 0;
+};
+
+} // namespace
+
+TEST(Drawing, FilesHoldPinsAndRidges) {
+    Sheets sheets(pipeline::write_recipe(pipeline::default_recipe_on(80, 60)));
+    std::string const first = sheets.document.toml;
+    Drawing now = sheets.drawing;
+    now.pins = {{at(60.25, 20.7), 340.5}, {at(5, 5), -3.25}};
+    sheets.become(now);
+    EXPECT_EQ(sheets.drawing.pins, now.pins);
+    EXPECT_TRUE(sheets.drawing.ridges.empty());
+    EXPECT_TRUE(test::has(sheets.document.toml, "[skeleton]\npoints = 'inputs/1/points.gpkg'\n"));
+
+    now.ridges = {{line_of({{50, 10}, {60, 12}, {70, 30}}), {std::nullopt, std::nullopt, std::nullopt}}};
+    sheets.become(now);
+    EXPECT_EQ(sheets.drawing.ridges, now.ridges) << "all without heights";
+    now.ridges.push_back({line_of({{20, 50}, {30, 50}, {30, 55}}), {500.0, std::nullopt, 300.25}});
+    now.ridges.push_back({line_of({{10, 50}, {15, 50}}), {std::nullopt, 70.0}});
+    sheets.become(now);
+    EXPECT_EQ(sheets.drawing.ridges, now.ridges) << "some with heights";
+    EXPECT_EQ(sheets.drawing.pins, now.pins);
+
+    now.pins.clear();
+    sheets.become(now);
+    EXPECT_TRUE(test::has(sheets.document.toml, "[skeleton]\npoints = ''\nridge_lines = 'inputs/"));
+    now.ridges.clear();
+    sheets.become(now);
+    EXPECT_EQ(sheets.document.toml, first) << "the section goes with the last one";
+}
+
+TEST(Drawing, OtherKeysOfTheSkeletonStay) {
+    pipeline::Recipe recipe = pipeline::default_recipe_on(80, 60);
+    recipe.surface->method = pipeline::Method::diffuse;
+    recipe.skeleton.emplace().ridges = pipeline::Ridges::voronoi;
+    Sheets sheets(pipeline::write_recipe(recipe));
+    std::string const first = sheets.document.toml;
+    Drawing now = sheets.drawing;
+    now.pins = {{at(60.25, 20.7), 340.5}};
+    sheets.become(now);
+    EXPECT_NE(sheets.document.toml, first);
+    now.pins.clear();
+    sheets.become(now);
+    EXPECT_EQ(sheets.document.toml, first);
+    EXPECT_TRUE(test::has(first, "ridges = 'voronoi'"));
+}
+
+TEST(Drawing, PointsOfAUsersFileArePins) {
+    io::TemporaryFolder const folder("drawing");
+    std::string csv = "x,y,z\n";
+    for (int i = 0; i < 10000; ++i) {
+        csv += std::to_string(5000 + i % 100 * 7.5) + "," + std::to_string(8400 + i / 100 * 5.5) + "," +
+               std::to_string(100 + i) + "\n";
+    }
+    test::write((folder.path() / "points.csv").string(), csv);
+    pipeline::Recipe recipe = pipeline::default_recipe_on(80, 60);
+    recipe.folder = folder.path().string();
+    recipe.skeleton.emplace().points = "points.csv";
+    Drawing const read = read_drawing(recipe, grid);
+    ASSERT_EQ(read.pins.size(), 10000U);
+    EXPECT_EQ(read.pins[101], (DrawnPin{{5007.5, 8405.5}, 201.0}));
+    EXPECT_EQ(after(read, SetHeight{101, 7.0}).drawing.pins[101].height_m, 7.0);
+}
+
 TEST(Drawing, StepsAreReadFromWordsOfThePage) {
     auto const fault = [](std::string const& what) { return test::message_of<Error>([&] { draw_step(what, grid); }); };
     EXPECT_NE(fault("[]"), "");
@@ -473,6 +659,20 @@ TEST(Drawing, StepsAreReadFromWordsOfThePage) {
     EXPECT_EQ(river.points, (DrawnLine{at(0, 0), at(1, 2)}));
     EXPECT_EQ(river.lambda, 2);
     EXPECT_EQ(std::get<SetLevel>(draw_step(R"({"verb":"level","lake":2,"level":null})", grid)).level_m, std::nullopt);
+    auto const pin = std::get<DrawPin>(draw_step(R"({"verb":"pin","at":[1,2],"height":-3.5})", grid));
+    EXPECT_EQ(pin.at, at(1, 2));
+    EXPECT_EQ(pin.height_m, -3.5);
+    EXPECT_NE(fault(R"({"verb":"pin","at":[1,2]})").find("height must be a number [m]"), std::string::npos);
+    EXPECT_NE(fault(R"({"verb":"height","pin":0,"height":"high"})").find("height must be"), std::string::npos);
+    auto const ridge = std::get<DrawRidge>(draw_step(R"({"verb":"ridge","points":[0,0,1,2],"to":9})", grid));
+    EXPECT_EQ(ridge.points, (DrawnLine{at(0, 0), at(1, 2)}));
+    EXPECT_EQ(ridge.from_m, std::nullopt);
+    EXPECT_EQ(ridge.to_m, 9.0);
+    EXPECT_EQ(std::get<SetRidgeHeights>(draw_step(R"({"verb":"heights","ridge":1,"from":5,"to":null})", grid)).from_m,
+              5.0);
+    EXPECT_EQ(std::get<Erase>(draw_step(R"({"verb":"erase","pin":3})", grid)).of.kind, Part::Kind::pin);
+    auto const move = draw_step(R"({"verb":"move","of":{"ridge":0},"vertex":1,"to":[1,2]})", grid);
+    EXPECT_EQ(std::get<MoveVertex>(move).of.kind, Part::Kind::ridge);
 }
 
 } // namespace drawing_test

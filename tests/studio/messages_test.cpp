@@ -143,6 +143,20 @@ TEST(Messages, SayWhatADocumentHolds) {
     }
 }
 
+TEST(Messages, SayWhatIsDrawn) {
+    Drawing drawing;
+    drawing.grid = test::frame(100, 70, 10.0);
+    Grid const& grid = drawing.grid;
+    auto const at = [&](double x, double y) { return Vec2{grid.west + 10.0 * x, grid.north - 10.0 * y}; };
+    drawing.pins = {{at(1.5, 2), 340.5}};
+    drawing.ridges = {{{at(0, 0), at(1, 2), at(3, 4)}, {std::nullopt, 20.0, 9.0}}};
+    json const said = json::parse(drawing_message(drawing, 4, true));
+    EXPECT_EQ(said["kind"], "drawn");
+    EXPECT_EQ(said["pins"], json::parse(R"([{"at": [1.5, 2.0], "height": 340.5}])"));
+    EXPECT_EQ(said["ridges"], json::parse(R"([{"line": [0.0, 0.0, 1.0, 2.0, 3.0, 4.0], "from": null, "to": 9.0}])"));
+    EXPECT_EQ(said["rivers"], json::array());
+}
+
 TEST(Messages, GiveThePageEveryKey) {
     json const given = json::parse(page_parameters("land of somebody"));
     EXPECT_EQ(given["folder"], "land of somebody");

@@ -76,7 +76,7 @@ inline nlohmann::json random_draw(thalweg::studio::Drawing const& drawing, std::
     auto const& line = rivers > 0 ? drawing.rivers[one].line : thalweg::studio::DrawnLine{{0.0, 0.0}};
     std::size_t const vertex = random() % line.size();
     json const of{{"river", one}};
-    switch (rivers < 3 ? 0 : random() % 24) {
+    switch (rivers < 3 ? 0 : random() % 28) {
     default:
         return {{"verb", "river"}, {"points", stroke()}, {"lambda", random() % 3}, {"type", random() % 2 ? "C" : ""}};
     case 8:
@@ -119,5 +119,32 @@ inline nlohmann::json random_draw(thalweg::studio::Drawing const& drawing, std::
         return drawing.masks.empty() ? json{{"verb", "mask"}, {"points", ring(0.6 * std::min(wide, tall))}}
                                      : shape("mask", drawing.masks.front());
     case 23: return {{"verb", "move"}, {"of", of}, {"vertex", line.size() - 1}, {"to", place()}, {"reach", 3}};
+    case 24: return {{"verb", "pin"}, {"at", place()}, {"height", std::round(uniform(0.0, 900.0))}};
+    case 25: {
+        if (drawing.pins.empty()) {
+            return {{"verb", "pin"}, {"at", place()}, {"height", 250.5}};
+        }
+        std::size_t const pin = random() % drawing.pins.size();
+        switch (random() % 3) {
+        case 0: return {{"verb", "erase"}, {"pin", pin}};
+        case 1: return {{"verb", "height"}, {"pin", pin}, {"height", uniform(0.0, 900.0)}};
+        default: return {{"verb", "move"}, {"of", {{"pin", pin}}}, {"vertex", 0}, {"to", place()}};
+        }
+    }
+    case 26: {
+        json const none = nullptr;
+        return {{"verb", "ridge"},
+                {"points", stroke()},
+                {"from", random() % 2 == 0 ? json(uniform(0.0, 900.0)) : none},
+                {"to", random() % 2 == 0 ? json(uniform(0.0, 900.0)) : none}};
+    }
+    case 27:
+        if (drawing.ridges.empty()) {
+            return {{"verb", "ridge"}, {"points", stroke()}};
+        }
+        if (random() % 3 == 0) {
+            return {{"verb", "heights"}, {"ridge", 0}, {"from", 400.0}, {"to", nullptr}};
+        }
+        return shape("ridge", drawing.ridges.front().line);
     }
 }

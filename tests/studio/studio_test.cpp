@@ -147,6 +147,12 @@ Drawing drawing_in(json const& message) {
     for (json const& mask : message["masks"]) {
         drawing.masks.push_back(line_in(mask));
     }
+    for (json const& pin : message["pins"]) {
+        drawing.pins.push_back({line_in(pin["at"]).front(), pin["height"]});
+    }
+    for (json const& ridge : message["ridges"]) {
+        drawing.ridges.push_back({line_in(ridge["line"]), {}});
+    }
     return drawing;
 }
 
@@ -394,6 +400,85 @@ TEST_F(Studios, DrawnRiversBecomeTheTerrain) {
         EXPECT_EQ(test::bytes_of(at("doc/terrain/" + std::string(name))),
                   test::bytes_of(at("made/" + std::string(name))))
             << name;
+    }
+}
+
+TEST_F(Studios, PinsAndRidgesAreOfTheRecipe) {
+    std::string const folder = document_for("", at("sheet"), true);
+    auto const toml = [&] { return test::bytes_of(folder + "/recipe.toml"); };
+    std::vector<std::string> all;
+    json last;
+    {
+        Running const studio({.folder = folder, .threads = 2});
+        Window window(studio);
+        window.next("drawing");
+        EXPECT_EQ(window.drawing()["pins"], json::array());
+        for (json const& what : {json{{"verb", "river"}, {"points", {200, 100, 220, 500}}},
+                                 json{{"verb", "pin"}, {"at", {100.25, 200}}, {"height", 900}},
+                                 json{{"verb", "ridge"}, {"points", {300, 100, 320, 300}}, {"from", 500.5}},
+                                 json{{"verb", "height"}, {"pin", 0}, {"height", 910.5}},
+                                 json{{"verb", "heights"}, {"ridge", 0}, {"from", nullptr}, {"to", 30}},
+                                 json{{"verb", "erase"}, {"pin", 0}}, json{{"verb", "erase"}, {"ridge", 0}},
+                                 json{{"verb", "pin"}, {"at", {100, 200}}, {"height", 5}}, json{{"verb", "clear"}}}) {
+            all.push_back(toml());
+            json const reply = window.draw(what);
+            ASSERT_EQ(reply["ok"], true) << what << reply;
+        }
+        EXPECT_EQ(all[7], all[1]) << "without pins and ridges the recipe is as before";
+        EXPECT_FALSE(test::has(toml(), "skeleton"));
+        while (!all.empty()) {
+            ASSERT_EQ(window.ask(R"({"id": 1, "do": "undo"})")["ok"], true);
+            EXPECT_EQ(toml(), all.back()) << all.size();
+            all.pop_back();
+        }
+        for (int i = 0; i < 5; ++i) {
+            ASSERT_EQ(window.ask(R"({"id": 1, "do": "redo"})")["ok"], true);
+        }
+        EXPECT_EQ(window.drawing()["pins"], json::parse(R"([{"at": [100.25, 200.0], "height": 910.5}])"));
+        EXPECT_EQ(window.drawing()["ridges"][0]["to"], 30.0);
+        EXPECT_TRUE(window.drawing()["ridges"][0]["from"].is_null());
+        json const wet = window.draw({{"verb", "pin"}, {"at", {200, 100}}, {"height", 5}});
+        EXPECT_TRUE(test::has(wet["error"].get<std::string>(), "a river runs here"));
+        EXPECT_NEAR(wet["at"][0].get<double>(), 200.0, 1e-3);
+        last = window.drawing();
+    }
+    Running const again({.folder = folder, .threads = 2});
+    Window window(again);
+    json const read = window.next("drawing");
+    EXPECT_EQ(read["pins"], last["pins"]);
+    EXPECT_EQ(read["ridges"], last["ridges"]);
+}
+
+TEST_F(Studios, PinsTakeThePlaceOfRandomPoints) {
+    {
+        DocumentFolder document(at("doc"));
+        document.edit({"", {SetKey{"surface.method", "diffuse"}, SetKey{"skeleton.scatter", "5"}}});
+    }
+    Running const studio(params());
+    Window window(studio);
+    window.next("drawing");
+    json const reply = window.draw({{"verb", "pin"}, {"at", {1, 1}}, {"height", 5}});
+    ASSERT_EQ(reply["ok"], true) << reply;
+    EXPECT_TRUE(test::has(reply["said"].dump(), "skeleton.scatter", "undo brings them back"));
+    EXPECT_TRUE(test::has(recipe(), "points.gpkg"));
+    EXPECT_FALSE(test::has(recipe(), "scatter"));
+    EXPECT_EQ(window.ask(R"({"id": 2, "do": "undo"})")["ok"], true);
+    EXPECT_TRUE(test::has(recipe(), "scatter = 5"));
+}
+
+TEST_F(Studios, PinsWithoutAnEffectAreRefusedInWords) {
+    test::write(at("field.toml"), "[grid]\nwidth = 72\nheight = 64\n[statistics]\nstd = 100.0\n");
+    new_document(at("field"), at("field.toml"));
+    Running const studio({.folder = at("field"), .threads = 2});
+    Window window(studio);
+    window.next("drawing");
+    std::string const before = test::bytes_of(at("field/recipe.toml"));
+    for (json const& what : {json{{"verb", "pin"}, {"at", {1, 1}}, {"height", 5}},
+                             json{{"verb", "ridge"}, {"points", {30, 20, 40, 20}}}}) {
+        json const reply = window.draw(what);
+        EXPECT_EQ(reply["ok"], false) << reply;
+        EXPECT_TRUE(test::has(reply["error"].get<std::string>(), "skeleton.", "has no effect")) << reply;
+        EXPECT_EQ(test::bytes_of(at("field/recipe.toml")), before);
     }
 }
 

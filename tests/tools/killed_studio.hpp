@@ -73,7 +73,8 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
     std::mt19937_64 random(seed);
     std::int64_t value = 1000; // the seed of the recipe counts the edits
     std::int64_t strokes = 0;
-    std::size_t rivers = 0; // on the sheet
+    std::size_t rivers = 0;   // on the sheet
+    std::size_t features = 0; // pins and ridges on it
     for (int round = 0; round < kills; ++round) {
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", kill " << round);
         StartedStudio studio({"doc", "-q"}, place.path());
@@ -86,30 +87,51 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
         });
         std::int64_t answered = 0;
         bool is_clearing = false;
-        for (Frame next = {1, ""}; next.opcode != -1;) {
-            ++value;
-            client.send(text_frame(R"({"id":1,"do":"edit","edit":{"steps":[{"set":"seed","value":")" +
-                                   std::to_string(value) + "\"}]}}"));
+        Frame next = {1, ""};
+        auto const is_answered = [&](std::string const& request) {
+            client.send(text_frame(request));
             do {
                 next = client.read_message();
             } while (next.opcode != -1 && next.payload.find(R"("type":"reply")") == std::string::npos);
-            answered = next.opcode != -1 ? value : answered;
-            if (next.opcode != -1) { // a river beside the last one, on a new sheet now and then
-                std::int64_t const number = strokes++ % 100;
-                is_clearing = number == 0;
-                std::string const x = std::to_string(4 + 5 * (number % 50));
-                std::string const y = number < 50 ? "20" : "140";
-                client.send(text_frame(number == 0
-                                           ? R"({"id":2,"do":"draw","what":{"verb":"clear"}})"
-                                           : R"({"id":2,"do":"draw","what":{"verb":"river","points":[)" + x + "," + y +
-                                                 "," + x + "," + std::to_string(std::stoi(y) + 60) + "]}}"));
-                do {
-                    next = client.read_message();
-                } while (next.opcode != -1 && next.payload.find(R"("type":"reply")") == std::string::npos);
-                EXPECT_TRUE(next.opcode == -1 || next.payload.find(R"("ok":true)") != std::string::npos)
-                    << next.payload;
-                rivers = next.opcode == -1 ? rivers : number == 0 ? 0 : rivers + 1;
+            return next.opcode != -1;
+        };
+        auto const is_drawn_now = [&](std::string const& what) {
+            bool const is = is_answered(R"({"id":2,"do":"draw","what":)" + what + "}");
+            EXPECT_TRUE(!is || next.payload.find(R"("ok":true)") != std::string::npos) << next.payload;
+            return is;
+        };
+        for (;;) {
+            ++value;
+            if (!is_answered(R"({"id":1,"do":"edit","edit":{"steps":[{"set":"seed","value":")" + std::to_string(value) +
+                             "\"}]}}")) {
+                break;
             }
+            answered = value;
+            std::int64_t const number = strokes++ % 100;
+            is_clearing = number == 0;
+            if (is_clearing) { // a new sheet now and then
+                if (!is_drawn_now(R"({"verb":"clear"})")) {
+                    break;
+                }
+                rivers = features = 0;
+                continue;
+            }
+            // A river beside the last one, and between them a pin or a ridge.
+            std::int64_t const x = 4 + 5 * (number % 50);
+            std::int64_t const y = number < 50 ? 20 : 140;
+            auto const place = [&](double right, std::int64_t down) {
+                return std::to_string(static_cast<double>(x) + right) + "," + std::to_string(y + down);
+            };
+            if (!is_drawn_now(R"({"verb":"river","points":[)" + place(0, 0) + "," + place(0, 60) + "]}")) {
+                break;
+            }
+            ++rivers;
+            if (!is_drawn_now(number % 2 == 0 ? R"({"verb":"pin","at":[)" + place(2.5, 10) + R"(],"height":300})"
+                                              : R"({"verb":"ridge","points":[)" + place(2.5, 5) + "," + place(2.5, 25) +
+                                                    R"(],"from":)" + std::to_string(number) + "}")) {
+                break;
+            }
+            ++features;
         }
         EXPECT_EQ(studio.process().wait(30.0).code, -SIGKILL);
         DocumentFolder const document(folder);
@@ -120,9 +142,15 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
         EXPECT_LE(kept, value);
         pipeline::Recipe const& recipe = document.document().recipe;
         if (is_drawn(recipe)) { // what is named is whole
-            std::size_t const there = read_drawing(recipe, *grid_of(recipe)).rivers.size();
+            Drawing const kept_drawing = read_drawing(recipe, *grid_of(recipe));
+            std::size_t const there = kept_drawing.rivers.size();
             EXPECT_TRUE(there == rivers || there == rivers + 1 || (is_clearing && there == 0))
                 << there << " " << rivers;
+            std::size_t const kept_features = kept_drawing.pins.size() + kept_drawing.ridges.size();
+            EXPECT_TRUE(kept_features == features || kept_features == features + 1 ||
+                        (is_clearing && kept_features == 0))
+                << kept_features << " " << features;
+            features = kept_features;
             strokes -= is_clearing && there > 0 ? 1 : 0; // it was not cleared
             rivers = there;
         }

@@ -6,7 +6,7 @@ import { number } from './chart.js';
 import { Drawing, lengthOf } from './drawing.js';
 import { foot } from './rivers.js';
 
-export const nameOf = ({ kind, n }) => `${kind === 'river' ? 'River' : { coast: 'Coast', lake: 'Lake', mask: 'Mask' }[kind]} ${n + 1}`;
+export const nameOf = ({ kind, n }) => `${kind[0].toUpperCase()}${kind.slice(1)} ${n + 1}`;
 const patience = 20000; // [ms] for rivers that are being made
 
 export class Desk {
@@ -22,6 +22,7 @@ export class Desk {
   lambda = 0;
   level = null; // of lakes to be drawn
   onchange = () => {}; // of what stands beside the view too
+  onask = () => {}; // the field of what is chosen is to be filled in
   ontell = () => {}; // (text, {at: [x, y], bad})
   quiet = () => {}; // what was told is gone
   speak = () => {}; // to who does not see
@@ -64,7 +65,8 @@ export class Desk {
     this.onchange();
   }
 
-  choose(object, vertex = -1) {
+  choose(object, vertex_ = -1) {
+    const vertex = object?.kind === 'pin' ? -1 : vertex_; // it is one place
     if (object === this.chosen && vertex === this.vertex) return;
     Object.assign(this, { chosen: object, vertex });
     this.onchange();
@@ -160,11 +162,18 @@ export class Desk {
   describe(object) {
     const { drawing } = this;
     const facts = [nameOf(object)];
+    if (object.kind === 'pin') return `${facts[0]}, ${object.height} m`;
     const length = lengthOf(object.outline) * drawing.grid.cell_m;
     facts.push(length >= 1000 ? `${number(length / 1000, 3)} km` : `${number(length, 3)} m`);
     if (object.kind === 'lake') facts.push(object.level === null ? 'level by the terrain' : `level ${object.level} m`);
     if (object.kind === 'river') facts.push(this.#end(object));
+    if (object.kind === 'ridge') facts.push(this.#crest(object));
     return facts.join(', ');
+  }
+
+  #crest({ from, to }) {
+    if (from === null && to === null) return 'heights by the terrain';
+    return (from ?? to) === (to ?? from) ? `level ${from ?? to} m` : `${from} m to ${to} m`;
   }
 
   #end(river) {
@@ -182,7 +191,7 @@ export class Desk {
     const { chosen, vertex } = this;
     if (!chosen) return;
     const { kind, closed } = chosen;
-    if (vertex >= 0) {
+    if (vertex >= 0 && kind !== 'pin') {
       const line = [...chosen.line.slice(0, 2 * vertex), ...chosen.line.slice(2 * vertex + 2)];
       this.send((same) => ({ verb: 'remove', of: { [kind]: same(chosen).n }, vertex }), { kind, closed, line, hides: [chosen] });
       this.chosen = this.drawing.like(chosen, line);

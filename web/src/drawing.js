@@ -86,15 +86,15 @@ class Tiles {
 }
 
 /**
- * The program's message `drawing` as objects: {kind: 'river' | 'coast' | 'lake' | 'mask', n: its number, line: vertices,
- * outline: the same, closed where it is a ring, closed, and of the message what else there is}.
+ * The program's message `drawing` as objects: {kind: 'river' | 'coast' | 'lake' | 'mask' | 'pin' | 'ridge', n: its number, line: vertices,
+ * outline: the same, closed where it is a ring (a pin is a ring of one vertex), closed, and of the message what else there is}.
  */
 export class Drawing {
   #tiles = null;
   #downstream = null;
 
   constructor(message) {
-    const { grid, kind, branching, revision, rivers, coasts, lakes, masks } = message;
+    const { grid, kind, branching, revision, rivers, coasts, lakes, masks, pins, ridges } = message;
     Object.assign(this, { message, grid, kind, branching, revision });
     const ring = (line) => ({ line, outline: [...line, line[0], line[1]], closed: true });
     const coast = (line) => {
@@ -105,7 +105,9 @@ export class Drawing {
     this.coasts = coasts.map((line, n) => ({ kind: 'coast', n, ...coast(line) }));
     this.lakes = lakes.map((lake, n) => ({ kind: 'lake', n, ...ring(lake.ring), level: lake.level }));
     this.masks = masks.map((line, n) => ({ kind: 'mask', n, ...ring(line) }));
-    this.objects = [...this.rivers, ...this.coasts, ...this.lakes, ...this.masks];
+    this.pins = pins.map(({ at, height }, n) => ({ kind: 'pin', n, ...ring(at), height }));
+    this.ridges = ridges.map(({ line, from, to }, n) => ({ kind: 'ridge', n, line, outline: line, closed: false, from, to }));
+    this.objects = [...this.rivers, ...this.ridges, ...this.coasts, ...this.lakes, ...this.masks, ...this.pins];
   }
 
   get empty() {
@@ -182,7 +184,7 @@ export class Drawing {
 
   /** What an object of an older drawing is in this one: the same line, or where asked for the one most like it; null: it is gone. */
   same(object, alike = false) {
-    const all = this[{ river: 'rivers', coast: 'coasts', lake: 'lakes', mask: 'masks' }[object.kind]];
+    const all = this[`${object.kind}s`];
     // What the page made of a step differs from what the program made by less than it rounds.
     const { line } = object;
     const exact = [all[object.n], ...all].find((one) => one && one.line.length === line.length && one.line.every((v, i) => Math.abs(v - line[i]) < 2e-3));

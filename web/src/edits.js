@@ -4,7 +4,7 @@
 import { nameOf } from './desk.js';
 import { bent, inside, lengthOf } from './drawing.js';
 import { apart, near, round, Tool } from './hand.js';
-import { dot, orange, red } from './overlay.js';
+import { dot, ink, orange, peg, red } from './overlay.js';
 
 /** Where a click or the keyboard chooses a place, and no line is drawn. */
 class Pointing extends Tool {
@@ -149,6 +149,62 @@ export class Join extends Pointing {
   }
 }
 
+/** Sets pins: each has the terrain's height at first, and its field is ready for another one. */
+export class Pin extends Pointing {
+  #at = null;
+
+  clear() {
+    this.#at = null;
+  }
+
+  #near(at) {
+    return this.desk.drawing.nearest(at, near * this.desk.scale(at), ({ kind }) => kind === 'pin');
+  }
+
+  point(at) {
+    this.desk.hovered = at && this.#near(at);
+    this.#at = this.desk.hovered ? null : at;
+  }
+
+  released(at) {
+    const { desk, view } = this;
+    const there = this.#near(at);
+    if (there) {
+      this.#take(there.object);
+      return;
+    }
+    const [x, y] = [round(at.x), round(at.y)];
+    const height = Math.round(view.land.heightAt(x, y));
+    this.#at = null;
+    desk.choose(null);
+    desk.send({ verb: 'pin', at: [x, y], height }, { kind: 'pin', line: [x, y] })
+      .then((reply) => reply && desk.tool === this && this.#take(desk.drawing.pins.at(-1)));
+  }
+
+  #take(pin) {
+    this.desk.choose(pin);
+    this.desk.speak(this.desk.describe(pin));
+    this.desk.onask();
+  }
+
+  press(at) {
+    this.released(at);
+  }
+
+  key(event) {
+    const { desk } = this;
+    if ((event.key !== 'Delete' && event.key !== 'Backspace') || !desk.chosen) return this.steps(event);
+    desk.remove();
+    return true;
+  }
+
+  draw(pen, place) {
+    const p = this.#at && place(this.#at.x, this.#at.y);
+    if (p) peg(pen, p, ink.pin, 0.6);
+    super.draw(pen, place);
+  }
+}
+
 /** Chooses what is drawn, and moves its vertices. */
 export class Select extends Tool {
   cursor = 'default';
@@ -168,7 +224,7 @@ export class Select extends Tool {
     const { desk } = this;
     const { drawing, chosen } = desk;
     const reach = pixels * desk.scale(at);
-    for (const accept of [(one) => one === chosen, ({ kind }) => kind === 'river', ({ kind }) => kind === 'coast', ({ kind }) => kind === 'lake', ({ kind }) => kind === 'mask']) {
+    for (const accept of [({ kind }) => kind === 'pin', (one) => one === chosen, ({ kind }) => kind === 'river', ({ kind }) => kind === 'ridge', ({ kind }) => kind === 'coast', ({ kind }) => kind === 'lake', ({ kind }) => kind === 'mask']) {
       const found = drawing.nearest(at, reach, accept);
       if (found) return found;
     }
@@ -198,6 +254,10 @@ export class Select extends Tool {
   /** The line between two handles: of a dense line the nearest vertex, else a new one. */
   #onLine(found, at, px) {
     const { chosen } = this.desk;
+    if (chosen.kind === 'pin') {
+      this.#lift({ vertex: 0 }, at, px);
+      return;
+    }
     const count = chosen.line.length / 2;
     if (!this.#dense()) {
       this.#lift({ insert: found.i, foot: found }, at, px);
@@ -240,7 +300,7 @@ export class Select extends Tool {
     const { object, vertex } = drag;
     const last = object.line.length / 2 - 1;
     const end = vertex !== undefined && !object.closed && (vertex === 0 || vertex === last);
-    drag.target = end ? this.desk.snap(at, object.kind === 'river' ? ['river', 'coast', 'border'] : ['border'], { pixels: near, except: object }) : null;
+    drag.target = end ? this.desk.snap(at, { river: ['river', 'coast', 'border'], coast: ['border'] }[object.kind] ?? [], { pixels: near, except: object }) : null;
     drag.to = drag.target ?? at;
   }
 
@@ -272,7 +332,7 @@ export class Select extends Tool {
     else desk.send((same) => ({ verb: 'insert', of: of(same), vertex: insert, at }), ghost);
     // What comes back is known again by its line.
     desk.chosen = desk.drawing.like(object, ghost.line);
-    desk.vertex = insert ?? vertex;
+    desk.vertex = object.kind === 'pin' ? -1 : insert ?? vertex;
     desk.speak('put down');
   }
 
@@ -343,6 +403,7 @@ export class Select extends Tool {
       const last = desk.chosen.line.length / 2 - 1;
       for (const { i, x, y } of this.#handles()) {
         const end = desk.chosen.kind === 'river' && (i === 0 || i === last);
+        if (desk.chosen.kind === 'pin') continue;
         if (i === desk.vertex) dot(pen, { x, y }, 5.5, { fill: orange, stroke: '#fff' });
         else if (!end) dot(pen, { x, y }, 3.6, { stroke: orange, width: 1.8 });
       }

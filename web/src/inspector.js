@@ -63,7 +63,11 @@ export function inspector(desk, types, hold) {
   const lambda = make('input', { type: 'number', id: 'river-lambda', min: 1, max: 50, step: 1, placeholder: 'recipe', autocomplete: 'off' });
   const level = make('input', { type: 'number', id: 'lake-level', step: 'any', placeholder: 'by the terrain', autocomplete: 'off' });
   const field = (label, control, unit) => make('div', { className: 'row' }, make('label', { htmlFor: control.id, textContent: label }), control, unit && make('span', { textContent: unit }));
+  const height = make('input', { type: 'number', id: 'pin-height', step: 'any', autocomplete: 'off' });
+  const [from, to] = ['from', 'to'].map((end) => make('input', { type: 'number', id: `ridge-${end}`, step: 'any', placeholder: 'by the terrain', autocomplete: 'off' }));
   const [typeRow, lambdaRow, levelRow] = [field('Type', type), field('Branching', lambda), field('Level', level, 'm')];
+  const [heightRow, fromRow, toRow] = [field('Height', height, 'm'), field('Begins at', from, 'm'), field('Ends at', to, 'm')];
+  fromRow.title = toRow.title = 'Height of the ridge at its end; one alone: it is level; none: it is as high as the terrain';
   lambdaRow.title = 'Generator lambda of the side streams: 1 has none, 2 is dendritic, larger values are feathered; empty: as the recipe says';
 
   type.addEventListener('change', () => {
@@ -85,6 +89,41 @@ export function inspector(desk, types, hold) {
     else desk.level = value;
   });
 
+  const metres = ({ value }) => (value.trim() === '' ? null : Number(value));
+  /** What is chosen has other heights at once, and the former ones again where they are refused. */
+  const raise = async (verb, object, heights) => {
+    const before = { ...object };
+    Object.assign(object, heights);
+    if (await change((same) => ({ verb, [object.kind]: same(object).n, ...heights }))) return;
+    Object.assign(object, before);
+    desk.onchange();
+  };
+  height.addEventListener('change', () => {
+    const pin = chosen('pin');
+    if (pin && metres(height) !== null) raise('height', pin, { height: metres(height) });
+    else fields(true); // a pin has a height
+  });
+  for (const end of [from, to]) {
+    end.addEventListener('change', () => {
+      const ridge = chosen('ridge');
+      if (ridge) raise('heights', ridge, { from: metres(from), to: metres(to) });
+    });
+  }
+  // Enter and Escape lead back to the land, where the next one is drawn.
+  for (const input of [height, from, to]) {
+    input.addEventListener('keydown', (event) => {
+      if (event.key === 'Escape') fields(true);
+      if (event.key !== 'Enter' && event.key !== 'Escape') return;
+      desk.view.canvas.focus({ preventScroll: true });
+      event.stopPropagation();
+    });
+  }
+  desk.onask = () => {
+    const input = desk.chosen?.kind === 'ridge' ? from : height;
+    input.focus({ preventScroll: true });
+    input.select();
+  };
+
   const reverse = press('Reverse', 'The river and all below it run the other way', () => {
     const river = chosen('river');
     change((same) => ({ verb: 'reverse', river: same(river).n }));
@@ -102,13 +141,13 @@ export function inspector(desk, types, hold) {
   const branching = make('input', { type: 'checkbox', id: 'branching' });
   branching.title = 'Every river grows a network of side streams';
   branching.addEventListener('change', () => change({ verb: 'branching', on: branching.checked }));
-  const clear = press('Clear sheet', 'An empty sheet: no rivers, coasts, lakes, masks', async () => {
+  const clear = press('Clear sheet', 'An empty sheet: nothing is drawn on it', async () => {
     const { drawing } = desk;
     desk.choose(null);
     if (await desk.send({ verb: 'clear' }, { kind: 'river', line: [], hides: drawing.objects })) desk.ontell('An empty sheet. Undo (Ctrl+Z) brings everything back', {});
   });
   const whole = make('div', { className: 'whole' }, make('label', {}, branching, 'side streams'), clear);
-  const box = make('section', { id: 'inspector', hidden: true }, title, note, typeRow, lambdaRow, levelRow, actions, whole);
+  const box = make('section', { id: 'inspector', hidden: true }, title, note, typeRow, lambdaRow, levelRow, heightRow, fromRow, toRow, actions, whole);
   box.setAttribute('aria-label', 'Drawing');
   const hint = make('p', { id: 'sheet-hint', hidden: true });
   hint.append('Draw a river ', make('kbd', { textContent: 'R' }), ': from its source to the sea, or the other way');
@@ -116,12 +155,21 @@ export function inspector(desk, types, hold) {
   stage.append(hint);
 
   /** A field shows a value unless somebody is typing in it. */
-  const put = (input, value) => {
-    if (document.activeElement !== input) input.value = value;
+  let shown = null; // whose values the fields have
+  const put = (input, value, always) => {
+    if (always || document.activeElement !== input) input.value = value;
   };
-  function fields() {
+  function fields(always = desk.chosen?.kind !== shown?.kind || desk.chosen?.n !== shown?.n) {
     const river = chosen('river');
     const lake = chosen('lake');
+    const pin = chosen('pin');
+    const ridge = chosen('ridge');
+    shown = desk.chosen;
+    heightRow.hidden = !pin;
+    fromRow.hidden = toRow.hidden = !ridge;
+    if (pin) put(height, pin.height, always);
+    if (ridge) put(from, ridge.from ?? '', always);
+    if (ridge) put(to, ridge.to ?? '', always);
     const tool = desk.tool?.id;
     typeRow.hidden = !(river || tool === 'river');
     lambdaRow.hidden = typeRow.hidden || !desk.drawing.branching;
@@ -137,7 +185,8 @@ export function inspector(desk, types, hold) {
   function words() {
     const { drawing, tool } = desk;
     const count = (n, word) => n > 0 && `${n} ${word}${n > 1 ? 's' : ''}`;
-    const all = [count(drawing.rivers.length, 'river'), count(drawing.coasts.length, 'coast'), count(drawing.lakes.length, 'lake'), count(drawing.masks.length, 'mask')].filter(Boolean);
+    const all = [count(drawing.rivers.length, 'river'), count(drawing.coasts.length, 'coast'), count(drawing.lakes.length, 'lake'), count(drawing.masks.length, 'mask'),
+      count(drawing.pins.length, 'pin'), count(drawing.ridges.length, 'ridge')].filter(Boolean);
     title.textContent = desk.chosen ? desk.describe(desk.chosen) : tool.title.split(':')[0];
     note.textContent = drawing.kind === 'shown' && drawing.rivers.length ? 'The network becomes drawn lines; undo brings the generator back.'
       : desk.chosen ? '' : tool.id === 'select' ? `${all.join(', ') || 'Nothing is drawn'}.` : `${tool.help}.`;

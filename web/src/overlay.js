@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // The drawing over the view: lines with the ways they run, shores, levels, masks, and what is being done to them.
 
-export const ink = { river: '#1d6fd0', coast: '#0b6f79', lake: '#2b7ec8', mask: '#7b4bb5' };
+export const ink = { river: '#1d6fd0', coast: '#0b6f79', lake: '#2b7ec8', mask: '#7b4bb5', pin: '#b3261e', ridge: '#7a4a1c' };
 export const red = '#d3122e';
 export const orange = '#ff7800';
 const casing = 'rgb(255 255 255 / 0.85)';
@@ -101,6 +101,40 @@ export function dot(pen, { x, y }, radius, { fill = '#fff', stroke = ink.river, 
   pen.stroke();
 }
 
+/** A pin with its foot at a place. */
+export function peg(pen, { x, y }, colour, opacity = 1) {
+  const path = new Path2D();
+  path.moveTo(x, y);
+  path.bezierCurveTo(x - 1.5, y - 5, x - 5.5, y - 7.5, x - 5.5, y - 12);
+  path.arc(x, y - 12, 5.5, Math.PI, 2 * Math.PI);
+  path.bezierCurveTo(x + 5.5, y - 7.5, x + 1.5, y - 5, x, y);
+  path.closePath();
+  const before = pen.globalAlpha;
+  pen.globalAlpha = before * opacity;
+  pen.strokeStyle = casing;
+  pen.lineWidth = 3;
+  pen.stroke(path);
+  pen.fillStyle = colour;
+  pen.fill(path);
+  pen.beginPath();
+  pen.arc(x, y - 12, 2.1, 0, 2 * Math.PI);
+  pen.fillStyle = '#fff';
+  pen.fill();
+  pen.globalAlpha = before;
+}
+
+/** Small triangles on both sides of a line: the land falls there. */
+function teeth(pieces, path = new Path2D()) {
+  along(pieces, 22, (x, y, ux, uy) => {
+    for (const side of [1, -1]) {
+      path.moveTo(x - 3.2 * ux, y - 3.2 * uy);
+      path.lineTo(x - 4 * side * uy, y + 4 * side * ux);
+      path.lineTo(x + 3.2 * ux, y + 3.2 * uy);
+    }
+  });
+  return path;
+}
+
 /** Words on the land, as labels are. */
 export function write(pen, text, { x, y }, colour) {
   pen.font = "600 12px system-ui, 'DejaVu Sans', sans-serif";
@@ -152,7 +186,8 @@ export class Overlay {
     const { drawing } = desk;
     if (document.documentElement.dataset.before === 'on') return;
     if (desk.fits) this.#drawn(pen, place, held);
-    if (desk.lies) for (const ghost of desk.ghosts) this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
+    if (desk.lies) for (const ghost of desk.ghosts) if (ghost.kind === 'pin') this.#pins(pen, place, [ghost], ghost.state === 'refused' ? red : ink.pin);
+    else this.stroke(pen, place, ghost.line, { ...ghost, colour: ghost.state === 'refused' ? red : ink[ghost.kind], width: 2.2 });
   }
 
   #drawn(pen, place, held) {
@@ -171,7 +206,8 @@ export class Overlay {
     const { parent } = this.desk.view;
     const ratio = Math.min(window.devicePixelRatio || 1, 2);
     const [width, height] = [Math.round(parent.clientWidth * ratio), Math.round(parent.clientHeight * ratio)];
-    const stamp = [held, width, height, ratio, ...Array.from(hidden, ({ kind, n }) => kind + n)].join(' ');
+    const { chosen } = this.desk;
+    const stamp = [held, width, height, ratio, chosen?.height, chosen?.from, chosen?.to, ...Array.from(hidden, ({ kind, n }) => kind + n)].join(' ');
     if (this.#picture?.stamp === stamp) return this.#picture.canvas;
     const canvas = this.#picture?.canvas ?? document.createElement('canvas');
     Object.assign(canvas, { width, height });
@@ -186,6 +222,11 @@ export class Overlay {
     if (held || this.desk.view.land.level) {
       for (const lake of seen(drawing.lakes)) this.#lake(pen, place, lake, held);
       this.#lines(pen, place, seen(drawing.coasts), 1.8, held && ticks);
+    }
+    if (held || this.desk.view.onmap) {
+      this.#lines(pen, place, seen(drawing.ridges), 1.6, teeth);
+      this.#pins(pen, place, seen(drawing.pins));
+      if (held) this.#heights(pen, place, seen(drawing.pins), seen(drawing.ridges));
     }
     if (held && drawing.kind === 'drawn') this.#lines(pen, place, seen(drawing.rivers), 1.5, (pieces, path) => heads(pieces, 90, false, path));
     this.#picture = { stamp, canvas };
@@ -220,6 +261,28 @@ export class Overlay {
     if (at) write(pen, `${lake.level} m`, at, '#10508c');
   }
 
+  #pins(pen, place, pins, colour = ink.pin) {
+    for (const { line } of pins) {
+      const p = line.length && place(line[0], line[1]);
+      if (p) peg(pen, p, colour);
+    }
+  }
+
+  /** Heights of pins and of the ends of ridges; where they are crowded, not each is written. */
+  #heights(pen, place, pins, ridges) {
+    const taken = new Set();
+    const all = [...pins.map(({ line, height }) => [height, line, ink.pin]),
+      ...ridges.flatMap(({ line, from, to }) => [[from, line, ink.ridge], [to, line.slice(-2), ink.ridge]])];
+    for (const [height, [x, y], colour] of all) {
+      const p = height !== null && place(x, y);
+      if (!p) continue;
+      const [column, row] = [Math.floor(p.x / 30), Math.floor(p.y / 15)];
+      if ([-1, 0, 1].some((c) => [-1, 0, 1].some((r) => taken.has(`${column + c} ${row + r}`)))) continue;
+      taken.add(`${column} ${row}`);
+      write(pen, `${height} m`, { x: p.x, y: p.y + 10 }, colour);
+    }
+  }
+
   /** Lines of one kind at once; marks: (pieces, path) adds what stands along them. */
   #lines(pen, place, objects, width, marks = null) {
     if (objects.length === 0) return;
@@ -235,6 +298,9 @@ export class Overlay {
       pen.stroke(lines);
       pen.lineWidth = 1.5 + more;
       pen.stroke(beside);
+      if (objects[0].kind !== 'ridge') continue;
+      pen.fillStyle = style;
+      pen.fill(beside);
     }
   }
 
@@ -242,9 +308,13 @@ export class Overlay {
   #choice(pen, place, hidden) {
     const { chosen, hovered } = this.desk;
     for (const object of new Set([hovered?.object, chosen].filter((one) => one && !hidden.has(one)))) {
+      if (object.kind === 'pin') {
+        this.#pins(pen, place, [object], object === chosen ? orange : ink.pin);
+        continue;
+      }
       const { path, pieces } = this.#of(object, place);
       const colour = object === chosen ? orange : ink[object.kind];
-      const marks = object.kind === 'river' ? heads(pieces, object === chosen ? 110 : 60) : null;
+      const marks = object.kind === 'river' ? heads(pieces, object === chosen ? 110 : 60) : object.kind === 'ridge' ? teeth(pieces) : null;
       for (const [style, width] of [[casing, 5.4], [colour, 2.8]]) {
         pen.strokeStyle = style;
         pen.lineWidth = width;

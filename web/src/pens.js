@@ -69,7 +69,7 @@ export class Pen extends Tool {
   /** Where a new piece of the line meets what it must not cross. */
   #met(ax, ay, x, y) {
     const reach = 2 * near * this.desk.scale({ x: ax, y: ay });
-    const crossed = this.desk.drawing.crossed(ax, ay, x, y, (object) => object.kind === this.kind && !(object === this.#begin?.object && this.#along < reach));
+    const crossed = this.desk.drawing.crossed(ax, ay, x, y, (object) => object.kind === this.avoids && !(object === this.#begin?.object && this.#along < reach));
     if (crossed) return crossed;
     const { line } = this;
     for (let i = 2; i + 3 < line.length; i += 2) {
@@ -146,6 +146,7 @@ export class Pen extends Tool {
     desk.cursor = null;
     if (!at) return false;
     desk.quiet();
+    desk.choose(null);
     const px = desk.pixel(event);
     const end = this.line.length && this.view.place(...this.line.slice(-2));
     if (this.#refused && (!end || apart(px, end) > 1.5 * near)) this.clear();
@@ -294,7 +295,8 @@ export class Pen extends Tool {
     const ghost = { line, closed, kind: this.kind, pen: this };
     this.clear();
     desk.speak('sent');
-    desk.send(this.what(line, desk), ghost);
+    const reply = desk.send(this.what(line, desk), ghost);
+    if (this.then) reply.then((there) => there && this.then(desk));
   }
 
   /** A line that the program refused is in the hand again, if that is empty. */

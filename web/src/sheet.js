@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Drawing on a page of the studio: its tools, what lies over the view, and what stands beside the toolbar.
 import { Desk } from './desk.js';
-import { Cut, Join, Select } from './edits.js';
+import { Cut, Join, Pin, Select } from './edits.js';
 import { round } from './hand.js';
 import { inspector } from './inspector.js';
 import { Overlay } from './overlay.js';
@@ -16,16 +16,18 @@ const icons = {
   coast: 'M2 13c2-.5 2.5-3 4.5-3.5S9 5 11.5 5.5 13 3 18 2.5M9 14.5c1.5-1.3 2.5 1 4 0s2.5 1 4.5 0M4 18c1.5-1.3 2.5 1 4 0s2.5 1 4 0 2.5.8 4 0',
   lake: 'M2.5 11.5c0-4 3-4 5-6s7-1.5 9 2 .5 8-3.5 8.5-10.5-.5-10.5-4.5ZM6.5 12.5c1.5-1.3 2.7 1 4.2 0s2.3-.3 2.8 0',
   mask: 'M2.5 2.5h15v15h-15ZM6 12.5l1.5-6 6-.5 1 5-3.5 3.5Z',
+  pin: 'M10 18c-1-3.5-5-5.5-5-9.5a5 5 0 0 1 10 0c0 4-4 6-5 9.5ZM12 8.5a2 2 0 1 1-4 0 2 2 0 0 1 4 0Z',
+  ridge: 'M1.5 15.5 7 6l3 5 2.5-3.5 6 8M4.5 18h1.5M9 18h1.5M13.5 18h1.5',
 };
 
 /** For the list of keys. */
-export const drawingKeys = [['R, O, A, S', 'draw a river, a coast, a lake, a mask: drag, or point by point'], ['Enter, double click', 'end of a line'], ['Backspace', 'back by a point'],
+export const drawingKeys = [['R, O, A, S, G', 'draw a river, a coast, a lake, a mask, a ridge: drag, or point by point'], ['H', 'pin a height'], ['Enter, double click', 'end of a line'], ['Backspace', 'back by a point'],
   ['V, K, J', 'choose and edit, cut, join'], ['Delete', 'the chosen vertex, or all that is chosen'], ['Escape', 'put away'], ['space bar and drag', 'move the view with a tool in the hand']];
 
 /** The tools in the order of the toolbar. */
 function drawingTools(desk, overlay) {
   const points = (line) => line.map(round);
-  const pen = (about) => new Pen(desk, overlay, about);
+  const pen = (about) => new Pen(desk, overlay, { avoids: about.kind, ...about });
   return [
     new Select(desk, overlay, { id: 'select', group: 1, letter: 'v', title: 'Select and edit', icon: icons.select,
       help: 'Press a line to choose it, drag its vertices; page down goes to the next one' }),
@@ -39,6 +41,10 @@ function drawingTools(desk, overlay) {
       help: 'Drag around it, or set points and end with Enter', what: (line, { level }) => ({ verb: 'lake', points: points(line), level }) }),
     pen({ id: 'mask', group: 2, letter: 's', title: 'Draw a mask: only what lies in it gets heights', icon: icons.mask, kind: 'mask', snaps: [], closes: true,
       help: 'Drag around the land that is to have heights', what: (line) => ({ verb: 'mask', points: points(line) }) }),
+    new Pin(desk, overlay, { id: 'pin', group: 3, letter: 'h', title: 'Pin a height', icon: icons.pin, help: 'Press the land, and type the height that it has there' }),
+    pen({ id: 'ridge', group: 3, letter: 'g', title: 'Draw a ridge', icon: icons.ridge, kind: 'ridge', avoids: 'river', snaps: [],
+      help: 'Drag, or set points and end with Enter; no water crosses it', what: (line) => ({ verb: 'ridge', points: points(line) }),
+      then: ({ drawing }) => desk.choose(drawing.ridges.at(-1)) }),
   ];
 }
 

@@ -32,6 +32,7 @@ constexpr double least_length = 3.0;
 constexpr double gap = 4.0; ///< between the parts of a river that is cut
 constexpr double pace = 0.5;
 constexpr double touching = 0.01;
+constexpr double in_a_river = 0.75; ///< pins nearer than this lie in its cells
 
 constexpr double infinite = std::numeric_limits<double>::infinity();
 constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
@@ -441,6 +442,37 @@ bool lies_in_sea(Drawing const& drawing, Beside const& coast) {
     return !coast.is_left && coast.away_m > touching * drawing.grid.cell_m;
 }
 
+/// Which of some places lie nearer than that to one of some lines.
+template <class Lines> std::vector<bool> near_lines(DrawnLine const& places, Lines const& lines, double near_m) {
+    std::vector<bool> is_near(places.size());
+    if (places.empty()) {
+        return is_near;
+    }
+    Box const around(places);
+    for (auto const& one : lines) {
+        for (std::size_t k = 0; k + 1 < one.line.size(); ++k) {
+            Vec2 const a = one.line[k];
+            Vec2 const b = one.line[k + 1];
+            if (around.is_apart(a, b, near_m)) {
+                continue;
+            }
+            for (std::size_t i = 0; i < places.size(); ++i) {
+                is_near[i] = is_near[i] || distance(geometry::foot_on(a, b, places[i]).at, places[i]) < near_m;
+            }
+        }
+    }
+    return is_near;
+}
+
+/// The first of some places along a line that lies nearer than that to one of some lines.
+template <class Line>
+std::optional<Vec2> touched(DrawnLine const& places, std::vector<Line> const& lines, double near_m) {
+    std::vector<bool> const is_near = near_lines(places, lines, near_m);
+    auto const first = std::ranges::find(is_near, true);
+    return first == is_near.end() ? std::nullopt
+                                  : std::optional(places[static_cast<std::size_t>(first - is_near.begin())]);
+}
+
 /// Throws where a stretch of a river lies in the sea, crosses another or comes too near, but for where they meet.
 void require_clear(Drawing const& drawing, std::size_t river, std::size_t first, std::size_t last, double clear_m) {
     constexpr double widening = 0.2; // rivers part by more than this share of the way from where they meet
@@ -453,6 +485,11 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
         if (lies_in_sea(drawing, coasts.nearest(p))) {
             throw NotDrawn("studio.drawing: the river would run through the sea here", p);
         }
+    }
+    if (auto const at = touched(stretch, drawing.ridges, 0.5 * clearance * drawing.grid.cell_m)) {
+        throw NotDrawn("studio.drawing: the river would cross or touch a ridge here: no water crosses it. Move or "
+                       "erase the ridge first",
+                       at);
     }
     Box const around(stretch);
     for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
@@ -525,11 +562,13 @@ std::vector<DrawnLine> parts_on_land(Coasts& coasts, DrawnLine const& line, doub
     if (coasts.empty()) {
         return {line};
     }
+    constexpr double on_coast_m = 1e-5; // where rivers meet on the coast, rounding puts none of them into the sea
     std::vector<DrawnLine> parts;
     bool was_land = false;
     Vec2 before = line.front();
     auto const step = [&](Vec2 p, bool is_vertex) {
-        bool const is_on_land = coasts.nearest(p).is_left;
+        Beside const coast = coasts.nearest(p);
+        bool const is_on_land = coast.is_left || coast.away_m < on_coast_m;
         if (is_on_land && !was_land) {
             parts.emplace_back();
             if (p != line.front()) {
@@ -629,14 +668,7 @@ public:
     void operator()(DrawRiver const& step) {
         name_ = "a river";
         require_type(step.type, step.lambda);
-        DrawnLine const within = inside_grid(is_.grid, step.points);
-        double const beyond_m = length_of(step.points) - length_of(within);
-        if (beyond_m > is_.grid.cell_m) {
-            said_.push_back(fmt::format("{:.3g} km beyond the grid were left out", beyond_m / 1e3));
-        }
-        DrawnLine line = stroke_of(is_.grid, within);
-        require_no_loop(line, false, touching * is_.grid.cell_m);
-        line = on_land(std::move(line));
+        DrawnLine line = stroke_on_land(step.points, "river");
         End begin = end_of(is_, line.front(), none);
         End end = end_of(is_, line.back(), none);
         if (is_upstream(begin, end)) {
@@ -663,9 +695,23 @@ public:
         }
         is_.rivers.push_back({std::move(line), step.type, step.lambda});
         require_clear(is_, is_.rivers.size() - 1, clearance * is_.grid.cell_m);
+        DrawnLine pins;
+        std::ranges::transform(is_.pins, std::back_inserter(pins), &DrawnPin::at);
+        auto const is_wet = near_lines(pins, std::span(&is_.rivers.back(), 1), in_a_river * is_.grid.cell_m);
+        auto const in_river = std::ranges::count(is_wet, true);
+        if (in_river > 0) {
+            said_.push_back(fmt::format("{} in the river now: the river's height decides there",
+                                        many(static_cast<std::size_t>(in_river), "pin lies", "pins lie")));
+        }
     }
 
     void operator()(MoveVertex const& step) {
+        if (step.of.kind == Part::Kind::pin) {
+            name_ = "a pin moved";
+            DrawnPin& pin = pin_of(step.of.number);
+            pin.at = place_of_pin(step.to, step.of.number);
+            return;
+        }
         DrawnLine& line = line_of(step.of, step.vertex);
         name_ = fmt::format("{} moved", called(step.of));
         Vec2 to = in_grid(is_.grid, step.to);
@@ -693,17 +739,24 @@ public:
     }
 
     void operator()(InsertVertex const& step) {
+        require_vertices(step.of);
         DrawnLine& line = line_of(step.of, 0);
         name_ = fmt::format("a vertex of {}", called(step.of));
-        bool const is_line = step.of.kind == Part::Kind::river || step.of.kind == Part::Kind::coast;
+        bool const is_line = step.of.kind != Part::Kind::lake && step.of.kind != Part::Kind::mask;
         if (step.vertex > line.size() || (is_line && (step.vertex == 0 || step.vertex == line.size()))) {
             throw NotDrawn("studio.drawing: a vertex is put between two others");
         }
-        line.insert(line.begin() + static_cast<std::ptrdiff_t>(step.vertex), in_grid(is_.grid, step.at));
+        auto const before = static_cast<std::ptrdiff_t>(step.vertex);
+        line.insert(line.begin() + before, in_grid(is_.grid, step.at));
+        if (step.of.kind == Part::Kind::ridge) {
+            auto& heights_m = is_.ridges[step.of.number].heights_m;
+            heights_m.insert(heights_m.begin() + before, std::nullopt);
+        }
         settle(step.of, step.vertex, step.vertex);
     }
 
     void operator()(RemoveVertex const& step) {
+        require_vertices(step.of);
         DrawnLine& line = line_of(step.of, step.vertex);
         name_ = fmt::format("a vertex of {} removed", called(step.of));
         Vec2 const at = line[step.vertex];
@@ -712,11 +765,16 @@ public:
             throw NotDrawn("studio.drawing: another river joins here: move it first", at);
         }
         bool const is_closed = step.of.kind == Part::Kind::coast && line.front() == line.back();
-        std::size_t const least = is_river || (step.of.kind == Part::Kind::coast && !is_closed) ? 2 : is_closed ? 4 : 3;
+        bool const is_coast = step.of.kind == Part::Kind::coast;
+        bool const is_open = is_river || step.of.kind == Part::Kind::ridge || (is_coast && !is_closed);
+        std::size_t const least = is_open ? 2 : is_closed ? 4 : 3;
         if (line.size() <= least) {
             throw NotDrawn("studio.drawing: no vertex more can go: erase it as a whole", at);
         }
         line.erase(line.begin() + static_cast<std::ptrdiff_t>(step.vertex));
+        if (step.of.kind == Part::Kind::ridge) {
+            remove_height(is_.ridges[step.of.number].heights_m, step.vertex);
+        }
         if (is_closed && (step.vertex == 0 || step.vertex == line.size())) {
             (step.vertex == 0 ? line.back() : line.front()) = step.vertex == 0 ? line.front() : line.back();
         }
@@ -792,7 +850,7 @@ public:
     }
 
     void operator()(Erase const& step) {
-        line_of(step.of, 0);
+        require_there(step.of);
         name_ = fmt::format("{} erased", called(step.of));
         std::size_t const number = step.of.number;
         switch (step.of.kind) {
@@ -805,6 +863,8 @@ public:
                 remove(is_.mask_islands, number);
             }
             break;
+        case Part::Kind::pin: remove(is_.pins, number); break;
+        case Part::Kind::ridge: remove(is_.ridges, number); break;
         }
     }
 
@@ -891,6 +951,28 @@ public:
         name_ = "a mask";
         is_.masks.push_back(ring_of(step.points));
     }
+
+    void operator()(DrawPin const& step) {
+        name_ = fmt::format("a pin at {} m", step.height_m);
+        require_height(step.height_m, "the height of a pin");
+        is_.pins.push_back({place_of_pin(step.at, none), step.height_m});
+    }
+    void operator()(SetHeight const& step) {
+        name_ = fmt::format("pin height {} m", step.height_m);
+        require_height(step.height_m, "the height of a pin");
+        pin_of(step.pin).height_m = step.height_m;
+    }
+    void operator()(DrawRidge const& step) {
+        name_ = "a ridge";
+        DrawnLine line = short_of_rivers(stroke_on_land(step.points, "ridge"));
+        is_.ridges.push_back({std::move(line), {}});
+        set_ends(is_.ridges.back(), step.from_m, step.to_m);
+    }
+    void operator()(SetRidgeHeights const& step) {
+        line_of({Part::Kind::ridge, step.ridge}, 0);
+        set_ends(is_.ridges[step.ridge], step.from_m, step.to_m);
+        name_ = step.from_m || step.to_m ? "heights of a ridge" : "a ridge with the terrain's heights";
+    }
     void operator()(Clear const&) {
         name_ = "an empty sheet";
         Drawing empty;
@@ -904,20 +986,32 @@ private:
     }
 
     static char const* called(Part const& part) {
-        static constexpr char const* names[] = {"a river", "a coast", "a lake", "a mask"};
+        static constexpr char const* names[] = {"a river", "a coast", "a lake", "a mask", "a pin", "a ridge"};
         return names[static_cast<std::size_t>(part.kind)];
     }
 
-    /// The line of a part, which must have a vertex.
-    DrawnLine& line_of(Part const& part, std::size_t vertex) {
-        std::size_t const counts[] = {is_.rivers.size(), is_.coasts.size(), is_.lakes.size(), is_.masks.size()};
+    void require_there(Part const& part) const {
+        std::size_t const counts[] = {is_.rivers.size(), is_.coasts.size(), is_.lakes.size(),
+                                      is_.masks.size(),  is_.pins.size(),   is_.ridges.size()};
         if (part.number >= counts[static_cast<std::size_t>(part.kind)]) {
             throw NotDrawn(
                 fmt::format("studio.drawing: {} with the number {} is not there", called(part), part.number));
         }
+    }
+
+    static void require_vertices(Part const& part) {
+        if (part.kind == Part::Kind::pin) {
+            throw NotDrawn("studio.drawing: a pin is one place: it has no vertices");
+        }
+    }
+
+    /// The line of a part that has one, and in it a vertex.
+    DrawnLine& line_of(Part const& part, std::size_t vertex) {
+        require_there(part);
         DrawnLine& line = part.kind == Part::Kind::river   ? is_.rivers[part.number].line
                           : part.kind == Part::Kind::coast ? is_.coasts[part.number]
                           : part.kind == Part::Kind::lake  ? is_.lakes[part.number].rings.front()
+                          : part.kind == Part::Kind::ridge ? is_.ridges[part.number].line
                                                            : is_.masks[part.number];
         if (vertex >= line.size()) {
             throw NotDrawn(fmt::format("studio.drawing: {} has no vertex {}", called(part), vertex));
@@ -925,26 +1019,124 @@ private:
         return line;
     }
 
-    static std::optional<double> level_of(std::optional<double> level_m) {
+    static void require_height(double height_m, char const* what) {
         constexpr double deepest = -12000.0;
         constexpr double highest = 30000.0;
-        refuse_if<BadParameter>(level_m && !(*level_m >= deepest && *level_m <= highest),
-                                "studio.drawing: a lake's level lies between {} and {} m", deepest, highest);
+        refuse_if<BadParameter>(!(height_m >= deepest && height_m <= highest),
+                                "studio.drawing: {} lies between {} and {} m", what, deepest, highest);
+    }
+
+    static std::optional<double> level_of(std::optional<double> level_m) {
+        if (level_m) {
+            require_height(*level_m, "a lake's level");
+        }
         return level_m;
     }
 
-    /// The longest part of a line on land.
-    DrawnLine on_land(DrawnLine line) {
+    DrawnPin& pin_of(std::size_t number) {
+        require_there({Part::Kind::pin, number});
+        return is_.pins[number];
+    }
+
+    /// \param moved the number of a pin that is moved; none: it is a new one
+    Vec2 place_of_pin(Vec2 wanted, std::size_t moved) const {
+        if (!is_finite(wanted)) {
+            throw NotDrawn("studio.drawing: a place that is not a number");
+        }
+        Vec2 const at = in_grid(is_.grid, wanted);
+        if (lies_in_sea(is_, nearest_coast(is_.coasts, at))) {
+            throw NotDrawn("studio.drawing: this place lies in the sea: a pin stands on land", at);
+        }
+        if (nearest_on_rivers(is_, at, none, in_a_river * is_.grid.cell_m).river != none) {
+            throw NotDrawn("studio.drawing: a river runs here, and its height decides: set the pin beside it", at);
+        }
+        for (std::size_t i = 0; i < is_.pins.size(); ++i) {
+            if (i != moved && is_.grid.cell_of(is_.pins[i].at) == is_.grid.cell_of(at)) {
+                throw NotDrawn("studio.drawing: there is a pin in this cell already: set its height", at);
+            }
+        }
+        return at;
+    }
+
+    static void set_ends(DrawnRidge& ridge, std::optional<double> from_m, std::optional<double> to_m) {
+        for (std::optional<double> const& height_m : {from_m, to_m}) {
+            if (height_m) {
+                require_height(*height_m, "the height of a ridge");
+            }
+        }
+        ridge.heights_m.resize(ridge.line.size());
+        if (!from_m && !to_m) {
+            std::ranges::fill(ridge.heights_m, std::nullopt);
+        }
+        ridge.heights_m.front() = from_m;
+        ridge.heights_m.back() = to_m;
+    }
+
+    /// Takes a vertex's height out; that of an end goes to the next vertex, if it has none.
+    static void remove_height(std::vector<std::optional<double>>& heights_m, std::size_t vertex) {
+        std::optional<double> const height_m = heights_m[vertex];
+        bool const is_first = vertex == 0;
+        bool const is_last = vertex + 1 == heights_m.size();
+        remove(heights_m, vertex);
+        std::optional<double>& next = is_first ? heights_m.front() : heights_m.back();
+        if ((is_first || is_last) && !next) {
+            next = height_m;
+        }
+    }
+
+    /// A stroke, or its longest part in the grid and on land. what: "river"
+    DrawnLine stroke_on_land(DrawnLine const& points, char const* what) {
+        DrawnLine const within = inside_grid(is_.grid, points);
+        double const beyond_m = length_of(points) - length_of(within);
+        if (beyond_m > is_.grid.cell_m) {
+            said_.push_back(fmt::format("{:.3g} km beyond the grid were left out", beyond_m / 1e3));
+        }
+        DrawnLine line = stroke_of(is_.grid, within);
+        require_no_loop(line, false, touching * is_.grid.cell_m);
+        return on_land(std::move(line), what);
+    }
+
+    /// The longest part of a ridge that keeps away from rivers, where little is lost by it.
+    DrawnLine short_of_rivers(DrawnLine line) {
+        constexpr double most_lost = 1.0 / 3.0;
+        DrawnLine const places = resampled(line, pace * is_.grid.cell_m);
+        std::vector<bool> const is_near = near_lines(places, is_.rivers, clearance * is_.grid.cell_m);
+        auto const first = std::ranges::find(is_near, true);
+        if (first == is_near.end()) {
+            return line;
+        }
+        DrawnLine longest;
+        DrawnLine part;
+        for (std::size_t i = 0; i <= places.size(); ++i) {
+            if (i < places.size() && !is_near[i]) {
+                part.push_back(places[i]);
+                continue;
+            }
+            longest = length_of(part) > length_of(longest) ? part : longest;
+            part.clear();
+        }
+        double const lost_m = length_of(line) - length_of(longest);
+        if (length_of(longest) < least_length * is_.grid.cell_m || lost_m > most_lost * length_of(line)) {
+            throw NotDrawn("studio.drawing: the ridge would cross or touch a river here: let it end short of it",
+                           places[static_cast<std::size_t>(first - is_near.begin())]);
+        }
+        said_.push_back(fmt::format("the ridge ends short of the river: {:.3g} km were left out", lost_m / 1e3));
+        constexpr double straight = 0.05; // [cells]
+        return in_file(geometry::simplify(longest, straight * is_.grid.cell_m));
+    }
+
+    /// The longest part of a line on land. what: "river"
+    DrawnLine on_land(DrawnLine line, char const* what) {
         Coasts coasts(is_.coasts);
         std::vector<DrawnLine> parts = parts_on_land(coasts, line, is_.grid.cell_m, false);
         if (parts.empty()) {
-            throw NotDrawn("studio.drawing: this lies in the sea: rivers run on land", line.front());
+            throw NotDrawn(fmt::format("studio.drawing: this lies in the sea: {}s run on land", what), line.front());
         }
         DrawnLine longest = *std::ranges::max_element(parts, {}, length_of);
         double const cut_m = length_of(line) - length_of(longest);
         if (cut_m > is_.grid.cell_m) {
             said_.push_back(
-                fmt::format("the river ends at the coast: {:.3g} km in the sea were left out", cut_m / 1e3));
+                fmt::format("the {} ends at the coast: {:.3g} km in the sea were left out", what, cut_m / 1e3));
         }
         return longest;
     }
@@ -1202,14 +1394,14 @@ private:
 
     void moved_shape(DrawnLine& line, MoveVertex const& step, Vec2 to) {
         bool const is_coast = step.of.kind == Part::Kind::coast;
-        bool const is_closed = !is_coast || line.front() == line.back();
+        bool const is_closed = step.of.kind != Part::Kind::ridge && (!is_coast || line.front() == line.back());
         DrawnLine const before = line;
         std::size_t const count = is_coast && is_closed ? line.size() - 1 : line.size();
         bool const is_end = is_coast && !is_closed && (step.vertex == 0 || step.vertex + 1 == count);
         Vec2 const by = (is_end ? on_border(is_.grid, to) : to) - before[step.vertex % count];
         std::vector<double> const along = ways_along(before, count, is_closed);
         for (std::size_t i = 0; i < count; ++i) {
-            bool const is_other_end = is_coast && !is_closed && (i == 0 || i + 1 == count);
+            bool const is_other_end = !is_closed && (i == 0 || i + 1 == count);
             double const between = std::fabs(along[i] - along[step.vertex % count]);
             double const away_m = is_closed ? std::min(between, along[count] - between) : between;
             bool const is_moved = i == step.vertex % count;
@@ -1237,9 +1429,13 @@ private:
     /// Checks what was changed between two vertices.
     void settle(Part const& part, std::size_t first, std::size_t last) {
         DrawnLine& line = line_of(part, 0);
+        if (part.kind == Part::Kind::ridge) {
+            merge_repeats(is_.ridges[part.number]);
+        }
         line = without_repeats(std::move(line));
         bool const is_coast = part.kind == Part::Kind::coast;
-        bool const is_ring = is_coast ? line.front() == line.back() : part.kind != Part::Kind::river;
+        bool const is_ring =
+            is_coast ? line.front() == line.back() : part.kind == Part::Kind::lake || part.kind == Part::Kind::mask;
         if (line.size() < (!is_ring ? 2U : is_coast ? 4U : 3U)) {
             throw NotDrawn(fmt::format("studio.drawing: nothing would be left of {} here", called(part)), line.front());
         }
@@ -1267,6 +1463,28 @@ private:
             require_no_loop(ring, true, touching * is_.grid.cell_m);
             break;
         }
+        case Part::Kind::ridge: {
+            require_no_loop(line, false, touching * is_.grid.cell_m);
+            DrawnLine const places = resampled(line, pace * is_.grid.cell_m);
+            if (auto const at = touched(places, is_.rivers, 0.5 * clearance * is_.grid.cell_m)) {
+                throw NotDrawn("studio.drawing: the ridge would cross or touch a river here: no water crosses it", at);
+            }
+            break;
+        }
+        case Part::Kind::pin: break;
+        }
+    }
+
+    /// Of vertices in a row at one place the first one stays, with the first height.
+    static void merge_repeats(DrawnRidge& ridge) {
+        for (std::size_t i = 1; i < ridge.line.size();) {
+            if (ridge.line[i] != ridge.line[i - 1]) {
+                ++i;
+                continue;
+            }
+            ridge.heights_m[i - 1] = ridge.heights_m[i - 1] ? ridge.heights_m[i - 1] : ridge.heights_m[i];
+            remove(ridge.line, i);
+            remove(ridge.heights_m, i);
         }
     }
 

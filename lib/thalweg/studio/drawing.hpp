@@ -14,7 +14,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 
-// Rivers, coasts, lakes and masks as a user draws them.
+// Rivers, coasts, lakes, masks, pins and ridges as a user draws them.
 namespace thalweg::studio {
 
 using DrawnLine = std::vector<Vec2>; ///< [m] no two vertices in a row at one place, rounded to 1e-6 m
@@ -35,6 +35,21 @@ struct DrawnLake {
     friend bool operator==(DrawnLake const&, DrawnLake const&) = default;
 };
 
+/// A place whose height is known.
+struct DrawnPin {
+    Vec2 at; ///< [m] rounded to 1e-6 m
+    double height_m = 0.0;
+    friend bool operator==(DrawnPin const&, DrawnPin const&) = default;
+};
+
+/// A ridge as it is drawn: no water crosses it.
+struct DrawnRidge {
+    DrawnLine line; ///< at least two vertices
+    /// By vertex; nothing: linear between those that have one, beyond the last one level; at none: the terrain's.
+    std::vector<std::optional<double>> heights_m;
+    friend bool operator==(DrawnRidge const&, DrawnRidge const&) = default;
+};
+
 /// What is drawn on a grid. Law: rivers meet only where one flows into another, and none in a circle.
 struct Drawing {
     Grid grid;
@@ -44,12 +59,14 @@ struct Drawing {
     std::vector<DrawnLake> lakes;
     std::vector<DrawnLine> masks; ///< implicitly closed; only what lies in one gets heights; none: all
     std::vector<std::vector<DrawnLine>> mask_islands; ///< of the first masks, by mask: holes in it, implicitly closed
-    bool has_side_streams = false;                    ///< each river grows a network of its own
+    std::vector<DrawnPin> pins;
+    std::vector<DrawnRidge> ridges;
+    bool has_side_streams = false; ///< each river grows a network of its own
 };
 
 /// A part of a drawing.
 struct Part {
-    enum class Kind : std::uint8_t { river, coast, lake, mask };
+    enum class Kind : std::uint8_t { river, coast, lake, mask, pin, ridge };
     Kind kind = Kind::river;
     std::size_t number = 0;
 };
@@ -128,11 +145,32 @@ struct SetLevel {
 struct DrawMask {
     DrawnLine points;
 };
+/// Sets a pin: the terrain has its height there.
+struct DrawPin {
+    Vec2 at;
+    double height_m = 0.0;
+};
+struct SetHeight {
+    std::size_t pin = 0;
+    double height_m = 0.0;
+};
+/// Draws a ridge, which ends short of rivers and at coasts.
+struct DrawRidge {
+    DrawnLine points;
+    std::optional<double> from_m = {}; ///< height of its first vertex
+    std::optional<double> to_m = {};   ///< height of its last vertex
+};
+/// Sets the heights of a ridge's ends. One of them: it is level. None: the heights between them go too.
+struct SetRidgeHeights {
+    std::size_t ridge = 0;
+    std::optional<double> from_m;
+    std::optional<double> to_m;
+};
 struct Clear {};
 
-using DrawStep =
-    std::variant<DrawRiver, MoveVertex, InsertVertex, RemoveVertex, CutRiver, JoinRiver, ReverseRiver, Erase, SetType,
-                 SetLambda, SetSideStreams, DrawCoast, SwapSides, DrawLake, SetLevel, DrawMask, Clear>;
+using DrawStep = std::variant<DrawRiver, MoveVertex, InsertVertex, RemoveVertex, CutRiver, JoinRiver, ReverseRiver,
+                              Erase, SetType, SetLambda, SetSideStreams, DrawCoast, SwapSides, DrawLake, SetLevel,
+                              DrawMask, DrawPin, SetHeight, DrawRidge, SetRidgeHeights, Clear>;
 
 /// What cannot be drawn, and why.
 class NotDrawn : public BadInput {
@@ -152,11 +190,11 @@ struct Drawn {
 
 /// Draws a step. Freehand lines are smoothed over 2.5 cells and simplified by a quarter of a cell. Ends within 3 cells
 /// of a river, a coast or the border snap to it. A new river keeps 1.5 cells from others, except towards where they
-/// meet.
+/// meet. A new ridge keeps 1.5 cells from rivers: its ends are cut off there.
 /// \return the drawing after it; what the step does not touch stays bit for bit
-/// \throws NotDrawn where rivers would cross, come too near, flow in a circle or out of another one, and for numbers of
-/// what is not there
-/// \throws BadParameter for a type or lambda that is none
+/// \throws NotDrawn where rivers would cross, come too near, flow in a circle or out of another one, where a ridge
+/// would cross a river, for pins in rivers, in the sea and in one cell, and for numbers of what is not there \throws
+/// BadParameter for a type or lambda that is none, and heights beyond [-12000, 30000] m
 Drawn drawn(Drawing drawing, DrawStep const& step);
 
 /// \return the rivers that flow into one, directly or through others; ascending, without itself

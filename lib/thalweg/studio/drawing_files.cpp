@@ -15,6 +15,7 @@
 
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
@@ -133,6 +134,34 @@ void read_rivers_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
     drawing.attributes = std::move(lines.attributes);
 }
 
+void read_pins_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
+    io::ReadPointsParams const params{.path = file_of(recipe, recipe.skeleton->points), .crs = drawing.grid.crs};
+    for (Vec3 const& p : io::read_points(params, run).points) {
+        drawing.pins.push_back({in_plan(p), p.z});
+    }
+}
+
+/// Heights as the terrain has them: none in a file that fills Z with 0.
+void read_ridges_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
+    io::ReadRiversParams const params{.path = file_of(recipe, recipe.skeleton->ridge_lines), .crs = drawing.grid.crs};
+    std::vector<RiverLine> const lines = io::read_rivers(params, run).lines;
+    bool const has_heights = std::ranges::any_of(lines, [](RiverLine const& line) {
+        return std::ranges::any_of(line.vertices, [](Vec3 const& v) { return std::isfinite(v.z) && v.z != 0.0; });
+    });
+    for (RiverLine const& read : lines) {
+        DrawnRidge ridge;
+        for (Vec3 const& v : read.vertices) {
+            if (ridge.line.empty() || ridge.line.back() != in_plan(v)) {
+                ridge.line.push_back(in_plan(v));
+                ridge.heights_m.push_back(has_heights && std::isfinite(v.z) ? std::optional(v.z) : std::nullopt);
+            }
+        }
+        if (ridge.line.size() > 1) {
+            drawing.ridges.push_back(std::move(ridge));
+        }
+    }
+}
+
 } // namespace
 
 bool is_drawn(Recipe const& recipe) {
@@ -181,6 +210,12 @@ Drawing read_drawing(Recipe const& recipe, Grid const& grid, Run const& run) {
                 drawing.mask_islands.push_back(std::move(polygon.rings));
             }
         }
+    }
+    if (recipe.skeleton && !recipe.skeleton->points.empty()) {
+        read_pins_into(drawing, recipe, run);
+    }
+    if (recipe.skeleton && !recipe.skeleton->ridge_lines.empty()) {
+        read_ridges_into(drawing, recipe, run);
     }
     return drawing;
 }
@@ -311,6 +346,38 @@ void write_masks(Drawing const& drawing, std::string const& path) {
     io::write_tables({table}, drawing.grid.crs, path);
 }
 
+void write_pins(Drawing const& drawing, std::string const& path) {
+    io::Table table;
+    table.name = "points";
+    table.shape = io::Table::Shape::point;
+    table.rows = drawing.pins.size();
+    table.shape_at = [&](std::size_t row) {
+        DrawnPin const& pin = drawing.pins[row];
+        return std::vector<Vec3>{{pin.at.x, pin.at.y, pin.height_m}};
+    };
+    io::write_tables({table}, drawing.grid.crs, path);
+}
+
+void write_ridges(Drawing const& drawing, std::string const& path) {
+    bool const has_heights = std::ranges::any_of(drawing.ridges, [](DrawnRidge const& ridge) {
+        return std::ranges::any_of(ridge.heights_m, [](auto const& height_m) { return height_m.has_value(); });
+    });
+    io::Table table;
+    table.name = "ridges";
+    table.shape = has_heights ? io::Table::Shape::partly_line : io::Table::Shape::plan_line;
+    table.rows = drawing.ridges.size();
+    table.shape_at = [&](std::size_t row) {
+        DrawnRidge const& ridge = drawing.ridges[row];
+        std::vector<Vec3> places = in_space(ridge.line);
+        for (std::size_t i = 0; i < places.size(); ++i) {
+            places[i].z = ridge.heights_m[i].value_or(places[i].z);
+        }
+        return places;
+    };
+    table.style = io::ridge_style();
+    io::write_tables({table}, drawing.grid.crs, path);
+}
+
 /// Unsets those of some keys that a recipe has.
 template <std::size_t Count>
 void unset(std::vector<Step>& steps, Recipe const& recipe, std::array<char const*, Count> const& paths) {
@@ -386,10 +453,10 @@ void set_rivers(std::vector<Step>& steps, Document const& document, Drawing cons
     }
 }
 
-/// A key that names a file of areas, or none where there are no areas.
-void set_areas(std::vector<Step>& steps, Document const& document, std::string const& key, std::size_t areas,
-               std::function<TakeInput()> const& put) {
-    if (areas > 0) {
+/// A key that names a file of what is drawn, or none where there is nothing in it.
+void set_file(std::vector<Step>& steps, Document const& document, std::string const& key, std::size_t count,
+              std::function<TakeInput()> const& put) {
+    if (count > 0) {
         steps.emplace_back(put());
         return;
     }
@@ -401,15 +468,50 @@ void set_areas(std::vector<Step>& steps, Document const& document, std::string c
 }
 
 void set_lakes(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
-    set_areas(steps, document, "surface.lakes", drawing.lakes.size(), [&] {
+    set_file(steps, document, "surface.lakes", drawing.lakes.size(), [&] {
         return put("surface.lakes", "lakes.gpkg", [&](std::string const& path) { write_lakes(drawing, path); });
     });
 }
 
 void set_masks(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
-    set_areas(steps, document, "surface.mask", drawing.masks.size(), [&] {
+    set_file(steps, document, "surface.mask", drawing.masks.size(), [&] {
         return put("surface.mask", "mask.gpkg", [&](std::string const& path) { write_masks(drawing, path); });
     });
+}
+
+void set_pins(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    if (!drawing.pins.empty() && document.recipe.skeleton && document.recipe.skeleton->scatter > 0) {
+        steps.emplace_back(UnsetKey{"skeleton.scatter"}); // points are random or given
+    }
+    set_file(steps, document, "skeleton.points", drawing.pins.size(), [&] {
+        return put("skeleton.points", "points.gpkg", [&](std::string const& path) { write_pins(drawing, path); });
+    });
+}
+
+void set_ridges(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    set_file(steps, document, "skeleton.ridge_lines", drawing.ridges.size(), [&] {
+        return put("skeleton.ridge_lines", "ridges.gpkg",
+                   [&](std::string const& path) { write_ridges(drawing, path); });
+    });
+}
+
+/// Takes [skeleton], which the first pin or ridge brought, out with the last one, where it says nothing else.
+void drop_skeleton(std::vector<Step>& steps, Document const& document, Drawing const& drawing) {
+    std::optional<pipeline::SkeletonRecipe> const& now = document.recipe.skeleton;
+    bool const has_files = now && (!now->points.empty() || !now->ridge_lines.empty());
+    if (!has_files || !drawing.pins.empty() || !drawing.ridges.empty()) {
+        return;
+    }
+    auto const without_files = [](Recipe recipe) {
+        recipe.skeleton->points.clear();
+        recipe.skeleton->ridge_lines.clear();
+        return pipeline::write_recipe(recipe);
+    };
+    Recipe usual = document.recipe;
+    usual.skeleton = pipeline::SkeletonRecipe{};
+    if (without_files(document.recipe) == without_files(usual)) {
+        steps.emplace_back(UnsetKey{"skeleton"});
+    }
 }
 
 } // namespace
@@ -430,6 +532,13 @@ Edit edit_between(Document const& document, Drawing const& before, Drawn const& 
     if (now.masks != before.masks) {
         set_masks(edit.steps, document, now, put);
     }
+    if (now.pins != before.pins) {
+        set_pins(edit.steps, document, now, put);
+    }
+    if (now.ridges != before.ridges) {
+        set_ridges(edit.steps, document, now, put);
+    }
+    drop_skeleton(edit.steps, document, now);
     return edit;
 }
 
@@ -440,6 +549,9 @@ Edit empty_sheet(Document const& document, Grid const& grid, PutInput const& put
     set_rivers(edit.steps, document, empty, put);
     set_lakes(edit.steps, document, empty, put);
     set_masks(edit.steps, document, empty, put);
+    set_pins(edit.steps, document, empty, put);
+    set_ridges(edit.steps, document, empty, put);
+    drop_skeleton(edit.steps, document, empty);
     return edit;
 }
 

@@ -25,8 +25,8 @@ std::optional<Grid> grid_of(pipeline::Recipe const& recipe);
 /// Reads what is drawn.
 /// \param recipe its files are read
 /// \param grid of the recipe's terrain
-/// \return rivers and coasts where is_drawn(), else none; lakes; masks that are polygons
-/// \throws Error as io::read_rivers() and io::read_polygons()
+/// \return rivers and coasts where is_drawn(), else none; lakes; masks that are polygons; pins and ridges
+/// \throws Error as io::read_rivers(), io::read_polygons() and io::read_points()
 Drawing read_drawing(pipeline::Recipe const& recipe, Grid const& grid, Run const& run = {});
 
 /// The rivers of a terrain as if they were drawn, an arc a river, and the coasts of its land.
@@ -47,7 +47,7 @@ using PutInput = std::function<TakeInput(std::string const& key, std::string con
 /// \return steps; none where nothing changed
 Edit edit_between(Document const& document, Drawing const& before, Drawn const& after, PutInput const& put);
 
-/// The edit that makes an empty sheet of a document: no rivers, coasts, lakes and masks.
+/// The edit that makes an empty sheet of a document: nothing is drawn on it.
 Edit empty_sheet(Document const& document, Grid const& grid, PutInput const& put);
 
 } // namespace thalweg::studio

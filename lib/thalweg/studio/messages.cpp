@@ -176,13 +176,29 @@ private:
             {"swap", [](R const& r) -> DrawStep { return SwapSides{r.index(r.what_, "coast")}; }},
             {"lake",
              [](R const& r) -> DrawStep {
-                 return DrawLake{r.line(), r.level()};
+                 return DrawLake{r.line(), r.metres_or_none("level")};
              }},
             {"level",
              [](R const& r) -> DrawStep {
-                 return SetLevel{r.index(r.what_, "lake"), r.level()};
+                 return SetLevel{r.index(r.what_, "lake"), r.metres_or_none("level")};
              }},
             {"mask", [](R const& r) -> DrawStep { return DrawMask{r.line()}; }},
+            {"pin",
+             [](R const& r) -> DrawStep {
+                 return DrawPin{r.place("at"), r.height()};
+             }},
+            {"height",
+             [](R const& r) -> DrawStep {
+                 return SetHeight{r.index(r.what_, "pin"), r.height()};
+             }},
+            {"ridge",
+             [](R const& r) -> DrawStep {
+                 return DrawRidge{r.line(), r.metres_or_none("from"), r.metres_or_none("to")};
+             }},
+            {"heights",
+             [](R const& r) -> DrawStep {
+                 return SetRidgeHeights{r.index(r.what_, "ridge"), r.metres_or_none("from"), r.metres_or_none("to")};
+             }},
             {"clear", [](R const&) -> DrawStep { return Clear{}; }}};
         return all;
     }
@@ -229,9 +245,16 @@ private:
     double reach() const {
         return what_.contains("reach") ? std::max(0.0, number(what_["reach"])) * grid_.cell_m : 0.0;
     }
-    std::optional<double> level() const {
-        auto const found = what_.find("level");
-        return found == what_.end() || found->is_null() ? std::nullopt : std::optional(number(*found));
+    std::optional<double> metres_or_none(char const* name) const {
+        auto const found = what_.find(name);
+        bool const is_none = found == what_.end() || found->is_null();
+        refuse_if<BadInput>(!is_none && !found->is_number(), "studio.request: {} must be a number [m] or null", name);
+        return is_none ? std::nullopt : std::optional(found->get<double>());
+    }
+    double height() const {
+        auto const height_m = metres_or_none("height");
+        refuse_if<BadInput>(!height_m, "studio.request: height must be a number [m]");
+        return *height_m;
     }
     std::vector<std::size_t> rivers() const {
         auto const found = what_.find("rivers");
@@ -243,13 +266,13 @@ private:
         return all;
     }
     static Part part_in(ordered_json const& of) {
-        static constexpr std::pair<char const*, Part::Kind> kinds[] = {{"river", Part::Kind::river},
-                                                                       {"coast", Part::Kind::coast},
-                                                                       {"lake", Part::Kind::lake},
-                                                                       {"mask", Part::Kind::mask}};
+        static constexpr std::pair<char const*, Part::Kind> kinds[] = {
+            {"river", Part::Kind::river}, {"coast", Part::Kind::coast}, {"lake", Part::Kind::lake},
+            {"mask", Part::Kind::mask},   {"pin", Part::Kind::pin},     {"ridge", Part::Kind::ridge}};
         auto const kind =
             std::ranges::find_if(kinds, [&](auto const& one) { return of.is_object() && of.contains(one.first); });
-        refuse_if<BadInput>(kind == std::end(kinds), "studio.request: a part is a river, coast, lake or mask");
+        refuse_if<BadInput>(kind == std::end(kinds),
+                            "studio.request: a part is a river, coast, lake, mask, pin or ridge");
         return {kind->second, index(of, kind->first)};
     }
     Part part() const { return part_in(what_.value("of", ordered_json::object())); }
@@ -412,6 +435,16 @@ std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool 
     for (DrawnLine const& mask : drawing.masks) {
         masks.push_back(numbers_of(mask, grid));
     }
+    ordered_json pins = ordered_json::array();
+    for (DrawnPin const& pin : drawing.pins) {
+        pins.push_back({{"at", numbers_of({pin.at}, grid)}, {"height", pin.height_m}});
+    }
+    ordered_json ridges = ordered_json::array();
+    for (DrawnRidge const& ridge : drawing.ridges) {
+        ridges.push_back({{"line", numbers_of(ridge.line, grid)},
+                          {"from", or_null(ridge.heights_m.front())},
+                          {"to", or_null(ridge.heights_m.back())}});
+    }
     return text_of({{"type", "drawing"},
                     {"revision", revision},
                     {"kind", is_drawn ? "drawn" : "shown"},
@@ -420,7 +453,9 @@ std::string drawing_message(Drawing const& drawing, std::int64_t revision, bool 
                     {"rivers", std::move(rivers)},
                     {"coasts", std::move(coasts)},
                     {"lakes", std::move(lakes)},
-                    {"masks", std::move(masks)}});
+                    {"masks", std::move(masks)},
+                    {"pins", std::move(pins)},
+                    {"ridges", std::move(ridges)}});
 }
 
 std::string written_message(std::int64_t id, std::int64_t revision, Written const& written) {

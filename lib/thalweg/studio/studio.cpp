@@ -60,6 +60,10 @@ struct ShownRivers {
     std::int64_t told = 0;    ///< number of the job whose rivers the pages have
 };
 
+bool has_random_points(pipeline::Recipe const& recipe) {
+    return recipe.skeleton && recipe.skeleton->scatter > 0;
+}
+
 std::string mask_of(pipeline::Recipe const& recipe) {
     return recipe.surface ? recipe.surface->mask : "";
 }
@@ -206,9 +210,13 @@ private:
             return after.said;
         }
         bool const had_raster = !mask_before.empty() && before.masks.empty();
+        bool const had_random_points = has_random_points(document.recipe);
         folder_.edit(edit);
         if (had_raster && mask_of(document.recipe) != mask_before) {
             after.said.emplace_back("the raster that was the mask went; undo brings it back");
+        }
+        if (had_random_points && !has_random_points(document.recipe)) {
+            after.said.emplace_back("the random points of skeleton.scatter went; undo brings them back");
         }
         if (!was_drawn && is_drawn(folder_.document().recipe) && !before.rivers.empty()) {
             after.said.push_back(fmt::format("the network is drawn lines now, {}; undo brings it back as it was{}",
@@ -228,10 +236,11 @@ private:
             return "";
         }
         Grid const grid = *grid_of(recipe);
-        return fmt::format("{}\n{}\n{}\n{}\n{} {} {} {} {} {}", recipe.network->lines.path,
-                           recipe.network->tokunaga.strokes,
-                           recipe.surface ? recipe.surface->equilibrium.lakes : std::string(), mask_of(recipe),
-                           grid.width, grid.height, grid.cell_m, grid.west, grid.north, grid.crs);
+        auto const skeleton = recipe.skeleton.value_or(pipeline::SkeletonRecipe{});
+        return fmt::format(
+            "{}\n{}\n{}\n{}\n{}\n{}\n{} {} {} {} {} {}", recipe.network->lines.path, recipe.network->tokunaga.strokes,
+            recipe.surface ? recipe.surface->equilibrium.lakes : std::string(), mask_of(recipe), skeleton.points,
+            skeleton.ridge_lines, grid.width, grid.height, grid.cell_m, grid.west, grid.north, grid.crs);
     }
 
     /// The drawing of the document. Throws BadInput while its rivers are made.

@@ -40,8 +40,8 @@ constexpr ByEnum<LayerFormat, FileFormat, 5> file_formats{
       {"postgis", "PostgreSQL", {"GEOMETRY_NAME=geom", "FID=fid", "GEOMETRY_NULLABLE=NO"}}}}};
 
 // In the order of Table::Shape.
-constexpr ByEnum<Shape, OGRwkbGeometryType, 6> shape_types{
-    {{wkbNone, wkbPoint25D, wkbLineString25D, wkbLineString, wkbPolygon25D, wkbMultiPolygon}}};
+constexpr ByEnum<Shape, OGRwkbGeometryType, 7> shape_types{
+    {{wkbNone, wkbPoint25D, wkbLineString25D, wkbLineString, wkbPolygon25D, wkbMultiPolygon, wkbLineString25D}}};
 
 // A dBase field is text: its width holds what a reader takes for a 32-bit, a 64-bit and a real number. A user's columns
 // have room for any such number, also for one that a reader takes for 64 bits.
@@ -153,8 +153,9 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
         return drawn_polygons(table.parts_at(row));
     }
     std::vector<Vec3> const positions = table.shape_at(row);
+    bool const needs_heights = table.shape != Shape::plan_line && table.shape != Shape::partly_line;
     for (Vec3 const& p : positions) {
-        refuse_if<BadInput>(table.shape == Shape::plan_line ? !is_finite(in_plan(p)) : !is_finite(p),
+        refuse_if<BadInput>(needs_heights ? !is_finite(p) : !is_finite(in_plan(p)),
                             "{}: {} {} has a vertex ({}, {}, {})", what, table.name, row + 1, p.x, p.y, p.z);
     }
     if (table.shape == Shape::point) {

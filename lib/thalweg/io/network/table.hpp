@@ -29,7 +29,8 @@ struct Column {
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
 struct Table {
-    enum class Shape { none, point, line, plan_line, polygon, multi_polygon }; ///< plan_line: without heights
+    /// plan_line: without heights; partly_line: NaN at vertices without one
+    enum class Shape { none, point, line, plan_line, polygon, multi_polygon, partly_line };
 
     std::string name;
     Shape shape = Shape::none;
