@@ -307,7 +307,9 @@ TEST(Rebuild, GoesThroughKnownHeights) {
     std::vector<surface::FeatureCell> const asked = summits(truth.dem, 4);
     ASSERT_GT(asked.size(), 30U);
     RebuiltTerrain const without = rebuild(truth.rivers);
-    RebuiltTerrain const with = rebuild(truth.rivers, {.features = asked});
+    surface::EquilibriumFields fields;
+    fields.features = asked;
+    RebuiltTerrain const with = rebuild(truth.rivers, fields);
     expect_lawful(truth.rivers, with);
     std::vector<double> const far = misses(without.terrain.dem, asked);
     std::vector<double> const near = misses(with.terrain.dem, asked);

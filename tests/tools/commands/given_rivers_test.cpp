@@ -94,6 +94,21 @@ TEST(GivenRivers, TheDataChooseTheGrid) {
     }
 }
 
+TEST(GivenRivers, RiversMayEndOnTheGridsEdge) {
+    Workplace const place;
+    int number = 0;
+    for (char const* const end : {"[501500,4997600]", "[503000,4998800]", "[503000,4997600]", "[500000,4998800]",
+                                  "[501500,5000000]", "[500000,5000000]"}) {
+        std::string const name = fmt::format("edge{}", number++);
+        test::write(place / (name + ".geojson"), test::geojson(test::line(std::string("[501500,4998700],") + end)));
+        expect_run(place,
+                   "make " + name + ".geojson --set grid.width=100 --set grid.height=80 --set grid.cell=30 " +
+                       "--set grid.origin=[500000,5000000] --only dem,network -q -o " + name,
+                   0);
+        expect_checks_hold(report_of(place / name));
+    }
+}
+
 TEST(GivenRivers, AnyFormatGivesTheSameLand) {
     Workplace const place;
     made(place, walker, coarse, "gpkg");

@@ -93,7 +93,7 @@ Grid frame_box(Box const& box, GridRecipe const& wanted, std::string const& what
 
 /// Throws BadInput if a position lies outside the grid. what: "river 7 in walker.gpkg".
 void require_inside(Grid const& grid, double x, double y, std::string const& what) {
-    refuse_if<BadInput>(!(x >= grid.west && x < grid.east() && y > grid.south() && y <= grid.north),
+    refuse_if<BadInput>(!(x >= grid.west && x <= grid.east() && y >= grid.south() && y <= grid.north),
                         "grid: {} runs outside the grid at ({:.1f}, {:.1f}): the grid spans {:.1f} to {:.1f} east and "
                         "{:.1f} to {:.1f} north. Enlarge it, leave width and height out, or set grid.clip = true.",
                         what, x, y, grid.west, grid.east(), grid.south(), grid.north);
