@@ -119,15 +119,15 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
             // A river beside the last one, and between them a pin or a ridge.
             std::int64_t const x = 4 + 5 * (number % 50);
             std::int64_t const y = number < 50 ? 20 : 140;
-            auto const place = [&](double right, std::int64_t down) {
+            auto const at = [&](double right, std::int64_t down) {
                 return std::to_string(static_cast<double>(x) + right) + "," + std::to_string(y + down);
             };
-            if (!is_drawn_now(R"({"verb":"river","points":[)" + place(0, 0) + "," + place(0, 60) + "]}")) {
+            if (!is_drawn_now(R"({"verb":"river","points":[)" + at(0, 0) + "," + at(0, 60) + "]}")) {
                 break;
             }
             ++rivers;
-            if (!is_drawn_now(number % 2 == 0 ? R"({"verb":"pin","at":[)" + place(2.5, 10) + R"(],"height":300})"
-                                              : R"({"verb":"ridge","points":[)" + place(2.5, 5) + "," + place(2.5, 25) +
+            if (!is_drawn_now(number % 2 == 0 ? R"({"verb":"pin","at":[)" + at(2.5, 10) + R"(],"height":300})"
+                                              : R"({"verb":"ridge","points":[)" + at(2.5, 5) + "," + at(2.5, 25) +
                                                     R"(],"from":)" + std::to_string(number) + "}")) {
                 break;
             }
