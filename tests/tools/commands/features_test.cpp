@@ -9,6 +9,7 @@
 #include <support.hpp>
 
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/measure/relief/statistics.hpp>
 
 #include "command.hpp"
 
@@ -117,6 +118,17 @@ TEST(Features, RidgesNeedNoHeights) {
             << method << ridge.dump();
         EXPECT_EQ(report["ridges"]["count"], 1);
     }
+}
+
+TEST(Features, RandomPointsShapeWhatADilationRisesFromNotTheDilation) {
+    Workplace const place;
+    std::string const made = "make --only dem,network" + small + "--set surface.method=dilate --set surface.base=tin ";
+    expect_run(place, made + "-o plain", 0);
+    expect_run(place, made + "--set skeleton.scatter=40 --set skeleton.ridge_gain=0 -o scattered", 0);
+    Raster<float> const plain = thalweg::io::read_dem((place / "plain/dem.tif").string());
+    Raster<float> const scattered = thalweg::io::read_dem((place / "scattered/dem.tif").string());
+    double const mean = thalweg::measure::statistics(plain).mean;
+    EXPECT_GT(thalweg::measure::statistics(scattered).mean, 0.9 * mean); // points as low as rivers dig no holes
 }
 
 TEST(Features, WhatLiesOffTheGridIsRefusedOrToldAndLeftOut) {

@@ -121,7 +121,8 @@ struct Ground {
     Valley const& valley;
     RidgeLines const& ridges; ///< midway between streams
     std::optional<Tin> const& tin;
-    FeaturePoints const& points; ///< given, with those of given ridges
+    FeaturePoints const& points; ///< given or random, with those of given ridges
+    FeaturePoints const& given;  ///< of these, those that are not random
     Mask const& inside;          ///< cells that get heights
     bool whole;                  ///< all of them
 };
@@ -151,14 +152,14 @@ void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams con
     }
 }
 
-/// A surface that passes through points between rivers.
+/// A surface that passes through given points between rivers; random ones shape only what it rises from.
 Raster<float> through_points(Raster<float> dem, Ground const& ground, Run const& run) {
-    if (ground.points.points.empty()) {
+    if (ground.given.points.empty()) {
         return dem;
     }
     Grid const& grid = dem.grid();
     std::map<std::int64_t, float> highest;
-    for (Vec3 const& p : ground.points.points) {
+    for (Vec3 const& p : ground.given.points) {
         auto const [place, is_new] = highest.try_emplace(grid.index(grid.cell_of(in_plan(p))), static_cast<float>(p.z));
         place->second = std::max(place->second, static_cast<float>(p.z));
     }
@@ -336,16 +337,19 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
         remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
         own = std::move(found.points);
     }
-    FeaturePoints points = own ? std::move(*own) : plan.points;
+    FeaturePoints points = own ? std::move(*own) : FeaturePoints{};
     RidgeLines ridges = ridges_between(plan, rivers, planform.grid, stage_log, run);
     RidgeLines given = balanced                         ? ridges_on(plan, solved.dem)
                        : plan.ridge_lines.lines.empty() ? RidgeLines{}
                                                         : ridges_with_heights(plan, valley, run);
+    append(points.points, plan.points.points);
     std::optional<Tin> tin = triangulated(plan, rivers.network, joined(ridges, given), points, stage_log, run);
+    FeaturePoints through = plan.points;
+    append(through.points, as_points(given, planform.grid).points);
     append(points.points, as_points(given, planform.grid).points);
     bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
     Filled made = balanced ? Filled{surface_of(std::move(solved.dem))}
-                           : filled(plan, {valley, ridges, tin, points, inside, whole}, stage_log, run);
+                           : filled(plan, {valley, ridges, tin, points, through, inside, whole}, stage_log, run);
     append(remarks.checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
     std::optional<DetailStatistics> detail;
     if (levels_of(recipe) > 0) {

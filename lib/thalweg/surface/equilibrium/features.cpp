@@ -101,6 +101,9 @@ void set_crests(TerrainLevel& level, std::vector<FeatureCell> const& features, G
             }
         }
     }
+    if (level.crests.empty()) {
+        return;
+    }
     constexpr double most = 0.1; // of the land: on coarser levels hardly any is left between crests
     double const land = static_cast<double>(std::count_if(level.type.begin(), level.type.end(), is_land));
     if (static_cast<double>(level.crests.size()) > most * land) {
