@@ -84,8 +84,9 @@ int call(Command const& command, Terminal& terminal) {
     };
     try {
         return command();
-    } catch (Cancelled const&) {
-        return end("interrupted; nothing was written", exit_of_signal());
+    } catch (Cancelled const& e) {
+        std::string const words = e.what(); // of an ensemble they say what was written
+        return end(words == "interrupted" ? "interrupted; nothing was written" : words, exit_of_signal());
     } catch (BadParameter const& e) {
         return end(e.what(), exit_code_for(e.what()));
     } catch (BadInput const& e) {

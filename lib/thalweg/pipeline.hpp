@@ -8,6 +8,7 @@
 #include <thalweg/pipeline/commands/convert.hpp>
 #include <thalweg/pipeline/commands/deform.hpp>
 #include <thalweg/pipeline/commands/draw.hpp>
+#include <thalweg/pipeline/commands/ensemble.hpp>
 #include <thalweg/pipeline/commands/export.hpp>
 #include <thalweg/pipeline/commands/grow.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
@@ -16,6 +17,7 @@
 #include <thalweg/pipeline/commands/replay.hpp>
 #include <thalweg/pipeline/commands/stats.hpp>
 #include <thalweg/pipeline/commands/tin.hpp>
+#include <thalweg/pipeline/ensemble/ensemble.hpp>
 #include <thalweg/pipeline/make/against.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>

@@ -43,7 +43,7 @@ LEFT_OUT = [
         "a word is a str",
     ),
     (
-        r"io::(is_pipe_or_device|refuse_pipe|read_text|write_text|copy_file|names_connection|require_allowed|is_recipe_file|confine_proj|packed|base64"
+        r"io::(is_pipe_or_device|refuse_pipe|read_text|write_text|copy_file|tar_entry|tar_end|names_connection|require_allowed|is_recipe_file|confine_proj|packed|base64"
         r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|holds_tin"
         r"|web_pyramid|web_tiles_at|write_web_tiles|lines_in_degrees)",
         "files and formats inside io",
@@ -55,7 +55,7 @@ LEFT_OUT = [
     ),
     (
         r"pipeline::(live_\w+|grid_json|sea_json|rivers_to_be|cluster_arms|keep_inputs|keep_user_file|file_names|state_of_files|as_json"
-        r"|statistics_json|checks_json|relief_json|forecast_(make|rebuild)|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
+        r"|statistics_json|checks_json|relief_json|forecast_(make|rebuild|ensemble)|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
         "a part of the program",
     ),
     (r"measure::relief_range", "by the number of a metric, which relief_rows names"),

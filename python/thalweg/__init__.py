@@ -35,6 +35,7 @@ for _name in _core.MODULES:
 for _name in _core.VALUES:
     globals()[_name] = getattr(_core, _name)
 
+from thalweg._ensemble import Member, ensemble
 from thalweg._networks import to_geodataframe, to_networkx
 from thalweg._raster import ConversionWarning, Raster, UnitWarning
 from thalweg._terrain import Terrain, forecast, make, rebuild
@@ -46,7 +47,7 @@ for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
 del _kind, _name
 
 __version__ = _core.version()
-__all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "NotConverged", "Raster",
-           "Terrain", "UnitWarning", "__version__", "blend", "draw", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
+__all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "Member", "NotConverged", "Raster",
+           "Terrain", "UnitWarning", "__version__", "blend", "draw", "ensemble", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
            "network", "pipeline", "rebuild", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
 __all__ += [name for name in _core.VALUES if name not in __all__]

@@ -17,7 +17,7 @@ MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
 
 # The families of pipeline, in their order: each may include those before it.
-FAMILIES = ["recipe", "plan", "make", "report", "commands"]
+FAMILIES = ["recipe", "plan", "make", "report", "ensemble", "commands"]
 
 # Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {

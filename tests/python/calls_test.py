@@ -328,5 +328,38 @@ class Running(unittest.TestCase):
         self.assertEqual(len(os.listdir("/proc/self/fd")), open_before)
 
 
+class Ensembles(unittest.TestCase):
+    SMALL = {"grid": {"width": 64, "height": 48}}
+
+    def test_members_are_those_of_make(self):
+        members = {m.number: m for m in thalweg.ensemble(self.SMALL, 3, vary={"surface.mean_slope": (10, 30)}, threads=2)}
+        self.assertEqual(sorted(members), [0, 1, 2])
+        one = members[2]
+        self.assertEqual((one.seed, one.status, list(one.keys)), (9, "ok", ["surface.mean_slope"]))
+        alone = thalweg.make(self.SMALL, seed=9, **{"surface.mean_slope": float(one.keys["surface.mean_slope"])})
+        self.assertEqual(one.terrain.dem.values.tobytes(), alone.dem.values.tobytes())
+        self.assertEqual(one.values["dem.mean"], alone.report["dem"]["mean"])
+        self.assertEqual(one.values["law.drainage_density"], alone.report["network"]["laws"]["drainage_density"]["value"])
+
+    def test_seeds_and_lists(self):
+        members = {m.number: m for m in thalweg.ensemble(self.SMALL, seeds=range(20, 23), vary={"surface.mean_slope": [25, 95]})}
+        self.assertEqual([members[i].seed for i in range(3)], [20, 21, 22])
+        self.assertEqual([members[i].status for i in range(3)], ["ok", "failed", "ok"])
+        self.assertIsNone(members[1].terrain)
+        self.assertIn("surface.mean_slope = 95", members[1].reason)
+
+    def test_what_cannot_be_is_refused(self):
+        for keys in [{"vary": {"surface.mean_slop": (1, 2)}}, {"vary": {"seed": (1, 2)}}]:
+            with self.assertRaises(thalweg.BadParameter):
+                thalweg.ensemble(self.SMALL, 2, **keys)
+        for members, seeds in [(None, None), (0, None), (2, range(3)), (None, [1, 3]), (None, [])]:
+            with self.assertRaises(ValueError):
+                thalweg.ensemble(self.SMALL, members, seeds=seeds)
+
+    def test_who_stops_early_waits_for_no_other(self):
+        for member in thalweg.ensemble(self.SMALL, 1000, threads=1):
+            break
+        self.assertEqual(member.number, 0)
+
 if __name__ == "__main__":
     unittest.main()

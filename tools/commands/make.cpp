@@ -1,16 +1,23 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <array>
+#include <charconv>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
+#include <optional>
 #include <string>
+#include <string_view>
+#include <system_error>
 #include <vector>
 
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/commands/ensemble.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
 
 #include "commands/commands.hpp"
@@ -63,9 +70,72 @@ std::string forecast_in_words(pipeline::Forecast const& forecast, bool json) {
 /// Of make; rebuild has two more.
 struct MakeOptions {
     pipeline::RebuildFromParams params;
+    pipeline::EnsembleParams ensemble; ///< what an ensemble has beside params
+    std::string seeds;                 ///< A-B
+    std::string share;                 ///< K/N
     std::vector<std::string> fields;
     bool dry_run = false;
 };
+
+/// Two whole numbers with a sign between them.
+std::optional<std::array<std::int64_t, 2>> two_numbers(std::string_view text, char between) {
+    std::array<std::int64_t, 2> numbers{};
+    std::size_t const at = text.find(between);
+    if (at == std::string_view::npos) {
+        return {};
+    }
+    auto const read = [](std::string_view word, std::int64_t& number) {
+        auto const [end, fault] = std::from_chars(word.data(), word.data() + word.size(), number);
+        return fault == std::errc() && end == word.data() + word.size() && number >= 0;
+    };
+    bool const both = read(text.substr(0, at), numbers[0]) && read(text.substr(at + 1), numbers[1]);
+    return both ? std::optional(numbers) : std::nullopt;
+}
+
+/// Runs make --ensemble.
+int make_ensemble(MakeOptions& options, Session const& session) {
+    pipeline::EnsembleParams params = options.ensemble;
+    static_cast<pipeline::MakeParams&>(params) = options.params;
+    if (!options.seeds.empty()) {
+        auto const seeds = two_numbers(options.seeds, '-');
+        if (!seeds || (*seeds)[0] > (*seeds)[1]) {
+            throw BadParameter(fmt::format("--seeds {}: write A-B, two whole numbers, B not below A", options.seeds));
+        }
+        params.first_seed = static_cast<std::uint64_t>((*seeds)[0]);
+        params.members = (*seeds)[1] - (*seeds)[0] + 1;
+    }
+    if (!options.share.empty()) {
+        auto const share = two_numbers(options.share, '/');
+        if (!share) {
+            throw BadParameter(fmt::format("--share {}: write K/N, K from 1 to N", options.share));
+        }
+        params.share = (*share)[0];
+        params.shares = (*share)[1];
+    }
+    if (options.dry_run) {
+        pipeline::Forecast const expected = pipeline::forecast_ensemble(params, session.run);
+        fmt::print("{}", forecast_in_words(expected, session.json));
+        return Exit::done;
+    }
+    pipeline::EnsembleResult const made = pipeline::run_ensemble(params, session.run);
+    nlohmann::ordered_json json{{"folder", params.output},
+                                {"members", made.members},
+                                {"made_now", made.made_now},
+                                {"found", made.found},
+                                {"seconds", made.seconds},
+                                {"table", nullptr},
+                                {"share", {params.share, params.shares}}};
+    if (!made.table.empty()) {
+        json["table"] = made.table;
+        json["ok"] = made.ok;
+        json["check_failed"] = made.checks_failed;
+        json["failed"] = made.failed;
+        json["with_warnings"] = made.warned;
+        session.run.tell("table", toned(Tone::name, made.table, stderr));
+    }
+    fmt::print("{}\n", session.json ? json.dump(2) : params.output);
+    return made.failed > 0 ? Exit::failed : made.checks_failed > 0 ? Exit::check_failed : Exit::done;
+}
 
 /// An option that stands for a key of the recipe. It comes after --set, which replaces what is set.
 template <class T>
@@ -88,6 +158,9 @@ void tell_all(char const* what, std::vector<Finding> const& findings, Run const&
 /// Runs make, or rebuild.
 int make(MakeOptions& options, bool rebuilds, Session const& session) {
     options.params.fields = fields_by_quantity(options.fields);
+    if (options.ensemble.members > 0 || !options.seeds.empty()) {
+        return make_ensemble(options, session);
+    }
     if (options.dry_run) {
         pipeline::Forecast const expected = rebuilds ? pipeline::forecast_rebuild(options.params, session.run)
                                                      : pipeline::forecast_make(options.params, session.run);
@@ -162,7 +235,7 @@ void add_options_of_make(CLI::App& app, MakeOptions& options, Session& session) 
         app, "--only", "output.files", options.params.set,
         "Write only these files, with commas between them: dem, network, contours, catchments, "
         "areas, tin, pictures, page or qgis; the same as --set output.files=FILES. recipe.toml and "
-        "report.json are always written.")
+        "report.json are always written. Of an ensemble, dem,network if not given; table alone: only table.csv.")
         ->type_name("FILES");
     app.add_flag("--dry-run", options.dry_run,
                  "Check the recipe and its input files, and print the stages, the grid, and estimates of memory and "
@@ -171,6 +244,42 @@ void add_options_of_make(CLI::App& app, MakeOptions& options, Session& session) 
     add_overwrite_option(
         app, options.params.existing,
         "Replace the files that an earlier run wrote to the folder. Other files in the folder are kept.");
+}
+
+/// The options of ensembles, which make has alone.
+void add_options_of_ensembles(CLI::App& app, MakeOptions& options) {
+    pipeline::EnsembleParams& params = options.ensemble;
+    CLI::Option* const members =
+        app.add_option("--ensemble", params.members,
+                       "Make N terrains: member i = 0, 1, ... has the recipe's seed + i. The folder then holds "
+                       "table.csv, a row a member, and a folder for each. The same command goes on after a stop.")
+            ->type_name("N")
+            ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000'000}));
+    CLI::Option* const seeds =
+        app.add_option("--seeds", options.seeds, "Make an ensemble with the seeds A to B.")->type_name("A-B");
+    members->excludes(seeds);
+    auto const needs_members = [&](CLI::Option* option) {
+        option->check([members, seeds](std::string const&) {
+            return members->count() + seeds->count() > 0 ? std::string() : "it needs --ensemble N or --seeds A-B";
+        });
+    };
+    add_list(app, "--vary", "KEY=A..B|LIST", params.vary,
+             "Of an ensemble: give a key a random number between A and B in each member, or the values of a list in "
+             "turn. May be repeated.",
+             '\0');
+    app.add_option("--shards", params.members_a_shard,
+                   "Of an ensemble: pack N members into one tar file, in place of folders.")
+        ->type_name("N")
+        ->expected(0, 1)
+        ->check(CLI::Range(std::int64_t{1}, std::int64_t{1'000'000}))
+        ->default_str("1000");
+    app.add_option("--share", options.share,
+                   "Of an ensemble: make part K of N, beside other processes that make the others. The same command "
+                   "without --share makes what is missing, and the table.")
+        ->type_name("K/N");
+    for (char const* const name : {"--vary", "--shards", "--share"}) {
+        needs_members(app.get_option(name));
+    }
 }
 
 } // namespace
@@ -183,6 +292,7 @@ Command add_make(CLI::App& app, Session& session) {
                    "DEM. Without it, thalweg grows a valley on 1024x1024 cells.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif,tiff,asc)");
     add_options_of_make(app, *options, session);
+    add_options_of_ensembles(app, *options);
     app.footer(
         "Rivers are grown, or read from a file of lines; they get heights, and the terrain is shaped around "
         "them. The recipe holds everything that decides the result: the same recipe gives the same bytes on any "
@@ -200,7 +310,9 @@ Command add_make(CLI::App& app, Session& session) {
         "  thalweg make out/walker --seed 8 -o out/other\n"
         "  thalweg make samples/walker_nhdplus.gpkg --only dem,network -o out/two\n"
         "  thalweg make samples/walker_nhdplus.gpkg --dry-run\n"
-        "  thalweg make samples/jacksboro_utm16.tif --set surface.drain=carve -o out/drained\n");
+        "  thalweg make samples/jacksboro_utm16.tif --set surface.drain=carve -o out/drained\n"
+        "  thalweg make --set grid.width=128 --set grid.height=128 --ensemble 20 --vary surface.mean_slope=10..35 "
+        "-o out/twenty\n");
     return [options, &session] { return make(*options, false, session); };
 }
 

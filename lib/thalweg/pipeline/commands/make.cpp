@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/pipeline/commands/internal/make.hpp>
 
 #include <algorithm>
 #include <filesystem>
@@ -57,11 +57,15 @@ Recipe with_options(Recipe recipe, MakeParams const& params) {
     return recipe;
 }
 
-Recipe recipe_of(MakeParams const& params) {
+} // namespace
+
+Recipe recipe_asked(MakeParams const& params) {
     return with_options(params.input.empty() ? recipe_without_file(params.set) : recipe_from(params.input), params);
 }
 
-Recipe recipe_of(RebuildFromParams const& params) {
+namespace {
+
+Recipe recipe_to_rebuild(RebuildFromParams const& params) {
     refuse_if<BadParameter>(params.input.empty(), "pipeline.run_rebuild: name the rivers: any file of lines with "
                                                   "heights that GDAL reads, or a folder written by make or convert");
     Recipe recipe = recipe_from(params.input);
@@ -76,25 +80,25 @@ Recipe recipe_of(RebuildFromParams const& params) {
 } // namespace
 
 Made run_make(MakeParams const& params, Run const& run) {
-    Recipe recipe = recipe_of(params);
+    Recipe recipe = recipe_asked(params);
     UserFiles const files(recipe, run);
     return make_folder(recipe, params.output, params.existing, run);
 }
 
 Forecast forecast_make(MakeParams const& params, Run const& run) {
-    Recipe recipe = recipe_of(params);
+    Recipe recipe = recipe_asked(params);
     UserFiles const files(recipe, run);
     return forecast(recipe, run);
 }
 
 Made run_rebuild(RebuildFromParams const& params, Run const& run) {
-    Recipe recipe = recipe_of(params);
+    Recipe recipe = recipe_to_rebuild(params);
     UserFiles const files(recipe, run);
     return make_folder(rebuild_recipe(recipe, run), params.output, params.existing, run);
 }
 
 Forecast forecast_rebuild(RebuildFromParams const& params, Run const& run) {
-    Recipe recipe = recipe_of(params);
+    Recipe recipe = recipe_to_rebuild(params);
     UserFiles const files(recipe, run);
     return forecast(rebuild_recipe(recipe, run), run);
 }

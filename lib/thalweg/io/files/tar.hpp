@@ -1,0 +1,23 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <string_view>
+
+namespace thalweg::io {
+
+/// Formats a file as an entry of a tar archive: a header and the bytes, in blocks of 512 bytes, with mode 644, owner 0
+/// and time 0. An archive is any number of entries and tar_end().
+/// \param name [1, 100] bytes, with / between folders
+/// \param bytes of the file, less than 8 GiB
+/// \return the entry
+/// \throws BadParameter for a name or a size that a header does not hold
+///
+/// Source: IEEE Std 1003.1 (POSIX), pax, ustar interchange format.
+std::string tar_entry(std::string const& name, std::string_view bytes);
+
+/// \return the end of an archive: two empty blocks
+std::string tar_end();
+
+} // namespace thalweg::io

@@ -1,0 +1,298 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/commands/ensemble.hpp>
+
+#include <algorithm>
+#include <atomic>
+#include <exception>
+#include <filesystem>
+#include <functional>
+#include <limits>
+#include <mutex>
+#include <optional>
+#include <stop_token>
+#include <string_view>
+#include <thread>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/pipeline/commands/internal/make.hpp>
+#include <thalweg/pipeline/ensemble/ensemble.hpp>
+#include <thalweg/pipeline/ensemble/internal/member_store.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+constexpr char const* files_key = "output.files=";
+constexpr char const* table_word = "table";
+
+/// Takes the word table out of the files asked for: it is always written.
+/// \return whether it stood alone
+bool take_table(std::vector<std::string>& assignments) {
+    bool is_alone = false;
+    for (std::string& assignment : assignments) {
+        if (!assignment.starts_with(files_key)) {
+            continue;
+        }
+        std::string others;
+        std::string const words = assignment.substr(std::string_view(files_key).size()) + ",";
+        for (std::size_t begin = 0; begin < words.size();) {
+            std::size_t const end = words.find(',', begin);
+            std::string const word = words.substr(begin, end - begin);
+            if (word != table_word) {
+                others += (others.empty() ? "" : ",") + word;
+            }
+            begin = end + 1;
+        }
+        is_alone = others.empty();
+        assignment = is_alone ? fmt::format("{}dem", files_key) : files_key + others;
+    }
+    return is_alone;
+}
+
+void require_ranges(EnsembleParams const& params) {
+    constexpr std::int64_t most_members = 1'000'000'000;
+    constexpr std::int64_t most_in_a_shard = 1'000'000;
+    constexpr std::int64_t most_shares = 1'000'000;
+    refuse_if<BadParameter>(params.members < 1 || params.members > most_members,
+                            "an ensemble has 1 to {} members, not {}", most_members, params.members);
+    refuse_if<BadParameter>(params.members_a_shard < 0 || params.members_a_shard > most_in_a_shard,
+                            "--shards {}: a tar file holds 1 to {} members", params.members_a_shard, most_in_a_shard);
+    refuse_if<BadParameter>(params.shares < 1 || params.shares > most_shares || params.share < 1 ||
+                                params.share > params.shares,
+                            "--share {}/{}: write K/N, K from 1 to N", params.share, params.shares);
+    refuse_if<BadParameter>(
+        params.existing == io::Existing::replace,
+        "--overwrite does not go with an ensemble: it goes on where it stopped. To begin anew, name "
+        "another folder or remove {}",
+        params.output);
+}
+
+/// An ensemble, with how the user wrote it.
+struct AskedEnsemble {
+    Ensemble ensemble;
+    MemberFiles files;
+};
+
+/// Throws the reason of the first member's recipe where none of the first ones is possible.
+void require_possible(Ensemble const& ensemble) {
+    constexpr std::int64_t most_tried = 100;
+    std::exception_ptr first;
+    for (std::int64_t i = 0; i < std::min(ensemble.members, most_tried); ++i) {
+        try {
+            check_recipe(recipe_of(ensemble, member_of(ensemble, i)));
+            return;
+        } catch (Error const&) {
+            first = first ? first : std::current_exception();
+        }
+    }
+    std::rethrow_exception(first);
+}
+
+AskedEnsemble ensemble_asked(EnsembleParams const& params) {
+    require_ranges(params);
+    AskedEnsemble asked;
+    MakeParams make = params;
+    bool const only_table = take_table(make.set);
+    Ensemble& ensemble = asked.ensemble;
+    ensemble.recipe = recipe_asked(make);
+    ensemble.recipe.seed = params.first_seed.value_or(ensemble.recipe.seed);
+    ensemble.members = params.members;
+    constexpr auto greatest = static_cast<std::uint64_t>(std::numeric_limits<std::int64_t>::max());
+    refuse_if<BadParameter>(ensemble.recipe.seed > greatest - static_cast<std::uint64_t>(params.members),
+                            "the last member's seed would be above {}", greatest);
+    for (std::string const& text : params.vary) {
+        VariedKey vary = read_varied_key(text);
+        refuse_if<BadParameter>(
+            std::ranges::any_of(ensemble.vary, [&](VariedKey const& v) { return v.key == vary.key; }),
+            "--vary {}: the key varies twice", text);
+        ensemble.vary.push_back(std::move(vary));
+    }
+    OutputRecipe& output = ensemble.recipe.output;
+    if (!output.files) {
+        output.files = {OutputFiles::dem, OutputFiles::network};
+    }
+    asked.files.members_a_shard = params.members_a_shard;
+    asked.files.folders = params.members_a_shard == 0 && !only_table;
+    refuse_if<BadParameter>(params.members_a_shard > 0 &&
+                                (only_table || std::ranges::any_of(*output.files,
+                                                                   [](OutputFiles file) {
+                                                                       return file != OutputFiles::dem &&
+                                                                              file != OutputFiles::network;
+                                                                   })),
+                            "--shards: a tar file holds dem and network of each member, no other files");
+    require_possible(ensemble);
+    return asked;
+}
+
+int threads_of(Run const& run) {
+    return run.threads > 0 ? run.threads : std::max(1, static_cast<int>(std::thread::hardware_concurrency()));
+}
+
+/// Hands out the members to make, in order.
+using Next = std::function<std::optional<std::int64_t>()>;
+
+/// Makes members on several threads, each of which works on one member at a time.
+class Pool {
+public:
+    /// \param next may be called by several threads at once
+    /// \param count of the members that next hands out, at most
+    Pool(MemberStore& store, Next next, std::int64_t count, Run const& run)
+        : store_(store), next_(std::move(next)), count_(std::max<std::int64_t>(count, 1)), run_(run),
+          passes_on_(run.stop, [this] { stop_.request_stop(); }) {}
+
+    /// \throws Error what the first thread throws that cannot go on
+    void work() {
+        int const threads = threads_of(run_);
+        auto const workers = static_cast<int>(std::min<std::int64_t>(count_, threads));
+        member_run_.threads = threads / workers;
+        member_run_.device = run_.device;
+        member_run_.stop = stop_.get_token();
+        {
+            std::vector<std::jthread> others;
+            for (int i = 1; i < workers; ++i) {
+                others.emplace_back([this] { take_members(); });
+            }
+            take_members();
+        }
+        if (failure_) {
+            std::rethrow_exception(failure_);
+        }
+    }
+
+    std::int64_t made() const { return made_; }
+
+private:
+    void take_members() {
+        try {
+            std::optional<std::int64_t> shard;
+            auto const leave_shard = [&](std::optional<std::int64_t> next) {
+                if (shard && shard != next) {
+                    store_.pack(*shard);
+                }
+                shard = next;
+            };
+            for (auto number = next_(); number && !stop_.stop_requested(); number = next_()) {
+                leave_shard(store_.shard_of(*number));
+                make_one(*number);
+            }
+            run_.check();
+            leave_shard({});
+        } catch (...) {
+            std::scoped_lock const hold(guard_);
+            failure_ = failure_ ? failure_ : std::current_exception();
+            stop_.request_stop();
+        }
+    }
+
+    void make_one(std::int64_t number) {
+        if (!store_.made_meanwhile(number)) {
+            Stopwatch const stopwatch;
+            MadeMember const made = make_member(store_.ensemble(), number, member_run_);
+            store_.add(made, stopwatch.time_of("member").wall_s, member_run_);
+        }
+        std::scoped_lock const hold(guard_);
+        ++made_;
+        if (!stop_.stop_requested()) {
+            run_.at(static_cast<double>(made_) / static_cast<double>(count_), "members");
+        }
+    }
+
+    MemberStore& store_;
+    Next const next_;
+    std::int64_t const count_;
+    Run const& run_;
+    Run member_run_;
+    std::stop_source stop_;
+    std::stop_callback<std::function<void()>> const passes_on_;
+    std::mutex guard_;
+    std::int64_t made_ = 0;
+    std::exception_ptr failure_;
+};
+
+/// Hands out numbers of a list.
+Next in_order(std::vector<std::int64_t> const& numbers, std::atomic<std::size_t>& next) {
+    return [&numbers, &next]() -> std::optional<std::int64_t> {
+        std::size_t const i = next++;
+        return i < numbers.size() ? std::optional(numbers[i]) : std::nullopt;
+    };
+}
+
+void warn_of_members(std::int64_t count, std::int64_t members, char const* what, std::string const& first,
+                     Run const& run) {
+    if (count > 0) {
+        run.say(fmt::format("warning: {} of {} members {}. The first, {}", count, members, what, first));
+    }
+}
+
+std::string range_of(std::uint64_t first, std::int64_t members) {
+    return members == 1 ? fmt::format("seed {}", first)
+                        : fmt::format("seeds {} to {}", first, first + static_cast<std::uint64_t>(members) - 1);
+}
+
+} // namespace
+
+EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run) {
+    AskedEnsemble asked = ensemble_asked(params);
+    UserFiles const files(asked.ensemble.recipe, run);
+    Share const share{params.share, params.shares};
+    MemberStore store(params.output, asked.ensemble, params.vary, asked.files,
+                      share.of > 1 ? MemberStore::Role::share : MemberStore::Role::alone, share, run);
+    std::vector<std::int64_t> const missing = store.missing(share);
+    EnsembleResult result{.members = params.members};
+    result.found = store.members_of(share) - static_cast<std::int64_t>(missing.size());
+    run.tell("ensemble",
+             fmt::format("{} members, {}{}{}", params.members, range_of(asked.ensemble.recipe.seed, params.members),
+                         share.of > 1 ? fmt::format(", share {} of {}", share.number, share.of) : "",
+                         result.found > 0 ? fmt::format(", {} are there", result.found) : ""));
+    Stopwatch const stopwatch;
+    std::atomic<std::size_t> next = 0;
+    Pool pool(store, in_order(missing, next), static_cast<std::int64_t>(missing.size()), run);
+    auto const account_of_stop = [&] {
+        std::int64_t const all = store.members_of(share);
+        return fmt::format("{} of {} members are in {}. The same command goes on",
+                           all - static_cast<std::int64_t>(store.missing(share).size()), all, params.output);
+    };
+    try {
+        pool.work();
+    } catch (Cancelled const&) {
+        throw Cancelled("interrupted; " + account_of_stop());
+    } catch (IoError const& error) {
+        throw IoError(fmt::format("{}; {}", error.what(), account_of_stop()));
+    }
+    result.made_now = pool.made();
+    result.seconds = stopwatch.time_of("members").wall_s;
+    run.tell("members", fmt::format("{} made, {:.3g} a second", result.made_now,
+                                    static_cast<double>(result.made_now) / std::max(result.seconds, 1e-9)));
+    if (share.of > 1) {
+        return result;
+    }
+    Journals::Account const account = store.finish();
+    result.ok = account.ok;
+    result.checks_failed = account.checks_failed;
+    result.failed = account.failed;
+    result.warned = account.warned;
+    result.table = (std::filesystem::path(params.output) / "table.csv").string();
+    warn_of_members(account.failed, params.members, "could not be made", account.first_failed, run);
+    warn_of_members(account.checks_failed, params.members, "fail a check", account.first_check, run);
+    warn_of_members(account.warned, params.members, "gave warnings", account.first_warning, run);
+    return result;
+}
+
+Forecast forecast_ensemble(EnsembleParams const& params, Run const& run) {
+    AskedEnsemble asked = ensemble_asked(params);
+    Ensemble& ensemble = asked.ensemble;
+    UserFiles const files(ensemble.recipe, run);
+    Forecast out = forecast(recipe_of(ensemble, member_of(ensemble, 0)), run);
+    auto const workers = std::min<std::int64_t>(params.members, threads_of(run));
+    out.memory_bytes *= workers;
+    out.seconds *= static_cast<double>(params.members);
+    return out;
+}
+
+} // namespace thalweg::pipeline

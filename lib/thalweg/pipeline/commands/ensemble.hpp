@@ -1,0 +1,54 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <optional>
+#include <string>
+#include <vector>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/pipeline/plan/plan.hpp>
+
+namespace thalweg::pipeline {
+
+/// Options of run_ensemble().
+struct EnsembleParams : MakeParams {
+    std::int64_t members = 0;                     ///< [1, 1e9]
+    std::optional<std::uint64_t> first_seed = {}; ///< of member 0; nothing: that of the recipe
+    std::vector<std::string> vary = {};           ///< as read_varied_key() takes them
+    std::int64_t members_a_shard = 0;             ///< [0, 1e6] of a tar file; 0: a folder for each member
+    std::int64_t share = 1;                       ///< [1, shares] the part of the members to make
+    std::int64_t shares = 1;                      ///< [1, 1e6] parts
+};
+
+/// What became of an ensemble.
+struct EnsembleResult {
+    std::int64_t members = 0;       ///< of the ensemble
+    std::int64_t made_now = 0;      ///< by this run
+    std::int64_t found = 0;         ///< of its share, made by earlier runs
+    std::int64_t ok = 0;            ///< of all members, like the following; 0 for a share
+    std::int64_t checks_failed = 0; ///< made, and a check failed
+    std::int64_t failed = 0;        ///< not made
+    std::int64_t warned = 0;        ///< made with warnings
+    std::string table = {};         ///< path of table.csv; "" for a share
+    double seconds = 0.0;           ///< of making and writing members
+};
+
+/// Runs `thalweg make --ensemble`: makes terrains by one recipe that differ in the seed and in what varies, and leaves
+/// a folder for each, or tar files of many, and table.csv with a row for each. Members that the folder already holds
+/// are kept; those that failed are tried again. The files are those of the recipe's output.files, dem and network where
+/// it names none; "table" among the files asked for, alone, leaves no other. \param params recipe or rivers, and
+/// options \return what became of it; a share writes no table \throws BadParameter for options out of their range, and
+/// when none of the first members has a possible recipe \throws BadInput when the folder holds something else, or
+/// another ensemble \throws IoError when a file cannot be written; members committed before stay \throws Cancelled when
+/// the work must stop; members committed before stay
+EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run = {});
+
+/// Runs `thalweg make --ensemble --dry-run`: plans member 0, and writes nothing.
+/// \return memory of all workers, time of all members on one core
+/// \throws Error as run_ensemble()
+Forecast forecast_ensemble(EnsembleParams const& params, Run const& run = {});
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,283 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/pipeline/ensemble/internal/table.hpp>
+
+#include <algorithm>
+#include <cerrno>
+#include <cmath>
+#include <cstdio>
+#include <filesystem>
+#include <fstream>
+#include <memory>
+#include <system_error>
+#include <utility>
+
+#include <fmt/format.h>
+#include <nlohmann/json.hpp>
+
+#include <thalweg/core/run/error.hpp>
+
+namespace thalweg::pipeline {
+
+namespace {
+
+namespace fs = std::filesystem;
+using nlohmann::ordered_json;
+
+ordered_json finite_or_null(double value) {
+    return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
+}
+
+ordered_json keys_object(Member const& member) {
+    ordered_json keys = ordered_json::object();
+    for (auto const& [key, value] : member.keys) {
+        keys[key] = value;
+    }
+    return keys;
+}
+
+ordered_json values_object(MemberRow const& row) {
+    ordered_json values = ordered_json::object();
+    for (auto const& [column, value] : row.values) {
+        values[column] = finite_or_null(value);
+    }
+    return values;
+}
+
+/// A field of a CSV file.
+///
+/// Source: RFC 4180.
+std::string csv_field(std::string const& text) {
+    if (text.find_first_of(",\"\n\r") == std::string::npos) {
+        return text;
+    }
+    std::string quoted = "\"";
+    for (char const c : text) {
+        quoted += c == '"' ? "\"\"" : c == '\n' || c == '\r' ? " " : std::string(1, c);
+    }
+    return quoted + "\"";
+}
+
+std::string csv_number(ordered_json const& value) {
+    return value.is_number() ? fmt::format("{:.9g}", value.get<double>()) : "";
+}
+
+/// Names of columns, in the order of the first member that has them.
+class CsvColumns {
+public:
+    void add(std::int64_t member, ordered_json const& values) {
+        std::int64_t position = 0;
+        for (auto const& item : values.items()) {
+            auto const place = std::pair(member, position++);
+            auto const [at, is_new] = first_.try_emplace(item.key(), place);
+            at->second = std::min(at->second, place);
+        }
+    }
+    std::vector<std::string> in_order() const {
+        std::vector<std::pair<std::pair<std::int64_t, std::int64_t>, std::string>> places;
+        for (auto const& [name, place] : first_) {
+            places.emplace_back(place, name);
+        }
+        std::ranges::sort(places);
+        std::vector<std::string> names;
+        for (auto& [place, name] : places) {
+            names.push_back(std::move(name));
+        }
+        return names;
+    }
+
+private:
+    std::map<std::string, std::pair<std::int64_t, std::int64_t>> first_;
+};
+
+/// A file that is written line by line.
+class CsvFile {
+public:
+    explicit CsvFile(std::string const& path) : path_(path), file_(std::fopen(path.c_str(), "wbx")) {
+        require(file_ != nullptr);
+    }
+    void add(std::string line) {
+        line += '\n';
+        require(std::fwrite(line.data(), 1, line.size(), file_.get()) == line.size());
+    }
+    void close() { require(std::fclose(file_.release()) == 0); }
+
+private:
+    void require(bool done) const {
+        if (!done) {
+            throw IoError(fmt::format("{}: {}", path_, std::generic_category().message(errno)));
+        }
+    }
+    struct Close {
+        void operator()(std::FILE* file) const { std::fclose(file); }
+    };
+    std::string path_;
+    std::unique_ptr<std::FILE, Close> file_;
+};
+
+/// Reads the lines of journals again.
+class JournalReader {
+public:
+    explicit JournalReader(std::vector<std::string> const& files) {
+        for (std::string const& file : files) {
+            streams_.emplace_back(file, std::ios::binary);
+        }
+    }
+    ordered_json row(RowPlace const& place) {
+        std::ifstream& stream = streams_[place.file];
+        stream.clear();
+        stream.seekg(place.offset);
+        std::string line;
+        std::getline(stream, line);
+        return ordered_json::parse(line);
+    }
+
+private:
+    std::vector<std::ifstream> streams_;
+};
+
+} // namespace
+
+std::string row_json(MemberRow const& row, double seconds, double writing_s) {
+    ordered_json stages = ordered_json::object();
+    double cpu_s = 0.0;
+    for (StageTime const& time : row.timings_s) {
+        stages[time.stage] = time.wall_s;
+        cpu_s += time.cpu_s;
+    }
+    ordered_json const json{{"member", row.member.number},
+                            {"seed", row.member.seed},
+                            {"keys", keys_object(row.member)},
+                            {"status", name_of(row.state)},
+                            {"reason", row.reason},
+                            {"warnings", row.warnings},
+                            {"first_warning", row.first_warning},
+                            {"values", values_object(row)},
+                            {"seconds", seconds},
+                            {"cpu_s", cpu_s},
+                            {"write_s", writing_s},
+                            {"stages", stages}};
+    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string row_object(MemberRow const& row) {
+    ordered_json const json{
+        {"member", row.member.number},  {"seed", row.member.seed}, {"keys", keys_object(row.member)},
+        {"status", name_of(row.state)}, {"reason", row.reason},    {"warnings", row.warnings},
+        {"values", values_object(row)}};
+    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
+}
+
+Journals::Journals(std::string const& folder) {
+    std::error_code error;
+    for (fs::directory_entry const& entry : fs::directory_iterator(folder, error)) {
+        std::string const name = entry.path().filename().string();
+        if (name.starts_with("rows-") && name.ends_with(".jsonl")) {
+            files_.push_back(entry.path().string());
+        }
+    }
+    if (error) {
+        throw IoError(fmt::format("pipeline.journals: {}: {}", folder, error.message()));
+    }
+    std::ranges::sort(files_);
+    for (std::size_t i = 0; i < files_.size(); ++i) {
+        std::ifstream stream(files_[i], std::ios::binary);
+        if (!stream) {
+            throw IoError(fmt::format("pipeline.journals: {}: {}", files_[i], std::generic_category().message(errno)));
+        }
+        std::int64_t offset = 0;
+        for (std::string line; std::getline(stream, line) && !stream.eof(); offset = stream.tellg()) {
+            ordered_json const row = ordered_json::parse(line, nullptr, false);
+            if (row.is_discarded() || !row.is_object() || !row.contains("stages")) {
+                continue;
+            }
+            RowPlace const place{i, offset, row["status"] == name_of(MemberState::failed)};
+            auto const [at, is_new] = rows_.try_emplace(row["member"].get<std::int64_t>(), place);
+            if (!is_new && (at->second.is_failed || !place.is_failed)) {
+                at->second = place;
+            }
+        }
+    }
+}
+
+Journals::Account Journals::write_tables(std::int64_t members, std::string const& table,
+                                         std::string const& timings) const {
+    CsvColumns keys;
+    CsvColumns measures;
+    CsvColumns stages;
+    JournalReader reader(files_);
+    auto const each = [&](auto const& visit) {
+        for (auto const& [member, place] : rows_) {
+            if (member < members) {
+                visit(member, reader.row(place));
+            }
+        }
+    };
+    each([&](std::int64_t member, ordered_json const& row) {
+        keys.add(member, row["keys"]);
+        measures.add(member, row["values"]);
+        stages.add(member, row["stages"]);
+    });
+    std::vector<std::string> const of_keys = keys.in_order();
+    std::vector<std::string> const of_measures = measures.in_order();
+    std::vector<std::string> const of_stages = stages.in_order();
+    CsvFile rows(table);
+    CsvFile times(timings);
+    std::string head = "member,seed";
+    for (std::string const& key : of_keys) {
+        head += "," + csv_field(key);
+    }
+    head += ",status,reason,warnings";
+    for (std::string const& column : of_measures) {
+        head += "," + csv_field(column);
+    }
+    rows.add(head);
+    head = "member,seconds,cpu_s,write_s";
+    for (std::string const& stage : of_stages) {
+        head += "," + csv_field(stage);
+    }
+    times.add(head);
+    Account account;
+    each([&](std::int64_t member, ordered_json const& row) {
+        std::string line = fmt::format("{},{}", member, row["seed"].get<std::uint64_t>());
+        for (std::string const& key : of_keys) {
+            line += "," + csv_field(row["keys"].value(key, ""));
+        }
+        std::string const status = row["status"];
+        std::string const reason = row["reason"];
+        line += fmt::format(",{},{},{}", status, csv_field(reason), row["warnings"].get<std::int64_t>());
+        for (std::string const& column : of_measures) {
+            auto const value = row["values"].find(column);
+            line += "," + (value == row["values"].end() ? "" : csv_number(*value));
+        }
+        rows.add(std::move(line));
+        line = fmt::format("{},{:.6f},{:.6f},{:.6f}", member, row["seconds"].get<double>(), row["cpu_s"].get<double>(),
+                           row["write_s"].get<double>());
+        for (std::string const& stage : of_stages) {
+            auto const value = row["stages"].find(stage);
+            line += value == row["stages"].end() ? "," : fmt::format(",{:.6f}", value->get<double>());
+        }
+        times.add(std::move(line));
+        auto const first = [&](std::string& words, std::string const& why) {
+            words = words.empty() ? fmt::format("member {}: {}", member, why) : words;
+        };
+        if (status == name_of(MemberState::failed)) {
+            ++account.failed;
+            first(account.first_failed, reason);
+        } else if (status == name_of(MemberState::check_failed)) {
+            ++account.checks_failed;
+            first(account.first_check, reason);
+        } else {
+            ++account.ok;
+        }
+        if (row["warnings"].get<std::int64_t>() > 0) {
+            ++account.warned;
+            first(account.first_warning, row["first_warning"].get<std::string>());
+        }
+    });
+    rows.close();
+    times.close();
+    return account;
+}
+
+} // namespace thalweg::pipeline
