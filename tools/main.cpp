@@ -31,6 +31,7 @@
 
 #include "commands/commands.hpp"
 #include "help/help.hpp"
+#include "ranks/ranks.hpp"
 #include "terminal/interrupt.hpp"
 #include "terminal/terminal.hpp"
 
@@ -180,8 +181,9 @@ Commands add_commands(CLI::App& app, Session& session) {
 void describe_program(CLI::App& app) {
     app.formatter_fn([](CLI::App const* of, std::string const&, CLI::AppFormatMode) { return help_text(*of); });
     app.set_help_flag("-h,--help", "Show this help.");
-    app.set_version_flag("--version", fmt::format("thalweg {} ({})", pipeline::version(), io::gdal_version()),
-                         "Show the version of thalweg and of GDAL.");
+    app.set_version_flag("--version",
+                         fmt::format("thalweg {} ({}, {})", pipeline::version(), io::gdal_version(), mpi_version()),
+                         "Show the versions of thalweg, of GDAL and of MPI.");
     app.require_subcommand(1);
     app.fallthrough(false);
 }

@@ -18,6 +18,7 @@
 #include <thalweg/pipeline/commands/stats.hpp>
 #include <thalweg/pipeline/commands/tin.hpp>
 #include <thalweg/pipeline/ensemble/ensemble.hpp>
+#include <thalweg/pipeline/ensemble/ranks.hpp>
 #include <thalweg/pipeline/make/against.hpp>
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/blend_into.hpp>

@@ -55,7 +55,7 @@ LEFT_OUT = [
     ),
     (
         r"pipeline::(live_\w+|grid_json|sea_json|rivers_to_be|cluster_arms|keep_inputs|keep_user_file|file_names|state_of_files|as_json"
-        r"|statistics_json|checks_json|relief_json|forecast_(make|rebuild|ensemble)|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
+        r"|statistics_json|checks_json|relief_json|forecast_(make|rebuild|ensemble)|run_ensemble_on|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
         "a part of the program",
     ),
     (r"measure::relief_range", "by the number of a metric, which relief_rows names"),

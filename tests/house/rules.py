@@ -31,14 +31,14 @@ FOREIGN = {
     "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "studio": ["nlohmann/"],
-    "tools": ["CLI/", "nlohmann/", "spdlog/"],
+    "tools": ["CLI/", "nlohmann/", "spdlog/", "mpi.h"],
 }
 FOREIGN_ANYWHERE = ["fmt/", "boost/graph/", "boost/property_map/"]
 # The headers of ours with foreign ones in them, for .cpp files alone: a StreamNetwork for Boost's algorithms, and worded errors.
 FOREIGN_IN_HEADERS = {"thalweg/core/stream_network_graph.hpp": ["boost/graph/", "boost/iterator/", "boost/property_map/"],
                       "thalweg/core/run/refuse.hpp": ["fmt/"]}
 # The folders of tools, with those each may include; main.cpp includes any.
-TOOLS = {"commands": ["help", "terminal"], "help": [], "terminal": []}
+TOOLS = {"commands": ["help", "ranks", "terminal"], "help": [], "ranks": [], "terminal": []}
 SYSTEM = re.compile(r"[a-z_0-9]+$|(sys/[a-z]+|unistd|fcntl|signal|spawn|dlfcn|malloc)\.h$")  # C++ headers have no suffix
 
 INCLUDE = re.compile(r'^\s*#\s*include\s*([<"])([^>"]+)[>"]')

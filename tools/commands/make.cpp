@@ -23,6 +23,7 @@
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
 #include "commands/print.hpp"
+#include "ranks/ranks.hpp"
 #include "terminal/terminal.hpp"
 
 namespace thalweg::tools {
@@ -93,7 +94,7 @@ std::optional<std::array<std::int64_t, 2>> two_numbers(std::string_view text, ch
 }
 
 /// Runs make --ensemble.
-int make_ensemble(MakeOptions& options, Session const& session) {
+int make_ensemble(MakeOptions& options, Session& session) {
     pipeline::EnsembleParams params = options.ensemble;
     static_cast<pipeline::MakeParams&>(params) = options.params;
     if (!options.seeds.empty()) {
@@ -117,7 +118,17 @@ int make_ensemble(MakeOptions& options, Session const& session) {
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
-    pipeline::EnsembleResult const made = pipeline::run_ensemble(params, session.run);
+    std::unique_ptr<pipeline::Ranks> const ranks = join_ranks();
+    if (ranks && ranks->rank() > 0) { // the first one speaks for all
+        session.quiet = true;
+        session.run.log = {};
+        session.run.progress = nullptr;
+    }
+    pipeline::EnsembleResult const made =
+        ranks ? pipeline::run_ensemble_on(*ranks, params, session.run) : pipeline::run_ensemble(params, session.run);
+    if (ranks && ranks->rank() > 0) {
+        return Exit::done;
+    }
     nlohmann::ordered_json json{{"folder", params.output},
                                 {"members", made.members},
                                 {"made_now", made.made_now},
@@ -156,10 +167,16 @@ void tell_all(char const* what, std::vector<Finding> const& findings, Run const&
 }
 
 /// Runs make, or rebuild.
-int make(MakeOptions& options, bool rebuilds, Session const& session) {
+int make(MakeOptions& options, bool rebuilds, Session& session) {
     options.params.fields = fields_by_quantity(options.fields);
     if (options.ensemble.members > 0 || !options.seeds.empty()) {
         return make_ensemble(options, session);
+    }
+    if (int const ranks = launched_ranks(); ranks > 1) {
+        throw BadInput(
+            fmt::format("mpirun has started {} processes, and one terrain is made by one: give --ensemble N, or "
+                        "start it without mpirun and give --threads",
+                        ranks));
     }
     if (options.dry_run) {
         pipeline::Forecast const expected = rebuilds ? pipeline::forecast_rebuild(options.params, session.run)

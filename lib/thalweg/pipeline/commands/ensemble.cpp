@@ -237,41 +237,17 @@ std::string range_of(std::uint64_t first, std::int64_t members) {
 
 } // namespace
 
-EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run) {
-    AskedEnsemble asked = ensemble_asked(params);
-    UserFiles const files(asked.ensemble.recipe, run);
-    Share const share{params.share, params.shares};
-    MemberStore store(params.output, asked.ensemble, params.vary, asked.files,
-                      share.of > 1 ? MemberStore::Role::share : MemberStore::Role::alone, share, run);
-    std::vector<std::int64_t> const missing = store.missing(share);
-    EnsembleResult result{.members = params.members};
-    result.found = store.members_of(share) - static_cast<std::int64_t>(missing.size());
-    run.tell("ensemble",
-             fmt::format("{} members, {}{}{}", params.members, range_of(asked.ensemble.recipe.seed, params.members),
-                         share.of > 1 ? fmt::format(", share {} of {}", share.number, share.of) : "",
-                         result.found > 0 ? fmt::format(", {} are there", result.found) : ""));
-    Stopwatch const stopwatch;
-    std::atomic<std::size_t> next = 0;
-    Pool pool(store, in_order(missing, next), static_cast<std::int64_t>(missing.size()), run);
-    auto const account_of_stop = [&] {
-        std::int64_t const all = store.members_of(share);
-        return fmt::format("{} of {} members are in {}. The same command goes on",
-                           all - static_cast<std::int64_t>(store.missing(share).size()), all, params.output);
-    };
-    try {
-        pool.work();
-    } catch (Cancelled const&) {
-        throw Cancelled("interrupted; " + account_of_stop());
-    } catch (IoError const& error) {
-        throw IoError(fmt::format("{}; {}", error.what(), account_of_stop()));
-    }
-    result.made_now = pool.made();
-    result.seconds = stopwatch.time_of("members").wall_s;
-    run.tell("members", fmt::format("{} made, {:.3g} a second", result.made_now,
-                                    static_cast<double>(result.made_now) / std::max(result.seconds, 1e-9)));
-    if (share.of > 1) {
-        return result;
-    }
+namespace {
+
+/// Says where the work stopped.
+std::string account_of_stop(MemberStore& store, Share const& share, std::string const& folder) {
+    std::int64_t const all = store.members_of(share);
+    return fmt::format("{} of {} members are in {}. The same command goes on",
+                       all - static_cast<std::int64_t>(store.missing(share).size()), all, folder);
+}
+
+/// Writes the tables, and says what was not ok.
+void finish(MemberStore& store, EnsembleParams const& params, EnsembleResult& result, Run const& run) {
     Journals::Account const account = store.finish();
     result.ok = account.ok;
     result.checks_failed = account.checks_failed;
@@ -281,7 +257,114 @@ EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run) {
     warn_of_members(account.failed, params.members, "could not be made", account.first_failed, run);
     warn_of_members(account.checks_failed, params.members, "fail a check", account.first_check, run);
     warn_of_members(account.warned, params.members, "gave warnings", account.first_warning, run);
+}
+
+/// Makes members, and deals them to other ranks where there are any.
+std::int64_t work_on(MemberStore& store, std::vector<std::int64_t> const& missing, Ranks* ranks, Run const& run) {
+    std::atomic<std::size_t> next = 0;
+    Next const hand_out = in_order(missing, next);
+    Pool pool(store, hand_out, static_cast<std::int64_t>(missing.size()), run);
+    if (ranks == nullptr) {
+        pool.work();
+        return pool.made();
+    }
+    bool others_fine = true;
+    auto const stop = [&] { next = missing.size(); };
+    std::exception_ptr failure;
+    std::jthread own([&] {
+        try {
+            pool.work();
+        } catch (...) {
+            failure = std::current_exception();
+            stop();
+        }
+    });
+    ranks->deal(hand_out, [&] {
+        others_fine = false;
+        stop();
+    });
+    own.join();
+    if (failure) {
+        std::rethrow_exception(failure);
+    }
+    refuse_if<IoError>(!others_fine, "another rank has failed");
+    return static_cast<std::int64_t>(missing.size());
+}
+
+EnsembleResult run_first(EnsembleParams const& params, Ranks* ranks, Run const& run) {
+    bool has_started = false;
+    auto const tell_others = [&](bool is_fine) {
+        if (ranks != nullptr && !std::exchange(has_started, true)) {
+            ranks->start(is_fine);
+        }
+    };
+    try {
+        AskedEnsemble asked = ensemble_asked(params);
+        UserFiles const files(asked.ensemble.recipe, run);
+        Share const share{params.share, params.shares};
+        MemberStore store(params.output, asked.ensemble, params.vary, asked.files,
+                          share.of > 1 ? MemberStore::Role::share : MemberStore::Role::alone, share, run);
+        std::vector<std::int64_t> const missing = store.missing(share);
+        EnsembleResult result{.members = params.members};
+        result.found = store.members_of(share) - static_cast<std::int64_t>(missing.size());
+        run.tell("ensemble", fmt::format("{} members, {}{}{}{}", params.members,
+                                         range_of(asked.ensemble.recipe.seed, params.members),
+                                         share.of > 1 ? fmt::format(", share {} of {}", share.number, share.of) : "",
+                                         result.found > 0 ? fmt::format(", {} are there", result.found) : "",
+                                         ranks != nullptr ? fmt::format(", on {} ranks", ranks->count()) : ""));
+        tell_others(true);
+        Stopwatch const stopwatch;
+        try {
+            result.made_now = work_on(store, missing, ranks, run);
+        } catch (Cancelled const&) {
+            throw Cancelled("interrupted; " + account_of_stop(store, share, params.output));
+        } catch (IoError const& error) {
+            throw IoError(fmt::format("{}; {}", error.what(), account_of_stop(store, share, params.output)));
+        }
+        result.seconds = stopwatch.time_of("members").wall_s;
+        run.tell("members", fmt::format("{} made, {:.3g} a second", result.made_now,
+                                        static_cast<double>(result.made_now) / std::max(result.seconds, 1e-9)));
+        if (share.of == 1) {
+            finish(store, params, result, run);
+        }
+        return result;
+    } catch (...) {
+        tell_others(false);
+        throw;
+    }
+}
+
+/// Makes the members that the first rank hands out.
+EnsembleResult run_other(Ranks& ranks, EnsembleParams const& params, Run const& run) {
+    EnsembleResult result{.members = params.members};
+    if (!ranks.start(true)) { // the first rank says why
+        return result;
+    }
+    try {
+        AskedEnsemble const asked = ensemble_asked(params);
+        MemberStore store(params.output, asked.ensemble, params.vary, asked.files, MemberStore::Role::helper, {}, run);
+        Pool pool(
+            store, [&] { return ranks.ask(); }, params.members, run);
+        pool.work();
+        result.made_now = pool.made();
+    } catch (...) {
+        ranks.say_goodbye(false);
+        throw;
+    }
+    ranks.say_goodbye(true);
     return result;
+}
+
+} // namespace
+
+EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run) {
+    return run_first(params, nullptr, run);
+}
+
+EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run const& run) {
+    Run own = run;
+    own.threads = run.threads > 0 ? run.threads : 1;
+    return ranks.rank() == 0 ? run_first(params, &ranks, own) : run_other(ranks, params, own);
 }
 
 Forecast forecast_ensemble(EnsembleParams const& params, Run const& run) {

@@ -9,6 +9,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/pipeline/ensemble/ranks.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
 namespace thalweg::pipeline {
@@ -45,6 +46,12 @@ struct EnsembleResult {
 /// another ensemble \throws IoError when a file cannot be written; members committed before stay \throws Cancelled when
 /// the work must stop; members committed before stay
 EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run = {});
+
+/// Does the same together with other processes, which call it too: members are dealt to whoever is free.
+/// \param ranks the processes; outlives the call
+/// \return what became of the ensemble; of other ranks than the first, only what they made
+/// \throws Error as run_ensemble(); IoError on the first rank when another one failed
+EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run const& run = {});
 
 /// Runs `thalweg make --ensemble --dry-run`: plans member 0, and writes nothing.
 /// \return memory of all workers, time of all members on one core
