@@ -12,6 +12,7 @@
 #include <thalweg/core/lattice.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/random.hpp>
+#include <thalweg/core/numbers/ranks.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>

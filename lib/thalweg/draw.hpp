@@ -4,7 +4,9 @@
 
 /// All public headers of the module.
 #include <thalweg/draw/comparison.hpp>
+#include <thalweg/draw/contact_sheet.hpp>
 #include <thalweg/draw/diagrams.hpp>
+#include <thalweg/draw/distributions.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
 #include <thalweg/draw/sections.hpp>

@@ -10,6 +10,7 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/pipeline/commands/internal/draw_ensemble.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
 
@@ -18,14 +19,11 @@ namespace {
 
 namespace fs = std::filesystem;
 
-struct NamedFormat {
-    char const* name;
-    draw::Format format;
-};
 constexpr NamedFormat formats[] = {{"png", draw::Format::png}, {"svg", draw::Format::svg}, {"pdf", draw::Format::pdf}};
 
 constexpr char const* page_word = "page";
 constexpr char const* page_ending = ".html";
+constexpr char const* ensemble_word = "ensemble";
 
 [[noreturn]] void unknown(char const* what, std::string const& word, std::vector<std::string> const& known) {
     throw BadParameter(fmt::format("pipeline.run_draw: unknown {1} '{0}'; there are {2}.{3}", word, what,
@@ -41,6 +39,7 @@ PictureKind kind_of(std::string const& word) {
         known.emplace_back(name_of(kind));
     }
     known.emplace_back(page_word);
+    known.emplace_back(ensemble_word);
     unknown("picture", word, known);
 }
 
@@ -69,6 +68,7 @@ struct Order {
     std::vector<PictureKind> kinds;
     std::vector<NamedFormat> formats;
     bool page = false;
+    bool ensemble = false; ///< of a table, and nothing else
     bool everything() const { return kinds.empty() && !page; }
 };
 
@@ -86,12 +86,18 @@ Order order_of(DrawParams const& params) {
             order.page = true;
             continue;
         }
+        if (word == ensemble_word) {
+            order.ensemble = true;
+            continue;
+        }
         add_once(order.kinds, kind_of(word), [](PictureKind a, PictureKind b) { return a == b; });
     }
     for (std::string const& word : params.formats) {
         add_once(order.formats, format_of(word),
                  [](NamedFormat const& a, NamedFormat const& b) { return a.format == b.format; });
     }
+    refuse_if<BadParameter>(order.ensemble && (order.page || !order.kinds.empty()),
+                            "pipeline.run_draw: an ensemble is drawn by itself: leave out the other kinds");
     refuse_if<BadParameter>(output.empty(), "pipeline.run_draw: the name of the output is empty");
     fs::path const path(output);
     std::string const ending = path.extension().string();
@@ -116,12 +122,12 @@ Order order_of(DrawParams const& params) {
         refuse_if<BadParameter>(
             order.kinds.size() > 1 || other || order.page,
             "pipeline.run_draw: {} is the name of one picture in one format: name a folder for several", output);
-        if (order.kinds.empty()) {
+        if (order.kinds.empty() && !order.ensemble) {
             order.kinds = {PictureKind::map};
         }
         order.formats = {own};
     } else if (order.formats.empty()) {
-        order.formats = {formats[0]};
+        order.formats = {formats[order.ensemble ? 1 : 0]};
     }
     return order;
 }
@@ -161,24 +167,34 @@ std::string command_of(DrawParams const& params) {
 
 } // namespace
 
+std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
+                                     io::Existing existing) {
+    std::vector<std::string> there;
+    for (std::string const& name : names) {
+        if (fs::exists(fs::symlink_status(fs::path(folder) / name))) {
+            there.push_back(name);
+        }
+    }
+    if (!there.empty() && existing == io::Existing::refuse) {
+        throw BadInput(fmt::format("pipeline.run_draw: {} already exists: name another or use --overwrite",
+                                   (fs::path(folder) / there.front()).string()));
+    }
+    return there;
+}
+
 DrawResult run_draw(DrawParams const& params, Run const& run) {
     Order const order = order_of(params);
+    if (order.ensemble) {
+        return draw_ensemble(params, {order.folder, order.single, order.formats, order.page}, run);
+    }
     SceneRead read = read_scene({.source = params.source, .network = params.network, .nodata = params.nodata}, run);
     if (!params.title.empty()) {
         read.scene.title = params.title;
     }
     std::vector<Task> const tasks = tasks_of(order, read.scene);
-    std::vector<std::string> there;
-    for (Task const& task : tasks) {
-        if (fs::exists(fs::symlink_status(fs::path(order.folder) / task.name))) {
-            there.push_back(task.name);
-        }
-    }
-    if (!there.empty() && params.existing == io::Existing::refuse) {
-        throw BadInput(fmt::format("pipeline.run_draw: {} already exists: name another or use --overwrite",
-                                   (fs::path(order.folder) / there.front()).string()));
-    }
-    io::OutputFolder out(order.folder, io::Existing::add, there);
+    std::vector<std::string> names(tasks.size());
+    std::transform(tasks.begin(), tasks.end(), names.begin(), [](Task const& task) { return task.name; });
+    io::OutputFolder out(order.folder, io::Existing::add, files_there(order.folder, names, params.existing));
     DrawResult drawn{{}, std::move(read.notes)};
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         run.at(static_cast<double>(i) / static_cast<double>(tasks.size()),

@@ -1,0 +1,69 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <string>
+#include <vector>
+
+#include <thalweg/core/run/run.hpp>
+#include <thalweg/draw/distributions.hpp>
+#include <thalweg/draw/picture.hpp>
+#include <thalweg/io/files/files.hpp>
+#include <thalweg/pipeline/commands/draw.hpp>
+#include <thalweg/pipeline/commands/internal/ensemble_table.hpp>
+
+namespace thalweg::pipeline {
+
+/// A format of pictures and its name, which is also the extension.
+struct NamedFormat {
+    char const* name;
+    draw::Format format;
+};
+
+/// What run_draw() writes of an ensemble.
+struct EnsembleOrder {
+    std::string folder;
+    std::string single; ///< name of the only file; "": all files, into the folder
+    std::vector<NamedFormat> formats;
+    bool page = false; ///< the only file is the page
+};
+
+/// Which of these files a folder has already.
+/// \throws BadInput when there is one and existing is refuse
+std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
+                                     io::Existing existing);
+
+/// Draws an ensemble from its table: distributions, responses to varied keys that are numbers, a contact sheet, and a
+/// page of all of them.
+/// \throws BadInput as read_members_table, and the readers of the DEMs in the table's folder
+DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, Run const& run);
+
+/// What the pictures and the page of an ensemble show.
+struct EnsembleView {
+    std::string title;
+    std::string summary; ///< counts of members and varied keys, in words
+    MembersTable table;
+    std::vector<draw::Distribution> indices;    ///< of all members, by group
+    std::vector<draw::Distribution> parameters; ///< varied keys that are numbers, by member
+    std::vector<std::string> notes;             ///< what is left out, as sentences
+};
+
+/// A contact sheet and its note; no bytes: there is none.
+struct EnsembleSheet {
+    std::string png;
+    std::string note;
+};
+
+/// Makes the page of an ensemble: HTML with everything in it, without scripts.
+/// \param sheet its contact sheet
+/// \param command that draws it again
+std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, std::string const& command,
+                          Run const& run);
+
+/// The values of a key that varies, in words: "12 to 29.9 degrees", "dla, forest".
+std::string words_of_key(MembersTable const& table, std::size_t key);
+
+/// The unit of a key of recipes; "": it has none.
+std::string unit_of_key(std::string const& key);
+
+} // namespace thalweg::pipeline

@@ -1,0 +1,53 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+
+#include <cstdint>
+#include <string>
+#include <string_view>
+#include <vector>
+
+namespace thalweg::pipeline {
+
+enum class MemberStatus : std::uint8_t { ok, check_failed, failed };
+
+/// A member in the table of an ensemble.
+struct MemberRow {
+    std::int64_t number = 0;
+    std::string seed; ///< as in the table; "": unknown
+    MemberStatus status = MemberStatus::ok;
+    std::string reason;              ///< "" for none
+    std::vector<std::string> values; ///< of the varied keys, as in the table
+};
+
+/// Numbers of the members in one column of the table.
+struct MeasureColumn {
+    std::string name;           ///< "law.hack"
+    std::vector<double> values; ///< by member; NaN: unknown
+};
+
+/// The table of an ensemble.
+struct MembersTable {
+    std::vector<MemberRow> members;
+    std::vector<std::string> keys;       ///< of the recipe that vary, in the table's order
+    std::vector<MeasureColumn> measures; ///< columns dem.*, law.*, dem_law.* and relief.*, in the table's order
+};
+
+/// Reads the records of a CSV text strictly by RFC 4180; lines may end with LF alone, and a byte order mark is skipped.
+/// \param text the table
+/// \param name its name for messages
+/// \return a header and the other records, all of the same number of fields
+/// \throws BadInput naming the line: a quote inside a field or none at its end, another number of fields than in the
+/// header, a NUL, invalid UTF-8
+std::vector<std::vector<std::string>> csv_records(std::string_view text, std::string const& name);
+
+/// Reads the table.csv that `make --ensemble` writes.
+/// \param path a table, or a folder that holds table.csv
+/// \throws BadInput for a missing file, one above 1 GB or that is no CSV, one without a column member, members or
+/// measures, members that are no whole numbers or appear twice, an unknown status, measures that are no numbers
+MembersTable read_members_table(std::string const& path);
+
+/// The number that a text is, plain or with an exponent; NaN: it is not a finite number.
+double plain_number(std::string_view text);
+
+} // namespace thalweg::pipeline
