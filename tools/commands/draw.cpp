@@ -28,7 +28,8 @@ int draw(pipeline::DrawParams const& params, Session const& session) {
 
 Command add_draw(CLI::App& app, Session& session) {
     auto const params = std::make_shared<pipeline::DrawParams>();
-    app.add_option("SOURCE", params->source, "A folder written by make, or any height raster GDAL reads.")
+    app.add_option("SOURCE", params->source,
+                   "A folder written by make, any height raster GDAL reads, or the table.csv of an ensemble.")
         ->type_name("FILE")
         ->required();
     app.add_option("-o,--output", params->output,
@@ -36,10 +37,10 @@ Command add_draw(CLI::App& app, Session& session) {
         ->type_name("DIR")
         ->required();
     add_list(app, "--what", "LIST", params->what,
-             "Draw these, separated by commas: map, profile, curve, hypsometry, sections, wireframe; or page, a "
-             "report page for a browser. Default: every picture the input allows.");
+             "Draw these, separated by commas: map, profile, curve, hypsometry, sections, wireframe; page, a report "
+             "page for a browser; or ensemble, alone. Default: every picture the input allows.");
     add_list(app, "--format", "LIST", params->formats,
-             "Draw in these formats, separated by commas: png, svg, pdf. Default: png.");
+             "Draw in these formats, separated by commas: png, svg, pdf. Default: png; of an ensemble svg.");
     app.add_option("--network", params->network, "Draw the rivers of this line file (any format OGR reads).")
         ->type_name("FILE");
     app.add_option("--title", params->title, "Set the title.");
@@ -60,6 +61,9 @@ Command add_draw(CLI::App& app, Session& session) {
     app.footer("A folder is drawn from its dem.tif, network.gpkg and recipe. A raster gives a map, hypsometric curve, "
                "sections and wireframe, and with rivers their long profiles. A raster larger than 4000 cells a side is "
                "averaged, a geographic one is reprojected to its UTM zone; stderr reports such changes.\n\n"
+               "Of an ensemble, --what ensemble draws distributions of laws and indices with their natural ranges, "
+               "their response to each key that varies, and a contact sheet of hillshades, with a page of all "
+               "(ensemble.html). SOURCE is its table.csv, or the folder that holds it.\n\n"
                "Examples:\n"
                "  thalweg draw valley -o pictures\n"
                "  thalweg draw valley --what wireframe --azimuth 300 -o valley.svg\n"

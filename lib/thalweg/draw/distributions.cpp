@@ -211,9 +211,9 @@ Bins bins_of(Distribution const& index, std::vector<double> const& known) {
     bool const whole = are_whole(known);
     double const quartiles = quantile(known, 0.75) - quantile(known, 0.25);
     double wide = 2.0 * quartiles / std::cbrt(static_cast<double>(known.size()));
-    wide = std::clamp(wide > 0.0 ? wide : 0.1 * span, span / 24.0, span / 6.0);
+    wide = std::clamp(wide > 0.0 ? wide : 0.1 * span, span / 24.0, span / 7.0);
     double const smallest = std::max({std::fabs(*least), std::fabs(*greatest), 1e-6}) * 1e-6;
-    wide = round_down(std::max(wide, smallest) * 1.4);
+    wide = round_down(std::max(wide, smallest) * 1.3);
     Bins bins;
     bins.width = whole ? std::max(1.0, wide) : wide;
     double const shift = whole && bins.width == 1.0 ? 0.5 : 0.0;
@@ -455,21 +455,33 @@ Picture distributions(std::vector<Distribution> const& indices, DistributionsPar
 
 namespace {
 
-/// Members of groups of equal size by the parameter: the medians of parameter and index.
-std::vector<Vec2> group_medians(std::vector<Vec2> places) {
+/// The medians of parameter and index by value of the parameter if these are few, else of groups of members of equal
+/// size; none of too few members.
+std::vector<Vec2> medians_of(std::vector<Vec2> places) {
+    constexpr std::size_t most_values = 8;
     constexpr std::size_t a_group = 10;
-    std::vector<Vec2> medians;
-    if (places.size() <= most_dots - 1) {
-        return medians;
-    }
     std::stable_sort(places.begin(), places.end(), [](Vec2 a, Vec2 b) { return a.x < b.x; });
-    std::size_t const groups = std::clamp<std::size_t>(places.size() / a_group, 3, 8);
-    for (std::size_t g = 0; g < groups; ++g) {
+    std::vector<std::size_t> ends; // of the groups
+    for (std::size_t i = 1; i <= places.size(); ++i) {
+        if (i == places.size() || places[i].x != places[i - 1].x) {
+            ends.push_back(i);
+        }
+    }
+    if (ends.size() > most_values) {
+        ends.clear();
+        std::size_t const groups = std::min(places.size() / a_group, most_values);
+        for (std::size_t g = 1; groups > 1 && g <= groups; ++g) {
+            ends.push_back(g * places.size() / groups);
+        }
+    }
+    std::vector<Vec2> medians;
+    std::size_t first = 0;
+    for (std::size_t const end : ends) {
         std::vector<double> xs;
         std::vector<double> ys;
-        for (std::size_t i = g * places.size() / groups; i < (g + 1) * places.size() / groups; ++i) {
-            xs.push_back(places[i].x);
-            ys.push_back(places[i].y);
+        for (; first < end; ++first) {
+            xs.push_back(places[first].x);
+            ys.push_back(places[first].y);
         }
         medians.push_back({quantile(xs, 0.5), quantile(ys, 0.5)});
     }
@@ -514,59 +526,116 @@ void draw_upright_axis(Cairo* canvas, Plot const& plot, bool whole, double unit)
     draw_line(canvas, {plot.box.x, plot.box.y}, {plot.box.x, plot.box.bottom()}, 0.09 * unit, ink);
 }
 
-void draw_response(Cairo* canvas, Box panel, Distribution const& parameter, Distribution const& index, double unit) {
+/// The base line of a plot with words below it.
+void draw_words_below(Cairo* canvas, Plot const& plot, std::vector<std::string> const& words, double unit) {
+    double const y = plot.box.bottom();
+    double const room = plot.box.width / static_cast<double>(words.size()) - 0.4 * unit;
+    for (std::size_t i = 0; i < words.size(); ++i) {
+        double const x = plot.at(static_cast<double>(i), plot.y_low).x;
+        TextStyle const small{0.9 * unit, faint_ink};
+        double const wide = std::min(room, text_width(canvas, words[i], small));
+        draw_text_within(canvas, {x - 0.5 * wide, y + 1.35 * unit}, words[i], small, wide);
+    }
+    draw_line(canvas, {plot.box.x, y}, {plot.box.right(), y}, 0.09 * unit, ink);
+}
+
+void draw_medians(Cairo* canvas, std::vector<Vec2> const& medians, bool are_words, double unit) {
+    for (auto const& [width, colour] : {std::pair(0.3, Colour{1.0, 1.0, 1.0, 0.7}), std::pair(0.13, ink)}) {
+        if (are_words) {
+            for (Vec2 const at : medians) {
+                draw_line(canvas, {at.x - 1.6 * unit, at.y}, {at.x + 1.6 * unit, at.y}, width * unit, colour);
+            }
+            continue;
+        }
+        trace_line(canvas, medians, 0.0);
+        set_colour(canvas, colour);
+        cairo_set_line_width(canvas, width * unit);
+        cairo_stroke(canvas);
+    }
+}
+
+/// Members by parameter and index, without those that lack one of them.
+std::vector<Vec2> places_of(Distribution const& parameter, Distribution const& index) {
     std::vector<Vec2> places;
     for (std::size_t i = 0; i < index.values.size(); ++i) {
         if (!std::isnan(index.values[i]) && !std::isnan(parameter.values[i])) {
             places.push_back({parameter.values[i], index.values[i]});
         }
     }
+    return places;
+}
+
+Plot plot_of_response(Box panel, std::vector<Vec2> const& places, Distribution const& index,
+                      std::vector<std::string> const& words, double unit) {
+    auto const by_x = [](Vec2 a, Vec2 b) { return a.x < b.x; };
+    auto const by_y = [](Vec2 a, Vec2 b) { return a.y < b.y; };
+    auto const [left_most, right_most] = std::minmax_element(places.begin(), places.end(), by_x);
+    auto const [lowest, highest] = std::minmax_element(places.begin(), places.end(), by_y);
+    auto const [x_low, x_high] = words.empty() ? axis_around(left_most->x, right_most->x)
+                                               : std::pair(-0.5, static_cast<double>(words.size()) - 0.5);
+    auto const [y_least, y_most] = axis_around(lowest->y, highest->y);
+    auto const [y_low, y_high] = with_range(index, y_least, y_most, 0.02);
+    double const left = panel.x + 5.0 * unit;
+    double const top = panel.y + 3.3 * unit;
+    return {{left, top, panel.right() - 0.6 * unit - left, panel.bottom() - 1.9 * unit - top},
+            x_low,
+            x_high,
+            y_low,
+            y_high};
+}
+
+/// A dot for each place, those of one colour in one path: a file with a path for each would be large.
+void draw_marks(Cairo* canvas, Plot const& plot, std::vector<Vec2> const& places, Distribution const& index,
+                bool are_words, double unit) {
+    std::size_t const marks = std::min(places.size(), most_marks);
+    cairo_save(canvas);
+    cairo_set_line_cap(canvas, CAIRO_LINE_CAP_ROUND);
+    cairo_set_line_width(canvas, 0.52 * unit);
+    for (bool const inside : {false, true}) {
+        Colour colour = !index.low ? without_range : inside ? inside_range : outside_range;
+        colour.alpha = 0.75;
+        for (std::size_t i = 0; i < marks; ++i) {
+            Vec2 const place = places[i * places.size() / marks];
+            double const turn = 0.61803398875 * static_cast<double>(i);
+            double const aside = are_words ? (turn - std::floor(turn) - 0.5) * 2.4 * unit : 0.0; // equal words apart
+            if (is_in_range(index, place.y) == inside) {
+                Vec2 const at = plot.at(place.x, place.y);
+                cairo_move_to(canvas, at.x + aside, at.y);
+                cairo_line_to(canvas, at.x + aside, at.y);
+            }
+        }
+        set_colour(canvas, colour);
+        cairo_stroke(canvas);
+    }
+    cairo_restore(canvas);
+}
+
+void draw_response(Cairo* canvas, Box panel, Distribution const& parameter, Distribution const& index,
+                   std::vector<std::string> const& words, double unit) {
+    std::vector<Vec2> const places = places_of(parameter, index);
     if (places.empty()) {
         draw_panel_words(canvas, panel, index, "no member has a number", "", unit);
         return;
     }
     double const rank = rank_correlation(parameter.values, index.values);
-    draw_panel_words(canvas, panel, index, std::isnan(rank) ? "ρ unknown" : "ρ " + number(rank, 2),
+    std::string const correlation = std::isnan(rank) ? "ρ unknown" : "ρ " + number(rank, 2);
+    draw_panel_words(canvas, panel, index, words.empty() ? correlation : fmt::format("{} members", places.size()),
                      index.low ? "range " + words_of_range(index) : "", unit);
-    auto const by_x = [](Vec2 a, Vec2 b) { return a.x < b.x; };
-    auto const by_y = [](Vec2 a, Vec2 b) { return a.y < b.y; };
-    auto const [left_most, right_most] = std::minmax_element(places.begin(), places.end(), by_x);
-    auto const [lowest, highest] = std::minmax_element(places.begin(), places.end(), by_y);
-    auto const [x_low, x_high] = axis_around(left_most->x, right_most->x);
-    auto const [y_least, y_most] = axis_around(lowest->y, highest->y);
-    auto const [y_low, y_high] = with_range(index, y_least, y_most, 0.02);
-    double const left = panel.x + 5.0 * unit;
-    double const top = panel.y + 3.3 * unit;
-    Plot const plot{{left, top, panel.right() - 0.6 * unit - left, panel.bottom() - 1.9 * unit - top},
-                    x_low,
-                    x_high,
-                    y_low,
-                    y_high};
+    Plot const plot = plot_of_response(panel, places, index, words, unit);
     draw_range_along(canvas, plot, index, unit);
-    std::size_t const marks = std::min(places.size(), most_marks);
-    for (std::size_t i = 0; i < marks; ++i) {
-        Vec2 const place = places[i * places.size() / marks];
-        Vec2 const at = plot.at(place.x, place.y);
-        Colour colour = colour_of_member(index, place.y);
-        colour.alpha = 0.75;
-        cairo_new_sub_path(canvas);
-        cairo_arc(canvas, at.x, at.y, 0.26 * unit, 0.0, full_turn);
-        set_colour(canvas, colour);
-        cairo_fill(canvas);
-    }
-    std::vector<Vec2> medians = group_medians(places);
+    draw_marks(canvas, plot, places, index, !words.empty(), unit);
+    std::vector<Vec2> medians = medians_of(places);
     if (!medians.empty()) {
         std::transform(medians.begin(), medians.end(), medians.begin(), [&](Vec2 p) { return plot.at(p.x, p.y); });
-        for (auto const& [width, colour] : {std::pair(0.3, Colour{1.0, 1.0, 1.0, 0.7}), std::pair(0.13, ink)}) {
-            trace_line(canvas, medians, 0.0);
-            set_colour(canvas, colour);
-            cairo_set_line_width(canvas, width * unit);
-            cairo_stroke(canvas);
-        }
+        draw_medians(canvas, medians, !words.empty(), unit);
     }
     bool const whole = std::all_of(places.begin(), places.end(), [](Vec2 p) { return p.y == std::floor(p.y); });
     draw_upright_axis(canvas, plot, whole, unit);
-    draw_base_line(canvas, plot, false, unit);
+    if (words.empty()) {
+        draw_base_line(canvas, plot, false, unit);
+    } else {
+        draw_words_below(canvas, plot, words, unit);
+    }
 }
 
 } // namespace
@@ -581,11 +650,18 @@ Picture responses(Distribution const& parameter, std::vector<Distribution> const
                             "draw.responses: {} has {} values and {} has {}: one for each member is required",
                             index.name, index.values.size(), parameter.name, parameter.values.size());
     }
+    for (double const value : parameter.values) {
+        refuse_if<BadInput>(
+            !params.words.empty() && !std::isnan(value) &&
+                !(value >= 0.0 && value < static_cast<double>(params.words.size()) && value == std::floor(value)),
+            "draw.responses: {} of {} is not the number of one of its {} words", value, parameter.name,
+            params.words.size());
+    }
     constexpr double high = 15.6;
     DistributionsParams const alike{params.title, params.note, params.width_px, params.format};
-    return sheet_of_panels(indices, alike, "responses", high, "medians of groups of members",
+    return sheet_of_panels(indices, alike, "responses", high, "medians",
                            [&](Cairo* canvas, Box panel, Distribution const& index, double unit) {
-                               draw_response(canvas, panel, parameter, index, unit);
+                               draw_response(canvas, panel, parameter, index, params.words, unit);
                            });
 }
 

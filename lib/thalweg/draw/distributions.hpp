@@ -53,15 +53,17 @@ struct ResponsesParams {
     std::string note;    ///< UTF-8, a line below the title; "" for none
     int width_px = 1400; ///< [200, 8000]; the height follows
     Format format = Format::svg;
+    std::vector<std::string> words = {}; ///< UTF-8, of a parameter whose values are their numbers from 0; empty: none
 };
 
-/// Draws each index against a parameter that varies: a dot for each member, or for 500 evenly
-/// chosen ones, natural ranges as bands, Spearman's rank
-/// correlation and, for 20 members or more, a line through the medians of groups of equal size.
+/// Draws each index against a parameter that varies: a dot for each member, or for 500 evenly chosen ones, natural
+/// ranges as bands, medians, and Spearman's rank correlation unless the parameter is a word. Medians are those of each
+/// value if there are 8 or fewer, else of groups of ten members or more.
 /// \param parameter its values by member; its range and group are not used
 /// \param indices by member, as many values as the parameter
 /// \return the picture
-/// \throws BadInput as distributions(), and when an index has not as many values as the parameter
+/// \throws BadInput as distributions(), when an index has not as many values as the parameter, and when a value is not
+/// the number of a word
 Picture responses(Distribution const& parameter, std::vector<Distribution> const& indices,
                   ResponsesParams const& params = {});
 

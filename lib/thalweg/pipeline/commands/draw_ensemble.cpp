@@ -78,7 +78,9 @@ std::vector<NamedIndex> known_statistics() {
             {"kurtosis", {"excess kurtosis of heights", "", {}}},
             {"roughness_m", {"difference of neighbours, mean", "m", {}}},
             {"lx_cells", {"correlation length along rows", "cells", {}}},
+            {"lx_extrapolated", {"correlation length along rows extrapolated: 1", "", {}}},
             {"ly_cells", {"correlation length along columns", "cells", {}}},
+            {"ly_extrapolated", {"correlation length along columns extrapolated: 1", "", {}}},
             {"dimension", {"fractal dimension, lags 1 to 5", "", {}}},
             {"dimension_dyadic", {"fractal dimension, lags doubled", "", {}}},
             {"hypsometric_integral", {"hypsometric integral", "", {}}},
@@ -153,17 +155,34 @@ void add_indices(EnsembleView& view) {
     }
 }
 
-/// The numbers of a varied key by member; nothing: it is not a number, or does not vary.
-std::optional<std::vector<double>> numbers_of_key(MembersTable const& table, std::size_t key) {
-    std::vector<double> values;
+/// A varied key; nothing: it has one value, or is one of many words.
+std::optional<VariedKey> varied_key(MembersTable const& table, std::size_t key) {
+    constexpr std::size_t most_words = 8;
+    VariedKey found;
+    std::vector<double> numbers;
+    std::vector<double> words;
+    bool are_numbers = true;
     for (MemberRow const& member : table.members) {
-        double const value = plain_number(member.values[key]);
-        if (std::isnan(value) && !member.values[key].empty()) {
-            return std::nullopt;
+        std::string const& text = member.values[key];
+        numbers.push_back(plain_number(text));
+        are_numbers = are_numbers && (text.empty() || !std::isnan(numbers.back()));
+        auto const known = std::find(found.words.begin(), found.words.end(), text);
+        words.push_back(text.empty() ? numbers.back() : static_cast<double>(known - found.words.begin()));
+        if (!text.empty() && known == found.words.end() && found.words.size() <= most_words) {
+            found.words.push_back(text);
         }
-        values.push_back(value);
     }
-    return has_numbers(values) && !are_equal(values) ? std::optional(values) : std::nullopt;
+    found.values.name = table.keys[key];
+    found.values.unit = unit_of_key(table.keys[key]);
+    found.values.values = are_numbers ? numbers : words;
+    if (!has_numbers(found.values.values) || are_equal(found.values.values) ||
+        (!are_numbers && found.words.size() > most_words)) {
+        return std::nullopt;
+    }
+    if (are_numbers) {
+        found.words.clear();
+    }
+    return found;
 }
 
 std::int64_t members_of_status(MembersTable const& table, MemberStatus status) {
@@ -192,12 +211,8 @@ EnsembleView view_of(MembersTable table, std::string title) {
     }
     for (std::size_t k = 0; k < view.table.keys.size(); ++k) {
         view.summary += fmt::format(" · {} {}", view.table.keys[k], words_of_key(view.table, k));
-        if (auto values = numbers_of_key(view.table, k)) {
-            draw::Distribution parameter;
-            parameter.name = view.table.keys[k];
-            parameter.unit = unit_of_key(view.table.keys[k]);
-            parameter.values = std::move(*values);
-            view.parameters.push_back(std::move(parameter));
+        if (auto key = varied_key(view.table, k)) {
+            view.parameters.push_back(std::move(*key));
         }
     }
     return view;
@@ -316,11 +331,11 @@ template <class Params> Params sheet_params(EnsembleView const& view, Look const
     return params;
 }
 
-draw::Picture responses_to(draw::Distribution const& parameter, EnsembleView const& view, Look const& look,
-                           draw::Format format) {
+draw::Picture responses_to(VariedKey const& key, EnsembleView const& view, Look const& look, draw::Format format) {
     auto params = sheet_params<draw::ResponsesParams>(view, look, format);
-    params.title += ": response to " + parameter.name + (parameter.unit.empty() ? "" : " [" + parameter.unit + "]");
-    return draw::responses(parameter, view.indices, params);
+    params.title += ": response to " + key.values.name + (key.values.unit.empty() ? "" : " [" + key.values.unit + "]");
+    params.words = key.words;
+    return draw::responses(key.values, view.indices, params);
 }
 
 } // namespace
@@ -385,8 +400,8 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
     } else {
         for (NamedFormat const& format : order.formats) {
             names.push_back(fmt::format("distributions.{}", format.name));
-            for (draw::Distribution const& parameter : view.parameters) {
-                names.push_back(fmt::format("responses_{}.{}", in_file_name(parameter.name), format.name));
+            for (VariedKey const& key : view.parameters) {
+                names.push_back(fmt::format("responses_{}.{}", in_file_name(key.values.name), format.name));
             }
         }
         names.insert(names.end(), {"contact_sheet.png", "ensemble.html"});
@@ -406,11 +421,11 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
                   draw::distributions(view.indices,
                                       sheet_params<draw::DistributionsParams>(view, params.look, format.format))
                       .bytes);
-            for (draw::Distribution const& parameter : view.parameters) {
+            for (VariedKey const& key : view.parameters) {
                 run.check();
                 if (order.single.empty()) {
-                    write(fmt::format("responses_{}.{}", in_file_name(parameter.name), format.name),
-                          responses_to(parameter, view, params.look, format.format).bytes);
+                    write(fmt::format("responses_{}.{}", in_file_name(key.values.name), format.name),
+                          responses_to(key, view, params.look, format.format).bytes);
                 }
             }
         }

@@ -20,7 +20,7 @@ namespace {
 constexpr std::string_view ensemble_style = R"(
 :root { color-scheme: light; --ink: #23262a; --faint: #5b6168; --rule: #d9d8d2; --bad: #b4541a; }
 * { box-sizing: border-box; }
-body { max-width: 1440px; margin: 0 auto; padding: 24px 20px 48px; background: #fff; color: var(--ink);
+body { max-width: 1440px; margin: 0 auto; padding: 24px 28px 48px; overflow-x: clip; background: #fff; color: var(--ink);
   font: 14px/1.45 system-ui, 'Segoe UI', Roboto, 'DejaVu Sans', 'Noto Sans CJK SC', sans-serif; }
 h1 { font-size: 24px; line-height: 1.25; margin: 0 0 4px; overflow-wrap: anywhere; }
 h2 { font-size: 18px; margin: 36px 0 4px; border-bottom: 1px solid var(--rule); padding-bottom: 4px; }
@@ -30,7 +30,8 @@ p { margin: 4px 0; max-width: 100ch; }
 nav a { margin-right: 16px; }
 a { color: #1b5793; }
 figure { margin: 8px 0 0; }
-svg, img { display: block; max-width: 100%; height: auto; }
+img { display: block; max-width: 100%; height: auto; }
+svg { display: block; width: 103%; height: auto; margin: 0 -1.5%; }
 .scroll { overflow-x: auto; }
 table { border-collapse: collapse; font-variant-numeric: tabular-nums; font-size: 13px; margin-top: 8px; }
 th, td { padding: 3px 10px; text-align: right; border-bottom: 1px solid var(--rule); white-space: nowrap; }
@@ -51,7 +52,7 @@ code { font: 13px ui-monospace, 'DejaVu Sans Mono', monospace; overflow-wrap: an
   * { print-color-adjust: exact; -webkit-print-color-adjust: exact; }
 }
 )";
-constexpr std::string_view style_hash = "sha256-tokGxu2vHpAfmLLw6V1Zb0jk6ZjZXwETXB0HdBsAeT8=";
+constexpr std::string_view style_hash = "sha256-rojgUj+PiAvFKOVgYTprd/3BQPDGi+Yp2bGVkDzPhZw=";
 
 constexpr std::size_t most_listed = 1000; // members in the list of failures
 constexpr double few_inside = 0.5;        // below this share inside a range a number stands out
@@ -149,6 +150,11 @@ std::string with_unit(draw::Distribution const& index) {
            (index.unit.empty() ? "" : fmt::format(" <span class=\"faint\">[{}]</span>", html_text(index.unit)));
 }
 
+std::vector<VariedKey> numbers_of(std::vector<VariedKey> keys) {
+    std::erase_if(keys, [](VariedKey const& key) { return !key.words.empty(); });
+    return keys;
+}
+
 std::string table_row(draw::Distribution const& index, EnsembleView const& view) {
     draw::DistributionCounts const counts = draw::counts_of(index);
     std::string row = fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", with_unit(index), counts.known);
@@ -159,36 +165,36 @@ std::string table_row(draw::Distribution const& index, EnsembleView const& view)
         auto const known = static_cast<double>(std::max<std::int64_t>(counts.known, 1));
         double const share = static_cast<double>(*counts.inside) / known;
         row += fmt::format("<td>{} to {}</td><td{}>{}&nbsp;%</td>", page_number(*index.low), page_number(*index.high),
-                           share < few_inside ? " class=\"few\"" : "",
-                           page_number(std::floor(share * 1000.0 + 0.5) / 10.0));
+                           share < few_inside ? " class=\"few\"" : "", std::floor(share * 100.0 + 0.5));
     } else {
         row += "<td></td><td></td>";
     }
-    for (draw::Distribution const& parameter : view.parameters) {
-        double const rank = rank_correlation(parameter.values, index.values);
-        std::string const text = std::isnan(rank) ? "" : page_number(std::floor(rank * 100.0 + 0.5) / 100.0);
-        row += fmt::format("<td>{}</td>", text);
+    for (VariedKey const& key : numbers_of(view.parameters)) {
+        double const rank = rank_correlation(key.values.values, index.values);
+        std::string const text = std::isnan(rank) ? "" : fmt::format("{:.2f}", std::fabs(rank));
+        row += fmt::format("<td>{}{}</td>", rank < 0.0 && text != "0.00" ? "\u2212" : "", text);
     }
     return row + "</tr>\n";
 }
 
 std::string table_of_numbers(EnsembleView const& view) {
+    std::vector<VariedKey> const numbers = numbers_of(view.parameters);
     std::string html =
         "<h2 id=\"numbers\">Numbers</h2>\n<p>Quantiles over the members that have the index. Inside: share "
         "of these members inside the natural range.";
-    if (!view.parameters.empty()) {
+    if (!numbers.empty()) {
         html += " ρ: Spearman’s rank correlation with a key that varies.";
     }
     html +=
         "</p>\n<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Index</th><th scope=\"col\">members</th>"
         "<th scope=\"col\">minimum</th><th scope=\"col\">5&nbsp;%</th><th scope=\"col\">median</th><th scope=\"col\">"
         "95&nbsp;%</th><th scope=\"col\">maximum</th><th scope=\"col\">natural range</th><th scope=\"col\">inside</th>";
-    for (draw::Distribution const& parameter : view.parameters) {
-        html += fmt::format("<th scope=\"col\">ρ {}</th>", html_text(parameter.name));
+    for (VariedKey const& key : numbers) {
+        html += fmt::format("<th scope=\"col\">ρ {}</th>", html_text(key.values.name));
     }
     html += "</tr></thead>\n<tbody>\n";
     for (auto const& group : groups_of(view.indices)) {
-        html += fmt::format("<tr><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>\n", 9 + view.parameters.size(),
+        html += fmt::format("<tr><th scope=\"rowgroup\" colspan=\"{}\">{}</th></tr>\n", 9 + numbers.size(),
                             html_text(group.front().group));
         for (draw::Distribution const& index : group) {
             html += table_row(index, view);
@@ -267,12 +273,13 @@ std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, 
         return draw::distributions(group, {.title = {}, .note = {}});
     });
     std::size_t number = 0;
-    for (draw::Distribution const& parameter : view.parameters) {
+    for (VariedKey const& key : view.parameters) {
         run.check();
-        html += fmt::format("<h2{}>Response to {}</h2>\n<p>Across: {}. ρ: Spearman’s rank correlation.</p>\n",
-                            ++number == 1 ? " id=\"responses\"" : "", html_text(parameter.name), with_unit(parameter));
+        html += fmt::format("<h2{}>Response to {}</h2>\n<p>Across: {}.{}</p>\n",
+                            ++number == 1 ? " id=\"responses\"" : "", html_text(key.values.name), with_unit(key.values),
+                            key.words.empty() ? " ρ: Spearman’s rank correlation." : "");
         html += figures_of(view, fmt::format("r{}-", number), [&](std::vector<draw::Distribution> const& group) {
-            return draw::responses(parameter, group, {.title = {}, .note = {}});
+            return draw::responses(key.values, group, {.title = {}, .note = {}, .words = key.words});
         });
     }
     html += table_of_numbers(view);

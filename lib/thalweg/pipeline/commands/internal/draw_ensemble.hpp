@@ -33,19 +33,25 @@ struct EnsembleOrder {
 std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
                                      io::Existing existing);
 
-/// Draws an ensemble from its table: distributions, responses to varied keys that are numbers, a contact sheet, and a
+/// Draws an ensemble from its table: distributions, responses to the keys that vary, a contact sheet, and a
 /// page of all of them.
 /// \throws BadInput as read_members_table, and the readers of the DEMs in the table's folder
 DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, Run const& run);
+
+/// A key that varies, by member.
+struct VariedKey {
+    draw::Distribution values;      ///< numbers, or those of the words
+    std::vector<std::string> words; ///< empty: the key is a number
+};
 
 /// What the pictures and the page of an ensemble show.
 struct EnsembleView {
     std::string title;
     std::string summary; ///< counts of members and varied keys, in words
     MembersTable table;
-    std::vector<draw::Distribution> indices;    ///< of all members, by group
-    std::vector<draw::Distribution> parameters; ///< varied keys that are numbers, by member
-    std::vector<std::string> notes;             ///< what is left out, as sentences
+    std::vector<draw::Distribution> indices; ///< of all members, by group
+    std::vector<VariedKey> parameters;       ///< keys that are numbers, or one of a few words
+    std::vector<std::string> notes;          ///< what is left out, as sentences
 };
 
 /// A contact sheet and its note; no bytes: there is none.
