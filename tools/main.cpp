@@ -160,7 +160,7 @@ Commands add_commands(CLI::App& app, Session& session) {
     add("convert", "Convert a river network to another schema or format.", add_convert);
     add("stats", "Print statistics of a DEM.", add_stats);
     add("measure", "Write contributing areas, flow directions and catchments of a DEM.", add_measure);
-    add("draw", "Draw pictures of a DEM or of a folder written by make.", add_draw);
+    add("draw", "Draw pictures of a DEM, of a folder written by make, or of an ensemble.", add_draw);
     add("export", "Write heights or a mesh for game engines, 3D programs and printers.", add_export);
     add("tin", "Write a TIN of a DEM, of points or of a network.", add_tin);
     add("points", "Write the cells of a DEM as a point cloud.", add_points);

@@ -17,7 +17,7 @@
 namespace thalweg::pipeline {
 namespace {
 
-constexpr std::int64_t largest_table = 1'000'000'000; // [bytes]
+constexpr std::int64_t largest_table = 250'000'000; // [bytes]
 
 /// A field of a CSV text.
 struct CsvField {

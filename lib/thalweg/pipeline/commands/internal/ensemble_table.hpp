@@ -42,8 +42,8 @@ struct MembersTable {
 std::vector<std::vector<std::string>> csv_records(std::string_view text, std::string const& name);
 
 /// Reads the table.csv that `make --ensemble` writes.
-/// \param path a table, or a folder that holds table.csv
-/// \throws BadInput for a missing file, one above 1 GB or that is no CSV, one without a column member, members or
+/// \param path of the table
+/// \throws BadInput for a missing file, one above 250 MB or that is no CSV, one without a column member, members or
 /// measures, members that are no whole numbers or appear twice, an unknown status, measures that are no numbers
 MembersTable read_members_table(std::string const& path);
 
