@@ -78,7 +78,7 @@ TEST(EnsembleTable, ColumnsHaveTheirPlaces) {
     EXPECT_EQ(table.members[1].number, 2);
     EXPECT_EQ(table.members[1].seed, "18446744073709551615");
     EXPECT_EQ(table.members[1].reason, "a, b");
-    EXPECT_EQ(table.members[2].status, pipeline::MemberStatus::check_failed);
+    EXPECT_EQ(table.members[2].status, pipeline::DrawnStatus::check_failed);
     ASSERT_EQ(table.measures.size(), 2U);
     EXPECT_EQ(table.measures[0].name, "law.hack");
     EXPECT_DOUBLE_EQ(table.measures[0].values[2], -0.001);

@@ -156,13 +156,13 @@ void add_indices(EnsembleView& view) {
 }
 
 /// A varied key; nothing: it has one value, or is one of many words.
-std::optional<VariedKey> varied_key(MembersTable const& table, std::size_t key) {
+std::optional<DrawnKey> varied_key(MembersTable const& table, std::size_t key) {
     constexpr std::size_t most_words = 8;
-    VariedKey found;
+    DrawnKey found;
     std::vector<double> numbers;
     std::vector<double> words;
     bool are_numbers = true;
-    for (MemberRow const& member : table.members) {
+    for (DrawnMember const& member : table.members) {
         std::string const& text = member.values[key];
         numbers.push_back(plain_number(text));
         are_numbers = are_numbers && (text.empty() || !std::isnan(numbers.back()));
@@ -185,9 +185,9 @@ std::optional<VariedKey> varied_key(MembersTable const& table, std::size_t key) 
     return found;
 }
 
-std::int64_t members_of_status(MembersTable const& table, MemberStatus status) {
+std::int64_t members_of_status(MembersTable const& table, DrawnStatus status) {
     return std::count_if(table.members.begin(), table.members.end(),
-                         [&](MemberRow const& member) { return member.status == status; });
+                         [&](DrawnMember const& member) { return member.status == status; });
 }
 
 std::string short_number(double value) {
@@ -199,8 +199,8 @@ EnsembleView view_of(MembersTable table, std::string title) {
     view.title = std::move(title);
     view.table = std::move(table);
     add_indices(view);
-    std::int64_t const failed = members_of_status(view.table, MemberStatus::failed);
-    std::int64_t const doubtful = members_of_status(view.table, MemberStatus::check_failed);
+    std::int64_t const failed = members_of_status(view.table, DrawnStatus::failed);
+    std::int64_t const doubtful = members_of_status(view.table, DrawnStatus::check_failed);
     std::size_t const all = view.table.members.size();
     view.summary = fmt::format("{} {}", all, all == 1 ? "member" : "members");
     if (doubtful > 0) {
@@ -219,7 +219,7 @@ EnsembleView view_of(MembersTable table, std::string title) {
 }
 
 /// The folder of a member beside the table.
-fs::path folder_of(fs::path const& folder, MemberRow const& member) {
+fs::path folder_of(fs::path const& folder, DrawnMember const& member) {
     return folder / fmt::format("member_{:05}", member.number);
 }
 
@@ -236,13 +236,14 @@ std::vector<std::size_t> chosen_members(MembersTable const& table) {
     return chosen;
 }
 
-draw::Thumbnail thumbnail_of(MembersTable const& table, MemberRow const& member, fs::path const& dem, Run const& run) {
+draw::Thumbnail thumbnail_of(MembersTable const& table, DrawnMember const& member, fs::path const& dem,
+                             Run const& run) {
     draw::Thumbnail one;
     std::string name = fmt::format("{}", member.number);
     if (!member.seed.empty()) {
         name += fmt::format(" · seed {}", member.seed);
     }
-    if (member.status == MemberStatus::check_failed) {
+    if (member.status == DrawnStatus::check_failed) {
         name += " · check failed";
     }
     one.words.push_back(std::move(name));
@@ -251,7 +252,7 @@ draw::Thumbnail thumbnail_of(MembersTable const& table, MemberRow const& member,
         std::string const text = std::isnan(value) ? member.values[k] : short_number(value);
         one.words.push_back(fmt::format("{} {}", table.keys[k], text.empty() ? "unknown" : text));
     }
-    if (member.status == MemberStatus::failed) {
+    if (member.status == DrawnStatus::failed) {
         one.missing = "failed";
     } else if (!fs::exists(dem)) {
         one.missing = "no dem.tif";
@@ -266,10 +267,10 @@ draw::Thumbnail thumbnail_of(MembersTable const& table, MemberRow const& member,
 /// The contact sheet of the members that have a DEM beside the table.
 EnsembleSheet sheet_of_members(EnsembleView const& view, fs::path const& folder, Look const& look, Run const& run) {
     MembersTable const& table = view.table;
-    auto const dem_of = [&](MemberRow const& member) { return folder_of(folder, member) / "dem.tif"; };
+    auto const dem_of = [&](DrawnMember const& member) { return folder_of(folder, member) / "dem.tif"; };
     std::vector<std::size_t> const chosen = chosen_members(table);
     bool const any = std::any_of(chosen.begin(), chosen.end(), [&](std::size_t m) {
-        return table.members[m].status != MemberStatus::failed && fs::exists(dem_of(table.members[m]));
+        return table.members[m].status != DrawnStatus::failed && fs::exists(dem_of(table.members[m]));
     });
     EnsembleSheet sheet;
     if (!any) {
@@ -283,8 +284,8 @@ EnsembleSheet sheet_of_members(EnsembleView const& view, fs::path const& folder,
     std::int64_t failed = 0;
     for (std::size_t i = 0; i < chosen.size(); ++i) {
         run.at(0.9 * static_cast<double>(i) / static_cast<double>(chosen.size()), "contact_sheet");
-        MemberRow const& member = table.members[chosen[i]];
-        failed += member.status == MemberStatus::failed ? 1 : 0;
+        DrawnMember const& member = table.members[chosen[i]];
+        failed += member.status == DrawnStatus::failed ? 1 : 0;
         thumbnails.push_back(thumbnail_of(table, member, dem_of(member), run));
     }
     std::string note = chosen.size() == table.members.size()
@@ -331,7 +332,7 @@ template <class Params> Params sheet_params(EnsembleView const& view, Look const
     return params;
 }
 
-draw::Picture responses_to(VariedKey const& key, EnsembleView const& view, Look const& look, draw::Format format) {
+draw::Picture responses_to(DrawnKey const& key, EnsembleView const& view, Look const& look, draw::Format format) {
     auto params = sheet_params<draw::ResponsesParams>(view, look, format);
     params.title += ": response to " + key.values.name + (key.values.unit.empty() ? "" : " [" + key.values.unit + "]");
     params.words = key.words;
@@ -352,7 +353,7 @@ std::string words_of_key(MembersTable const& table, std::size_t key) {
     double high = -low;
     bool numbers = true;
     std::vector<std::string> words;
-    for (MemberRow const& member : table.members) {
+    for (DrawnMember const& member : table.members) {
         std::string const& text = member.values[key];
         double const value = plain_number(text);
         if (text.empty()) {
@@ -400,7 +401,7 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
     } else {
         for (NamedFormat const& format : order.formats) {
             names.push_back(fmt::format("distributions.{}", format.name));
-            for (VariedKey const& key : view.parameters) {
+            for (DrawnKey const& key : view.parameters) {
                 names.push_back(fmt::format("responses_{}.{}", in_file_name(key.values.name), format.name));
             }
         }
@@ -421,7 +422,7 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
                   draw::distributions(view.indices,
                                       sheet_params<draw::DistributionsParams>(view, params.look, format.format))
                       .bytes);
-            for (VariedKey const& key : view.parameters) {
+            for (DrawnKey const& key : view.parameters) {
                 run.check();
                 if (order.single.empty()) {
                     write(fmt::format("responses_{}.{}", in_file_name(key.values.name), format.name),

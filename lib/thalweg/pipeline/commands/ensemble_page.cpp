@@ -150,8 +150,8 @@ std::string with_unit(draw::Distribution const& index) {
            (index.unit.empty() ? "" : fmt::format(" <span class=\"faint\">[{}]</span>", html_text(index.unit)));
 }
 
-std::vector<VariedKey> numbers_of(std::vector<VariedKey> keys) {
-    std::erase_if(keys, [](VariedKey const& key) { return !key.words.empty(); });
+std::vector<DrawnKey> numbers_of(std::vector<DrawnKey> keys) {
+    std::erase_if(keys, [](DrawnKey const& key) { return !key.words.empty(); });
     return keys;
 }
 
@@ -169,7 +169,7 @@ std::string table_row(draw::Distribution const& index, EnsembleView const& view)
     } else {
         row += "<td></td><td></td>";
     }
-    for (VariedKey const& key : numbers_of(view.parameters)) {
+    for (DrawnKey const& key : numbers_of(view.parameters)) {
         double const rank = rank_correlation(key.values.values, index.values);
         std::string const text = std::isnan(rank) ? "" : fmt::format("{:.2f}", std::fabs(rank));
         row += fmt::format("<td>{}{}</td>", rank < 0.0 && text != "0.00" ? "\u2212" : "", text);
@@ -178,7 +178,7 @@ std::string table_row(draw::Distribution const& index, EnsembleView const& view)
 }
 
 std::string table_of_numbers(EnsembleView const& view) {
-    std::vector<VariedKey> const numbers = numbers_of(view.parameters);
+    std::vector<DrawnKey> const numbers = numbers_of(view.parameters);
     std::string html =
         "<h2 id=\"numbers\">Numbers</h2>\n<p>Quantiles over the members that have the index. Inside: share "
         "of these members inside the natural range.";
@@ -189,7 +189,7 @@ std::string table_of_numbers(EnsembleView const& view) {
         "</p>\n<div class=\"scroll\"><table>\n<thead><tr><th scope=\"col\">Index</th><th scope=\"col\">members</th>"
         "<th scope=\"col\">minimum</th><th scope=\"col\">5&nbsp;%</th><th scope=\"col\">median</th><th scope=\"col\">"
         "95&nbsp;%</th><th scope=\"col\">maximum</th><th scope=\"col\">natural range</th><th scope=\"col\">inside</th>";
-    for (VariedKey const& key : numbers) {
+    for (DrawnKey const& key : numbers) {
         html += fmt::format("<th scope=\"col\">ρ {}</th>", html_text(key.values.name));
     }
     html += "</tr></thead>\n<tbody>\n";
@@ -207,8 +207,8 @@ std::string table_of_failures(EnsembleView const& view) {
     MembersTable const& table = view.table;
     std::string rows;
     std::size_t count = 0;
-    for (MemberRow const& member : table.members) {
-        if (member.status == MemberStatus::ok || ++count > most_listed) {
+    for (DrawnMember const& member : table.members) {
+        if (member.status == DrawnStatus::ok || ++count > most_listed) {
             continue;
         }
         rows += fmt::format("<tr><th scope=\"row\">{}</th><td>{}</td>", member.number, html_text(member.seed));
@@ -218,7 +218,7 @@ std::string table_of_failures(EnsembleView const& view) {
         }
         rows +=
             fmt::format("<td class=\"words\">{}</td><td class=\"words\">{}</td></tr>\n",
-                        member.status == MemberStatus::failed ? "not made" : "check failed", html_text(member.reason));
+                        member.status == DrawnStatus::failed ? "not made" : "check failed", html_text(member.reason));
     }
     std::string html = "<h2 id=\"failures\">Failures</h2>\n";
     if (count == 0) {
@@ -273,7 +273,7 @@ std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, 
         return draw::distributions(group, {.title = {}, .note = {}});
     });
     std::size_t number = 0;
-    for (VariedKey const& key : view.parameters) {
+    for (DrawnKey const& key : view.parameters) {
         run.check();
         html += fmt::format("<h2{}>Response to {}</h2>\n<p>Across: {}.{}</p>\n",
                             ++number == 1 ? " id=\"responses\"" : "", html_text(key.values.name), with_unit(key.values),

@@ -157,12 +157,12 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
     return columns;
 }
 
-MemberStatus status_of(std::string const& word, std::string const& name, std::int64_t member) {
+DrawnStatus status_of(std::string const& word, std::string const& name, std::int64_t member) {
     refuse_if<BadInput>(word != "ok" && word != "check_failed" && word != "failed",
                         "pipeline.read_members_table: {}, member {}: unknown status '{}'; it must be ok, check_failed "
                         "or failed",
                         name, member, word);
-    return word == "ok" ? MemberStatus::ok : word == "failed" ? MemberStatus::failed : MemberStatus::check_failed;
+    return word == "ok" ? DrawnStatus::ok : word == "failed" ? DrawnStatus::failed : DrawnStatus::check_failed;
 }
 
 std::int64_t member_number(std::string const& text, std::string const& name, std::size_t row) {
@@ -195,12 +195,12 @@ MembersTable read_members_table(std::string const& path) {
     bool has_number = false;
     for (std::size_t row = 1; row < records.size(); ++row) {
         std::vector<std::string> const& record = records[row];
-        MemberRow member;
+        DrawnMember member;
         member.number = member_number(record[columns.member], path, row);
         refuse_if<BadInput>(!numbers.insert(member.number).second,
                             "pipeline.read_members_table: {} has member {} twice; remove one row", path, member.number);
         member.seed = columns.seed ? record[*columns.seed] : "";
-        member.status = columns.status ? status_of(record[*columns.status], path, member.number) : MemberStatus::ok;
+        member.status = columns.status ? status_of(record[*columns.status], path, member.number) : DrawnStatus::ok;
         member.reason = columns.reason ? record[*columns.reason] : "";
         for (std::size_t const i : columns.keys) {
             member.values.push_back(record[i]);

@@ -39,7 +39,7 @@ std::vector<std::string> files_there(std::string const& folder, std::vector<std:
 DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, Run const& run);
 
 /// A key that varies, by member.
-struct VariedKey {
+struct DrawnKey {
     draw::Distribution values;      ///< numbers, or those of the words
     std::vector<std::string> words; ///< empty: the key is a number
 };
@@ -50,7 +50,7 @@ struct EnsembleView {
     std::string summary; ///< counts of members and varied keys, in words
     MembersTable table;
     std::vector<draw::Distribution> indices; ///< of all members, by group
-    std::vector<VariedKey> parameters;       ///< keys that are numbers, or one of a few words
+    std::vector<DrawnKey> parameters;        ///< keys that are numbers, or one of a few words
     std::vector<std::string> notes;          ///< what is left out, as sentences
 };
 

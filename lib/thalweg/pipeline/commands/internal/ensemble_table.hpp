@@ -9,13 +9,13 @@
 
 namespace thalweg::pipeline {
 
-enum class MemberStatus : std::uint8_t { ok, check_failed, failed };
+enum class DrawnStatus : std::uint8_t { ok, check_failed, failed };
 
 /// A member in the table of an ensemble.
-struct MemberRow {
+struct DrawnMember {
     std::int64_t number = 0;
     std::string seed; ///< as in the table; "": unknown
-    MemberStatus status = MemberStatus::ok;
+    DrawnStatus status = DrawnStatus::ok;
     std::string reason;              ///< "" for none
     std::vector<std::string> values; ///< of the varied keys, as in the table
 };
@@ -28,7 +28,7 @@ struct MeasureColumn {
 
 /// The table of an ensemble.
 struct MembersTable {
-    std::vector<MemberRow> members;
+    std::vector<DrawnMember> members;
     std::vector<std::string> keys;       ///< of the recipe that vary, in the table's order
     std::vector<MeasureColumn> measures; ///< columns dem.*, law.*, dem_law.* and relief.*, in the table's order
 };
