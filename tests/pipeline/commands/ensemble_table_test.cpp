@@ -69,10 +69,10 @@ TEST(EnsembleTable, AnyTextComesBack) {
 
 TEST(EnsembleTable, ColumnsHaveTheirPlaces) {
     MembersTable const table =
-        read("member,seed,surface.mean_slope,network.source,status,reason,check.nan,law.hack,dem.mean\n"
-             "0,7,12.5,dla,ok,,0,0.57,\n"
-             "2,18446744073709551615,,forest,failed,\"a, b\",,,\n"
-             "1,9,3,dla,check_failed,nan,1,-1e-3,250\n");
+        read("member,seed,surface.mean_slope,network.source,status,reason,warnings,check.nan,law.hack,dem.mean\n"
+             "0,7,12.5,dla,ok,,2,0,0.57,\n"
+             "2,18446744073709551615,,forest,failed,\"a, b\",0,,,\n"
+             "1,9,3,dla,check_failed,nan,0,1,-1e-3,250\n");
     EXPECT_EQ(table.keys, (std::vector<std::string>{"surface.mean_slope", "network.source"}));
     ASSERT_EQ(table.members.size(), 3U);
     EXPECT_EQ(table.members[1].number, 2);

@@ -79,6 +79,18 @@ TEST(DrawEnsemble, PicturesSheetAndPageOfATable) {
     }
 }
 
+TEST(DrawEnsemble, WhatMakeLeft) {
+    Workplace const place;
+    expect_run(place,
+               "make --set grid.width=64 --set grid.height=48 --ensemble 3 --vary surface.mean_slope=10..30 --only dem "
+               "-q -o made",
+               0);
+    auto const said = expect_run(place, "draw made --what ensemble -o made --json", 0).json();
+    EXPECT_TRUE(test::has(said["files"].dump(), "made/contact_sheet.png", "made/responses_surface.mean_slope.svg"));
+    EXPECT_TRUE(test::has(said["notes"].dump(), "all 3 members"));
+    EXPECT_TRUE(test::has(file_bytes(place / "made/ensemble.html"), ">length of all rivers <", ">slope, mean <"));
+}
+
 TEST(DrawEnsemble, ThePolicyOfThePageAllowsItsStyle) {
     Workplace const place;
     make_ensemble(place, 5);

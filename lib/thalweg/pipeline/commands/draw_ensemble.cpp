@@ -53,6 +53,13 @@ std::vector<NamedIndex> known_laws() {
     return known;
 }
 
+std::vector<NamedIndex> known_counts() {
+    return {{"arcs", {"reaches", "", {}}},
+            {"outlets", {"outlets", "", {}}},
+            {"strahler", {"highest Strahler order", "", {}}},
+            {"length_m", {"length of all rivers", "m", {}}}};
+}
+
 std::vector<NamedIndex> known_relief() {
     std::vector<NamedIndex> known;
     TerrainRelief nothing;
@@ -110,7 +117,8 @@ bool are_equal(std::vector<double> const& values) {
 
 /// The indices of a table by family, and notes on the columns left out.
 void add_indices(EnsembleView& view) {
-    std::vector<Family> const families = {{"law.", "Rivers as drawn", known_laws()},
+    std::vector<Family> const families = {{"rivers.", "Rivers as drawn", known_counts()},
+                                          {"law.", "Rivers as drawn", known_laws()},
                                           {"dem_law.", "Rivers extracted from the DEM", known_laws()},
                                           {"relief.", "Relief", known_relief()},
                                           {"dem.", "Heights", known_statistics()}};

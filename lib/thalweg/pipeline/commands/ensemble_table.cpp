@@ -113,7 +113,7 @@ double plain_number(std::string_view text) {
 namespace {
 
 bool is_measure(std::string_view column) {
-    constexpr std::array<std::string_view, 4> families = {"dem.", "law.", "dem_law.", "relief."};
+    constexpr std::array<std::string_view, 5> families = {"rivers.", "dem.", "law.", "dem_law.", "relief."};
     return std::any_of(families.begin(), families.end(), [&](std::string_view f) { return column.starts_with(f); });
 }
 
@@ -145,7 +145,7 @@ Columns columns_of(std::vector<std::string> const& header, std::string const& na
             columns.reason = i;
         } else if (is_measure(header[i])) {
             columns.measures.push_back(i);
-        } else if (!header[i].empty() && !header[i].starts_with("check.")) {
+        } else if (!header[i].empty() && header[i] != "warnings" && !header[i].starts_with("check.")) {
             columns.keys.push_back(i);
         }
     }
@@ -217,10 +217,11 @@ MembersTable read_members_table(std::string const& path) {
         }
         table.members.push_back(std::move(member));
     }
-    refuse_if<BadInput>(!has_number,
-                        "pipeline.read_members_table: {} has no numbers in columns dem.*, law.*, dem_law.* or "
-                        "relief.*; there is nothing to draw",
-                        path);
+    refuse_if<BadInput>(
+        !has_number,
+        "pipeline.read_members_table: {} has no numbers in columns rivers.*, dem.*, law.*, dem_law.* or "
+        "relief.*; there is nothing to draw",
+        path);
     return table;
 }
 

@@ -30,7 +30,7 @@ struct MeasureColumn {
 struct MembersTable {
     std::vector<DrawnMember> members;
     std::vector<std::string> keys;       ///< of the recipe that vary, in the table's order
-    std::vector<MeasureColumn> measures; ///< columns dem.*, law.*, dem_law.* and relief.*, in the table's order
+    std::vector<MeasureColumn> measures; ///< columns rivers.*, dem.*, law.*, dem_law.* and relief.*, in order
 };
 
 /// Reads the records of a CSV text strictly by RFC 4180; lines may end with LF alone, and a byte order mark is skipped.
