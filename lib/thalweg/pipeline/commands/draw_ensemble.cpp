@@ -283,7 +283,7 @@ EnsembleSheet sheet_of_members(EnsembleView const& view, fs::path const& folder,
     EnsembleSheet sheet;
     if (!any) {
         bool const packed = fs::exists(folder / "shard-000000.tar");
-        sheet.note = packed ? "there is no contact sheet: the members are in tar files; unpack them beside the table"
+        sheet.note = packed ? "there is no contact sheet: the members are in tar files, and it needs their folders"
                             : "there is no contact sheet: no folder member_00000, member_00001, ... beside the table "
                               "has a dem.tif";
         return sheet;
