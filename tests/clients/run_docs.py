@@ -6,7 +6,7 @@
 A command is a line that begins with "$ " in a fenced block marked sh. Each page runs in a folder of its own that
 holds a copy of samples/, with thalweg in PATH; what the commands of a page leave, later ones find. A command whose
 line ends in "# exit N" must exit with N, every other with 0. build/release/bin/thalweg stands for the thalweg in PATH.
-`thalweg studio` is interrupted once it serves. Commands of scripts/ and the compilers' build are run by scripts/test itself and only checked to exist. python3 is Debian's, whose packages the pages speak of; psql, createdb and
+`thalweg studio` is interrupted once it serves. Commands of scripts/ and the compilers' build are run by scripts/test itself and only checked to exist; mpirun is for tests/ranks. python3 is Debian's, whose packages the pages speak of; psql, createdb and
 databases "PG:dbname=..." are those of a PostgreSQL of this run's own.
 """
 import contextlib
@@ -23,7 +23,7 @@ import urllib.request
 import cluster
 
 thalweg, source = pathlib.Path(sys.argv[1]).resolve(), pathlib.Path(sys.argv[2]).resolve()
-elsewhere = re.compile(r"^(\./)?(scripts/|cmake |git clone|cd |ctest |build/)")
+elsewhere = re.compile(r"^(\./)?(scripts/|cmake |git clone|cd |ctest |build/|mpirun )")
 databases = re.compile(r"\bPG:|\bpsql\b|\bcreatedb\b")
 
 

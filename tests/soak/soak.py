@@ -9,6 +9,7 @@ import os
 import pathlib
 import random
 import re
+import shutil
 import subprocess
 import sys
 import time
@@ -45,6 +46,12 @@ def torture(program, name):
         yield f"{name} of {program.name}: commit its input as a test of tests/tools/faults", done.stdout
 
 
+def ranks(program, name):
+    done = run(["/usr/bin/python3", ROOT / "tests/ranks/ranks_test.py", program, ROOT, name], THALWEG_KILLS="10")
+    if done.returncode:
+        yield f"{name} of tests/ranks/ranks_test.py: kills", done.stdout
+
+
 def again(build, name):
     done = run(["ctest", "--test-dir", build, "--tests-regex", f"^{re.escape(name)}$", "--no-tests=error", "--output-on-failure"])
     if done.returncode:
@@ -73,6 +80,9 @@ def main(build, minutes):
     work += [(torture, binary / "thalweg_soak", name) for name in tests_of(binary / "thalweg_soak")]
     work += [(torture, program, name) for program in sorted(binary.glob("test_*")) for name in tests_of(program, "Soak*")]
     work += [(again, build, name) for name in flaky]
+    if b"Open MPI" in subprocess.check_output([binary / "thalweg", "--version"]) and shutil.which("slurmd"):
+        work += [(ranks, binary / "thalweg", f"Ranks.test_{name}") for name in (
+            "a_killed_process_goes_on", "a_killed_rank_goes_on", "a_killed_task_and_a_lost_node_are_made_again")]
     end = time.monotonic() + 60 * minutes
     found, rounds, done = [], 0, 0
     while time.monotonic() < end:

@@ -7,6 +7,7 @@
 #include <charconv>
 #include <cstdlib>
 #include <exception>
+#include <fstream>
 #include <system_error>
 #include <utility>
 
@@ -70,6 +71,18 @@ std::string mark_of_host() {
     return fmt::format("thalweg-tmp-{}-", name.data());
 }
 
+// A process that was killed and whose end its parent has not asked for (in a container, maybe never) still has its id.
+bool is_dead(pid_t process) {
+    if (kill(process, 0) == -1) {
+        return errno == ESRCH;
+    }
+    std::ifstream stat(fmt::format("/proc/{}/stat", process));
+    std::string words;
+    std::getline(stat, words);
+    std::size_t const state = words.rfind(") "); // the name before it may hold anything
+    return state != std::string::npos && words.substr(state + 2, 1) == "Z";
+}
+
 bool is_of_dead_process(std::string const& name, std::string const& mark) {
     std::size_t const at = name.find(mark);
     if (at == std::string::npos) {
@@ -79,7 +92,7 @@ bool is_of_dead_process(std::string const& name, std::string const& mark) {
     char const* const begin = name.data() + at + mark.size();
     auto const [end, fault] = std::from_chars(begin, name.data() + name.size(), process);
     bool const ends = fault == std::errc() && (end == name.data() + name.size() || *end == '-');
-    return ends && process > 0 && kill(process, 0) == -1 && errno == ESRCH;
+    return ends && process > 0 && is_dead(process);
 }
 
 bool holds_old_files(fs::path const& place) {
