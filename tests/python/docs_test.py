@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Runs the Python of README.md and docs/python.md: blocks marked python, in their order, in one namespace for each page, in a
+"""Runs the Python of README.md, docs/python.md and docs/scale.md: blocks marked python, in their order, in one namespace for each page, in a
 folder with a copy of samples/. A line print(...)  # TEXT must print TEXT."""
 import contextlib
 import io
@@ -22,7 +22,7 @@ def blocks_of(page):
 
 class Pages(unittest.TestCase):
     def test_pages_print_what_they_say(self):
-        for name in ("README.md", "docs/python.md"):
+        for name in ("README.md", "docs/python.md", "docs/scale.md"):
             with self.subTest(name), tempfile.TemporaryDirectory() as place, contextlib.chdir(place):
                 shutil.copytree(ROOT / "samples", "samples")
                 space, count = {"__name__": "page"}, 0

@@ -55,6 +55,7 @@ class WhatTheProgramTakes(Case):
                     "--device",  # the program's own default
                     "--set", "--seed", "--crs", "--units", "--schema", "--field", "--only",  # of make: keys
                     "--dry-run",  # no run
+                    "--ensemble", "--seeds", "--vary", "--shards", "--share",  # many terrains, for which QGIS has batch runs
                     "--source-crs", "--layer", "--arcs-layer", "--nodes-layer",  # of the layer
                     "--from", "--table"}  # FROM; a database is no file
         for command in runner.STAGES:

@@ -75,9 +75,10 @@ Command add_studio(CLI::App& app, Session& session) {
                    "make, rivers or a DEM, which are copied. Without it, thalweg opens ./studio, or begins it with the "
                    "terrain of make.")
         ->type_name("FILE(toml,gpkg,shp,geojson,json,fgb,kml,gpx,gdb,zip,tif)");
-    app.add_option("-o,--output", options->folder,
-                   "Begin the new document in this folder; without it in ./studio, or ./studio-2, … where that is "
-                   "taken.")
+    app.add_option(
+           "-o,--output", options->folder,
+           "Begin the new document in this folder; without it in ./studio, or ./studio-2 and so on where that is "
+           "taken.")
         ->type_name("DIR");
     app.add_flag("--blank", options->blank, "Begin with an empty sheet to draw rivers on.");
     app.add_option("--port", options->params.serve.port, "Serve at this port; 0: any free one.")

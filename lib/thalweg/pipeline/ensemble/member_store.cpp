@@ -342,7 +342,12 @@ void MemberStore::pack(std::int64_t shard) {
     std::int64_t const end = std::min(begin + files_.members_a_shard, ensemble_.members);
     std::error_code error;
     auto const is_packed = [&] { return fs::exists(shard_path(shard), error); };
-    if (files_.members_a_shard == 0 || begin >= end || is_packed()) {
+    if (files_.members_a_shard == 0 || begin >= end) {
+        return;
+    }
+    auto const remove_parts = [&] { fs::remove_all(fs::path(part(begin)).parent_path(), error); };
+    if (is_packed()) {
+        remove_parts();
         return;
     }
     for (std::int64_t number = end - 1; number >= begin; --number) {
@@ -373,7 +378,7 @@ void MemberStore::pack(std::int64_t shard) {
         fail_at(shard_path(shard), errno);
     }
     out.commit();
-    fs::remove_all(fs::path(part(begin)).parent_path(), error);
+    remove_parts();
 }
 
 Journals::Account MemberStore::finish() {
