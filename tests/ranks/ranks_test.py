@@ -134,7 +134,7 @@ class Ranks(unittest.TestCase):
                 self.submit(slurm, "task", FEW, waits=False)
                 slurm.wait_for(lambda: committed(folder) >= min(is_there + 2, FEW) or not slurm.said("squeue", "-h").strip(), "a member")
                 if turn % 2 == 0:  # a task
-                    found = subprocess.run(["pgrep", "-x", "thalweg"], capture_output=True, text=True, check=False).stdout.split()
+                    found = subprocess.run(["pgrep", "-f", f"make .*-o '?{folder}"], capture_output=True, text=True, check=False).stdout.split()
                     for pid in found[:1]:
                         os.kill(int(pid), signal.SIGKILL)
                 else:
