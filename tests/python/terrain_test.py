@@ -76,9 +76,11 @@ class Recipes(unittest.TestCase):
     def test_what_is_no_recipe_or_value_is_refused_in_words(self):
         with self.assertRaisesRegex(TypeError, "make takes a recipe .* not set"):
             thalweg.make({1})
-        for value in ({1}, ["a"], 1j, np.zeros(2, complex)):
+        for value in ({1}, 1j, np.zeros(2, complex)):
             with self.assertRaisesRegex(TypeError, "grid.origin: takes text, a number"):
                 thalweg.make({"grid": {"origin": value}})
+        with self.assertRaisesRegex(BadParameter, "two numbers"):  # words are values of other keys
+            thalweg.make({"grid": {"origin": ["a"]}})
         with self.assertRaisesRegex(BadParameter, "detail = {}: over another recipe, name a key of the section"):
             thalweg.make(SMALL, detail={})
 
