@@ -6,6 +6,7 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/files/tar.hpp>
+#include <thalweg/io/files/zip.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/packed.hpp>

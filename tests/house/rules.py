@@ -27,7 +27,7 @@ FOREIGN = {
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
     "draw": ["cairo", "fontconfig/", "png.h"],
-    "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/"],
+    "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/", "boost/crc.hpp"],
     "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "studio": ["nlohmann/"],

@@ -6,7 +6,6 @@
 #include <memory>
 
 #include <cpl_conv.h>
-#include <cpl_string.h>
 #include <fmt/format.h>
 #include <ogr_spatialref.h>
 #include <proj.h>
@@ -15,9 +14,9 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/zip.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
-#include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/qgis/internal/qgis.hpp>
 
 namespace thalweg::io {
@@ -161,18 +160,8 @@ void write_qgis_project(QgisProject const& project, std::string const& path) {
     std::string const what = "io.write_qgis_project: " + path;
     Driver const driver;
     std::string const text = project_text(project);
-    MemoryFile const file;
-    // GDAL sets no times in these; stored as it is, since the bytes of a compressed one depend on the zlib.
-    char stored[] = "COMPRESSED=NO";
-    char* options[] = {stored, nullptr};
-    void* const zip = CPLCreateZip(file.path().c_str(), nullptr);
-    bool const done = zip != nullptr && CPLCreateFileInZip(zip, "project.qgs", options) == CE_None &&
-                      CPLWriteFileInZip(zip, text.data(), static_cast<int>(text.size())) == CE_None &&
-                      CPLCloseFileInZip(zip) == CE_None;
-    bool const closed = zip != nullptr && CPLCloseZip(zip) == CE_None;
     driver.check(what);
-    refuse_if<IoError>(!done || !closed, "{} could not be written", what);
-    write_text(path, file.bytes());
+    write_text(path, zip_archive("project.qgs", text));
 }
 
 } // namespace thalweg::io

@@ -68,7 +68,7 @@ namespace {
     throw BadParameter(fmt::format("{} is required, not {}", wanted, toml_text(v)));
 }
 
-template <class T> T const& required(std::string const& wanted, Value const& v) {
+template <class T> T const& required(char const* wanted, Value const& v) {
     T const* const held = std::get_if<T>(&v);
     if (held == nullptr) {
         refuse_value(wanted, v);

@@ -434,7 +434,8 @@ void unset_key(Recipe& recipe, std::string const& path) {
 }
 
 void require_effect(Recipe const& recipe, std::string const& path) {
-    Key const& key = key_at(target_of(path));
+    Target const target = target_of(path);
+    Key const& key = key_at(target);
     refuse_if<BadParameter>(!key.use.holds(recipe), "{} has no effect in this recipe: it needs {}", cut(path),
                             key.use.lacks(recipe));
 }
