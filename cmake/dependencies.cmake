@@ -28,5 +28,7 @@ if(NOT TARGET libnoise::libnoise) # optional: skeleton.ridge_noise; its package 
     add_library(libnoise::libnoise INTERFACE IMPORTED GLOBAL)
     set_target_properties(libnoise::libnoise PROPERTIES
       INTERFACE_INCLUDE_DIRECTORIES ${LIBNOISE_INCLUDE} INTERFACE_LINK_LIBRARIES ${LIBNOISE_LIBRARY})
+  elseif(PROJECT_NAME STREQUAL "thalweg")
+    message(STATUS "No libnoise (libnoise-dev): no skeleton.ridge_noise")
   endif()
 endif()
