@@ -132,5 +132,72 @@ class Gate(Stage):
         self.assertEqual(self.noted("machine"), [])
 
 
+class Full(Stage):
+    """scripts/test --full in a repository of its own, where what a part runs is a stand-in."""
+
+    def setUp(self):
+        super().setUp()
+        self.repo = self.place / "repo"
+        for name in ("scripts", "tests"):
+            (self.repo / name).mkdir(parents=True)
+        shutil.copy(ROOT / "scripts/test", self.repo / "scripts/test")
+        (self.repo / "tests/full.txt").write_text("# head\n")
+        self.program("repo/scripts/packages", "")
+        self.program("bin/cmake", "")
+        self.program("bin/ctest", "case $* in *notebooks*) exit 8 ;; esac")
+        self.program("bin/date", 'case "$*" in *%F*) echo 2026-01-02 ;; *) echo 1000 ;; esac')
+        self.git("init", "-q")
+        self.commit()
+
+    def git(self, *words):
+        done = self.run_here("git", "-C", self.repo, "-c", "user.name=n", "-c", "user.email=e", *words)
+        self.assertEqual(done.returncode, 0, done.stderr)
+        return done.stdout.strip()
+
+    def commit(self):
+        self.git("add", "-A")
+        self.git("commit", "-q", "--allow-empty", "-m", "m")
+        return self.git("rev-parse", "--short=8", "HEAD")
+
+    def full(self, *words):
+        return self.run_here(self.repo / "scripts/test", "--full", *words)
+
+    def lines(self):
+        return (self.repo / "tests/full.txt").read_text().splitlines()
+
+    def test_each_part_writes_its_line(self):
+        head = self.git("rev-parse", "--short=8", "HEAD")
+        self.assertEqual(self.full("samples").returncode, 0)
+        self.assertEqual(self.lines(), ["# head", f"samples      {head}  2026-01-02    0 min  passed"])
+        self.assertEqual(self.full("page", "notebooks").returncode, 1)
+        self.assertEqual([line.split()[0] + line.split()[-1] for line in self.lines()[1:]],
+                         ["notebooksFAILED", "pagepassed", "samplespassed"])
+        self.assertIn(f" {head}+ ", self.lines()[1])  # tests/full.txt itself has changed
+
+    def test_a_cause_stays_while_the_part_is_red(self):
+        (self.repo / "tests/full.txt").write_text("# head\nnotebooks    x y 1 min FAILED # its kernel\nsamples x y 1 min FAILED # z\n")
+        self.full("notebooks", "samples")
+        self.assertTrue(self.lines()[1].endswith("FAILED # its kernel"), self.lines())
+        self.assertTrue(self.lines()[2].endswith("passed"), self.lines())
+
+    def test_the_three_oldest(self):
+        parts = next(line for line in (ROOT / "scripts/test").read_text().splitlines() if line.startswith("parts=")).split("'")[1]
+        old = self.commit()
+        young = self.commit()
+        self.commit()
+        old_parts = ["page", "shells", "samples"]
+        (self.repo / "tests/full.txt").write_text("# head\n" + "".join(
+            f"{name} {old if name in old_parts else young + '+'} 2026-01-01 1 min passed\n" for name in parts.split()))
+        self.commit()
+        done = self.full("--stale")
+        self.assertEqual(done.returncode, 0, done.stderr)
+        self.assertIn("3 commits ago: page\n3 commits ago: shells\n3 commits ago: samples\n2 commits ago: clients\n", done.stdout)
+        self.assertEqual([line.split()[0] for line in self.lines() if "2026-01-02" in line], sorted(old_parts))
+
+    def test_parts_that_were_never_run_come_first(self):
+        done = self.full("--stale")
+        self.assertEqual(done.stdout.splitlines()[0], "never run: clients")
+
+
 if __name__ == "__main__":
     unittest.main()
