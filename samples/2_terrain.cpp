@@ -39,7 +39,7 @@ int main(int count, char** words) try {
     // Lines become arcs of a tree. Whatever had to be mended is told; here nothing is.
     network::Imported const imported = network::import_lines(drawn, {.orientation = network::Orientation::as_drawn});
     for (Finding const& repair : imported.repairs) {
-        std::printf("%s: %s\n", repair.kind.c_str(), repair.text.c_str());
+        std::printf("%s: %s\n", std::string(repair.kind).c_str(), repair.text.c_str());
     }
 
     // The valleys rise 2 m in 100 m from the outlet; a network with heights is another type than one without.

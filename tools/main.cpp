@@ -238,12 +238,32 @@ bool can_start_threads(int wanted) {
     return all;
 }
 
+/// A finding's line, its severity in colour.
+std::string in_tone(Finding const& finding) {
+    std::string const line = line_of(finding);
+    if (finding.severity() == Severity::note) {
+        return line;
+    }
+    std::string_view const severity = name_of(finding.severity());
+    return toned(finding.severity() == Severity::warning ? Tone::careful : Tone::bad, severity, stderr) +
+           line.substr(severity.size());
+}
+
 /// Prepares the environment of a run.
 void prepare(Session& session, Terminal& terminal) {
     session.run.threads = can_start_threads(session.threads) ? session.threads : 1;
     session.run.progress = &Terminal::progress;
     session.run.progress_arg = &terminal;
     session.run.log = [&terminal](std::string_view line) { terminal.line(line); };
+    session.run.found = [&session, &terminal](Finding const& finding) {
+        session.findings.push_back(finding);
+        bool const is_printed = session.verbose || finding.kind.row().printed == Printed::always;
+        if (is_printed && session.progress) {
+            terminal.data(fmt::format("{{\"finding\": {}}}", pipeline::finding_json(finding)));
+        } else if (is_printed) {
+            terminal.line(in_tone(finding));
+        }
+    };
 }
 
 int work(CLI::App const& chosen, Command const& command, Session& session, Terminal& terminal) {

@@ -8,6 +8,7 @@
 #include <thalweg/core/channels.hpp>
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
+#include <thalweg/core/finding_kinds.hpp>
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/lattice.hpp>
 #include <thalweg/core/numbers/elementary.hpp>

@@ -117,11 +117,23 @@ py::object text_of(std::string_view bytes) {
 
 py::object dict_of(Finding const& finding) {
     py::dict dict;
-    dict["kind"] = text_of(finding.kind);
+    FindingRow const& row = finding.kind.row();
+    dict["kind"] = text_of(row.kind);
+    dict["severity"] = name_of(row.severity);
     dict["feature"] = finding.feature;
-    dict["where"] = py::make_tuple(finding.where.x, finding.where.y);
+    dict["where"] =
+        is_finite(finding.where) ? py::object(py::make_tuple(finding.where.x, finding.where.y)) : py::none();
     dict["amount"] = finding.amount;
+    dict["unit"] = text_of(row.unit);
     dict["text"] = text_of(finding.text);
+    dict["remedy"] = text_of(remedy_of(finding));
+    dict["key"] = text_of(finding.key);
+    dict["layer"] = text_of(finding.layer);
+    py::dict numbers;
+    for (FindingNumber const& number : finding.numbers) {
+        numbers[py::str(number.name)] = py::make_tuple(number.value, text_of(number.unit));
+    }
+    dict["numbers"] = numbers;
     return dict;
 }
 
@@ -136,10 +148,25 @@ py::object dict_of(Check const& check) {
 }
 
 Finding take_finding(py::handle value, Place const& place) {
-    py::dict const dict = take_dict(value, place);
+    py::dict const dict = py::reinterpret_steal<py::dict>(PyDict_Copy(take_dict(value, place).ptr()));
+    for (char const* const of_kind : {"severity", "unit"}) {
+        dict.attr("pop")(of_kind, py::none());
+    }
+    py::dict const numbers = dict.attr("pop")("numbers", py::dict());
+    if (dict.contains("where") && dict["where"].is_none()) {
+        dict.attr("pop")("where");
+    }
     Args in(place.function + ": " + place.name, py::args(), py::kwargs(py::reinterpret_borrow<py::kwargs>(dict)));
-    Finding finding;
-    in.option("kind", finding.kind);
+    std::string kind;
+    in.option("kind", kind);
+    Finding finding{FindingKind::named(kind)};
+    for (auto const& [name, number] : numbers) {
+        auto const [amount, unit] = number.cast<std::pair<double, std::string>>();
+        finding.numbers.push_back({name.cast<std::string>(), amount, unit});
+    }
+    in.option("remedy", finding.remedy);
+    in.option("key", finding.key);
+    in.option("layer", finding.layer);
     in.option("feature", finding.feature);
     in.option("where", finding.where);
     in.option("amount", finding.amount);

@@ -38,7 +38,7 @@ for _name in _core.VALUES:
 from thalweg._ensemble import Member, ensemble
 from thalweg._networks import to_geodataframe, to_networkx
 from thalweg._raster import ConversionWarning, Raster, UnitWarning
-from thalweg._terrain import Terrain, forecast, make, rebuild
+from thalweg._terrain import Terrain, TerrainWarning, forecast, make, rebuild
 
 setattr(_core.Grid, "__reduce__", lambda grid: (_core.Grid, tuple(grid.as_dict().values())))
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
@@ -48,6 +48,6 @@ del _kind, _name
 
 __version__ = _core.version()
 __all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "Member", "NotConverged", "Raster",
-           "Terrain", "UnitWarning", "__version__", "blend", "draw", "ensemble", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
+           "Terrain", "TerrainWarning", "UnitWarning", "__version__", "blend", "draw", "ensemble", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
            "network", "pipeline", "rebuild", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
 __all__ += [name for name in _core.VALUES if name not in __all__]

@@ -8,6 +8,7 @@ import json
 import os
 import re
 import tomllib
+import warnings
 from collections.abc import Callable, Iterator, Mapping
 from typing import TYPE_CHECKING, Any, Literal
 
@@ -29,6 +30,26 @@ BESIDE_TERRAIN = {"seed", "grid", "output"}
 MAP_WIDTH = 800  # [px]
 
 Value = bool | int | float | str | list[Any] | dict[str, Any]
+
+
+class TerrainWarning(UserWarning):
+    """What make() warns of: a finding with the severity "warning".
+
+    Attributes
+    ----------
+    finding : dict
+        As in Terrain.findings.
+    """
+
+    def __init__(self, finding: dict[str, Any]) -> None:
+        self.finding = finding
+        super().__init__(". ".join(filter(None, (finding["text"], finding["remedy"]))))
+
+
+def _warn_of(findings: list[dict[str, Any]], stacklevel: int) -> None:
+    for finding in findings:
+        if finding["severity"] == "warning":
+            warnings.warn(TerrainWarning(finding), stacklevel=stacklevel + 1)
 
 
 class Terrain:
@@ -109,8 +130,12 @@ class Terrain:
 
     @property
     def findings(self) -> list[dict[str, Any]]:
-        """kind, feature, where [m], amount and text: of changes to the rivers, then of what the checks found."""
-        return [*pipeline.repairs_of(self.made), *self.made.assessment.findings]
+        """What was found, as in report.json: of the recipe and its files, the rivers, the terrain, and by the checks.
+
+        Each is a dict of kind, severity ("note", "warning" or "error"), feature, where ((x, y) [m] or None), amount and its
+        unit, text, remedy, key of the recipe, layer, and numbers ({name: (value, unit)}).
+        """
+        return pipeline.findings_of(self.made)
 
     @functools.cached_property
     def report(self) -> dict[str, Any]:
@@ -262,6 +287,11 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
     -------
     Terrain
 
+    Warns
+    -----
+    TerrainWarning
+        For each finding of the terrain that is a warning.
+
     Raises
     ------
     BadParameter
@@ -324,6 +354,7 @@ def _made(asked: pipeline.Recipe, files: list[_networks.TemporaryPath], who: str
         raise bad_input(who, f"{os.fspath(output)} is not empty: set overwrite=True or name another folder")
     made = pipeline.make(asked, **run)
     terrain = Terrain(made, files)
+    _warn_of(terrain.findings, 3)
     if output is not None:
         terrain.write(output, overwrite)
     return terrain
@@ -341,7 +372,12 @@ def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
     -------
     dict
         stages (list of str), grid (Grid, or None where it depends on rivers that must be grown first), cells,
-        memory_bytes [byte] (an upper limit) and seconds [s] (on one core of 2020).
+        memory_bytes [byte] (an upper limit), seconds [s] (on one core of 2020) and findings, as in Terrain.findings.
+
+    Warns
+    -----
+    TerrainWarning
+        For each finding that is a warning.
 
     Raises
     ------
@@ -350,7 +386,8 @@ def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
     """
     files: list[_networks.TemporaryPath] = []
     found = pipeline.forecast(_recipe_of(recipe, keys, files))
-    return {name: getattr(found, name) for name in ("stages", "grid", "cells", "memory_bytes", "seconds")}
+    _warn_of(found.findings, 2)
+    return {name: getattr(found, name) for name in ("stages", "grid", "cells", "memory_bytes", "seconds", "findings")}
 
 
 def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> pipeline.Recipe:

@@ -73,8 +73,6 @@ class Draw(Algorithm):
 
     def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
-        for note in finished.report["notes"]:
-            feedback.pushInfo(note)
         names = [os.path.basename(path) for path in finished.report["files"]]
         found: dict[str, Any] = {"OUTPUT": self.output}
         pictures = [name for name in names if name.endswith((".png", ".svg", ".pdf"))]

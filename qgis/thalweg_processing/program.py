@@ -187,16 +187,24 @@ class _Listener:
         if line.startswith("{"):
             try:
                 state = json.loads(line)
-                self.move(str(state["stage"]), float(state["share"]))
+                if "finding" in state:
+                    self.tell(state["finding"])
+                else:
+                    self.move(str(state["stage"]), float(state["share"]))
                 return
             except (ValueError, KeyError, TypeError):
                 pass
-        if line.startswith("warning:"):
-            self.feedback.pushWarning(in_qgis(line.removeprefix("warning:").strip()))
-        elif line.startswith("error:") or self.error:
+        if line.startswith("error:") or self.error:
             self.error.append(line.removeprefix("error:").strip() if not self.error else line)
         elif line.strip():
             self.feedback.pushInfo(without_columns(line))
+
+    def tell(self, finding: dict[str, Any]) -> None:
+        words = ". ".join(filter(None, (finding["text"], finding.get("remedy", "") if finding["severity"] == "warning" else "")))
+        if finding["severity"] == "warning":
+            self.feedback.pushWarning(in_qgis(words))
+        elif finding["severity"] == "note":
+            self.feedback.pushInfo(f"{finding['kind'].replace('_', ' ')}: {in_qgis(words)}")
 
     def move(self, stage: str, share: float) -> None:
         begin, end = self.parts.get(stage, (0, 0))

@@ -16,6 +16,7 @@ REFERRING = {
     "io/raster/polygons.hpp": "an argument, for the time of a call",
     "io/raster/web_tiles.hpp": "an argument, for the time of a call",
     "studio/engine.hpp": "an argument, for the time of a call",
+    "core/finding_kinds.hpp": "a row of a table of literals",
     "core/run/run.hpp": "what the caller asks to be handed back to its own callback",
     "network/import/import_lines.hpp": "an argument, for the time of a call",
     "io/mesh/tin.hpp": "names are literals",

@@ -1,13 +1,15 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Optional libraries that are half installed count as not installed, and configure says so: optional_test.py CMAKE."""
+"""Optional libraries that are half installed count as not installed, and configure says so: optional_test.py CMAKE GROUP=FOUND...
+A library whose packages (a GROUP of scripts/packages) are all here was found by this build.
+"""
 import os
 import pathlib
 import subprocess
 import sys
 import tempfile
 
-cmake, source = sys.argv[1], pathlib.Path(__file__).resolve().parents[2]
+cmake, groups, source = sys.argv[1], sys.argv[2:], pathlib.Path(__file__).resolve().parents[2]
 PROJECT = f"""cmake_minimum_required(VERSION 3.25)
 project(apart LANGUAGES CXX)
 include({source}/cmake/optional.cmake)
@@ -37,6 +39,12 @@ EXR = """add_library(OpenEXR::OpenEXR INTERFACE IMPORTED)
 set_target_properties(OpenEXR::OpenEXR PROPERTIES INTERFACE_INCLUDE_DIRECTORIES /nowhere/imath)
 """
 
+for group in groups:
+    name, found = group.split("=")
+    missing = subprocess.run([source / "scripts/packages", "--missing", name], text=True, capture_output=True, check=True).stdout
+    print(f"{name}: found {found}, missing packages: {missing.split()}")
+    assert missing or found.upper() in ("1", "TRUE", "ON", "YES"), f"{name} is installed, and cmake did not find it"
+
 with tempfile.TemporaryDirectory() as place:
     place = pathlib.Path(place)
     files = {"source/CMakeLists.txt": PROJECT, "bin/mpicxx": WRAPPER, "bin/mpic++": WRAPPER, "include/CL/cl.h": "",
@@ -50,7 +58,7 @@ with tempfile.TemporaryDirectory() as place:
                           stdout=subprocess.PIPE, stderr=subprocess.STDOUT)
     print(said.stdout)
     assert said.returncode == 0, said.returncode
+    assert "FOUND [FALSE] [] []" in said.stdout or "FOUND [] [] []" in said.stdout
     for library in ("MPI", "OpenCL", "OpenEXR"):
         assert f"-- {library} is installed in part" in said.stdout, library
         assert f"no {library} here. Install lib{library}-dev" in said.stdout, library
-    assert "FOUND [] [] []" in said.stdout or "FOUND [FALSE] [] []" in said.stdout

@@ -60,6 +60,8 @@ DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|berno
                           r"piecewise_constant|piecewise_linear)_distribution\b")
 # thalweg::Error takes such a beginning for the function that throws and shows users the rest.
 PREFIX = re.compile(r'"([a-z]+)\.\w+: ')
+# Findings are values: Run::report and line_of() print them, and nothing reads their words.
+WARNING_AS_TEXT = re.compile(r"""["'`]warning: |(?:starts_with|startswith|startsWith)\(["'`]warning""")
 # rapidcheck gives its verdict back; a test that does not look at it cannot fail.
 UNASKED = re.compile(r"^\s*rc::check\(")
 # A value of the pipeline that a function would change for its caller. Only the reader of recipes does so.
@@ -178,6 +180,8 @@ def check_source(name, lines):
             if UNASKED.search(code) and not lines[max(number - 2, 0)].endswith("("):
                 yield number, "rc::check: its verdict is not looked at; write ASSERT_TRUE(rc::check(...))"
             continue
+        if found := WARNING_AS_TEXT.search(code):
+            yield number, f"{found[0]}: a warning is a finding; return it as a value"
         if found := UNREPEATABLE.search(code):
             yield number, f"{found[0]}: not the same everywhere"
         if not begins(name, LIBM_FREE_OF):
@@ -232,6 +236,10 @@ def check_text(name, lines):
         yield 1, "the two SPDX lines are missing"
     if name in RULES_THEMSELVES or name in GENERATED:
         return
+    if path.parts[0] in ("qgis", "python", "web", "tools"):
+        for number, line in enumerate(lines, 1):
+            if found := WARNING_AS_TEXT.search(line):
+                yield number, f"{found[0]}: read findings, not words"
     builds = path.name in ("CMakeLists.txt", "CMakePresets.json") or path.suffix == ".cmake"
     for number, line in enumerate(lines, 1):
         if found := MACHINE_PATH.search(line):

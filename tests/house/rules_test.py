@@ -32,6 +32,8 @@ PLANTED = [
     (NETWORK, '#include "thin.hpp"', "write <thalweg/...>"),
     ("tools/commands/make.cpp", '#include "help.hpp"', "FOLDER one of"),
     ("tools/terminal/progress.cpp", '#include "help/help.hpp"', "dependencies point one way"),
+    (NETWORK, 'run.say("warning: too short");', "a warning is a finding"),
+    ("qgis/thalweg_processing/a.py", 'if line.startswith("warning"):', "read findings, not words"),
     (NETWORK, "#include <random>", "not the same everywhere"),
     (NETWORK, "#include <execution>", "not the same everywhere"),
     (NETWORK, "std::shuffle(a, b, c);", "not the same everywhere"),

@@ -129,5 +129,5 @@ inline std::ptrdiff_t count_of(thalweg::NetworkFile const& file, std::string con
 /// The first finding of a kind; an empty one when there is none.
 inline thalweg::Finding finding_of(thalweg::NetworkFile const& file, std::string const& kind) {
     auto const found = std::ranges::find(file.findings, kind, &thalweg::Finding::kind);
-    return found == file.findings.end() ? thalweg::Finding{} : *found;
+    return found == file.findings.end() ? thalweg::Finding{"left_out"} : *found;
 }

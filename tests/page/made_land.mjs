@@ -54,7 +54,7 @@ export function landOfFormula({ width = 200, height = 160, cell = 30, z, arcs = 
       hack: column('hack', () => 1), survives: column('survives', () => null), length: column('length', length), z_up: column('z_up', () => 0), z_down: column('z_down', () => 0),
       us_area: column('us_area', () => 1e6), ds_area: column('ds_area', () => 2e6), n: arcs.map(({ line }) => line.length) } },
     laws: { rows: [], support: null, orders: [], dem_orders: [], hack: {}, concavity: {} }, relief: null, statistics: [], given: [], checks: [], timings: [],
-    repairs: { count: 0, shown: [] }, findings: { count: 0, shown: [] }, notes: [],
+    warnings: { count: 0, shown: [] }, repairs: { count: 0, shown: [] }, findings: { count: 0, shown: [] }, notes: [],
   };
   return { data, heights, packed: base64, lines: packLines(arcs.map(({ line }) => line)), water: cells === 1 ? packWater(across * down) : '' };
 }

@@ -99,8 +99,18 @@ describe('verdict', () => {
     await close();
   });
 
+  test('warnings stand first, with what to do and where', async () => {
+    const { page, close } = await shown((d) => {
+      d.warnings = { count: 2, shown: [{ kind: 'filled_heights', text: '1 of 3 lines lack heights', remedy: 'Give them some', at: [3, 4] }, { kind: 'texture_missed', text: 'too smooth', remedy: '', at: null }] };
+    });
+    assert.equal(await page.innerText('#verdict > details:first-child > summary'), '! 2 warnings');
+    assert.match(await page.innerText('.warnings'), /1 of 3 lines lack heights\. Give them some\. Show\s+too smooth/);
+    assert.equal(await page.locator('.warnings button').count(), 1);
+    await close();
+  });
+
   test('none without checks', async () => {
-    const { page, close } = await shown((d) => (d.checks = []));
+    const { page, close } = await shown((d) => Object.assign(d, { checks: [], warnings: { count: 0, shown: [] } }));
     assert.equal(await page.innerText('#verdict'), '');
     await close();
   });

@@ -304,6 +304,14 @@ describe('the studio', () => {
     await page.waitForFunction(() => document.getElementById('doing').classList.contains('bad'));
     assert.match(await page.textContent('#doing'), /leaves no river/);
     assert.match(await page.textContent('.messages'), /3 rivers were left out/);
+    const finding = (kind, text) => ({ kind, severity: 'warning', text, remedy: 'Mend it' });
+    server.send({ type: 'findings', job: job + 1, revision: 1, count: 3, list: [finding('rills', 'they are rills'), { ...finding('grid', '3x3 cells'), severity: 'note' }] });
+    server.send({ type: 'findings', job: job + 1, revision: 1, count: 3, list: [finding('rills', 'they are rills'), finding('gentle_land', 'it is gentle')] });
+    await page.waitForFunction(() => window.__thalweg.findings?.length === 2 && window.__thalweg.findings[1].kind === 'gentle_land');
+    assert.deepEqual(await page.locator('.said .careful').allTextContents(), ['they are rills. Mend it.', 'it is gentle. Mend it.']);
+    server.send({ type: 'findings', job: job + 1, revision: 1, count: 0, list: [] });
+    await page.waitForFunction(() => document.querySelectorAll('.said .careful').length === 0);
+    assert.match(await page.textContent('.messages'), /3 rivers were left out/);
     await sameHeights(lands[0][1]);
   });
 

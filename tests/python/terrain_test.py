@@ -6,6 +6,7 @@ import io
 import json
 import os
 import pathlib
+import re
 import tempfile
 import unittest
 import warnings
@@ -19,6 +20,8 @@ import shapely.geometry
 
 import thalweg
 from thalweg import BadInput, BadParameter, Raster
+
+ROOT = pathlib.Path(__file__).resolve().parents[2]
 
 matplotlib.use("Agg")
 SAMPLES = pathlib.Path(__file__).parents[2] / "samples"
@@ -208,10 +211,12 @@ class Values(unittest.TestCase):
         self.assertTrue(terrain.passed)
         self.assertEqual(set(terrain.checks[0]), {"name", "value", "limit", "ok", "bound"})
         for finding in terrain.findings:
-            self.assertEqual(set(finding), {"kind", "feature", "where", "amount", "text"})
+            self.assertEqual(set(finding), {"kind", "severity", "feature", "where", "amount", "unit", "text", "remedy", "key", "layer",
+                                            "numbers"})
         self.assertEqual([check["name"] for check in terrain.report["checks"]], [check["name"] for check in terrain.checks])
         self.assertEqual(terrain.report["network"]["arcs"], terrain.network.planform.arc_count)
-        self.assertEqual(len(terrain.findings), len(terrain.report["findings"]) + len(terrain.report["repairs"]))
+        self.assertEqual([(finding["kind"], finding["text"]) for finding in terrain.findings],
+                         [(finding["kind"], finding["text"]) for finding in terrain.report["findings"]])
         self.assertEqual(terrain.recipe["surface"]["method"], "dilate")
         self.assertEqual(list(terrain.timings), list(terrain.report["timings_s"]))
         json.dumps([terrain.report, terrain.recipe, terrain.timings, terrain.checks])
@@ -234,6 +239,25 @@ class Values(unittest.TestCase):
         self.assertEqual((vertices.shape[1], triangles.shape[1]), (3, 3))
         self.assertLess(triangles.max(), len(vertices))
         self.assertGreater(len(terrain.ridges.lines), 0)
+
+    def test_warnings_are_warned_of(self):
+        text = (ROOT / "tests/zero_height.hpp").read_text("utf-8")
+        with tempfile.TemporaryDirectory() as folder:
+            path = pathlib.Path(folder) / "r.geojson"
+            path.write_text(re.search(r'R"\((.*)\)";', text, re.DOTALL)[1], "utf-8")
+            recipe = {"grid": {"cell": 50}, "network": {"source": "lines", "lines": {"path": path}}, "surface": {}}
+            with self.assertWarns(thalweg.TerrainWarning) as caught:
+                terrain = thalweg.make(recipe)
+            self.assertEqual(caught.filename, __file__)
+            warned = [(str(one.message), one.message.finding["kind"]) for one in caught.warnings]
+            self.assertEqual([kind for _, kind in warned][:2], ["placeholder_heights", "filled_heights"])
+            self.assertTrue(warned[0][0].startswith("1 vertices in r.geojson have 0 for a height"), warned)
+            found = [finding for finding in terrain.report["findings"] if finding["severity"] == "warning"]
+            self.assertEqual([". ".join((finding["text"], finding["remedy"])) for finding in found], [words for words, _ in warned])
+            with self.assertWarns(thalweg.TerrainWarning) as caught:
+                planned = thalweg.forecast(recipe)
+            self.assertEqual([one.message.finding["kind"] for one in caught.warnings], ["placeholder_heights", "filled_heights"])
+            self.assertEqual([finding["kind"] for finding in planned["findings"]][:2], ["placeholder_heights", "filled_heights"])
 
     def test_the_folder_is_that_of_the_program(self):
         with tempfile.TemporaryDirectory() as folder:

@@ -117,7 +117,7 @@ void expect_lawful(Drawing const& drawing) {
     params.divergences = network::Divergences::error;
     network::Imported const imported = network::import_lines(lines, params);
     for (Finding const& repair : imported.repairs) {
-        EXPECT_TRUE(repair.kind == "joined" || repair.kind == "split") << repair.kind << ": " << repair.text;
+        EXPECT_TRUE(repair.kind == "joined" || repair.kind == "split") << repair.kind.name() << ": " << repair.text;
         if (repair.kind == "split") { // where they meet, and nowhere else
             EXPECT_TRUE(std::ranges::any_of(drawing.rivers, [&](DrawnRiver const& river) {
                 return distance(river.line.back(), repair.where) < 1e-5;

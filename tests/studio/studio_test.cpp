@@ -11,11 +11,13 @@
 #include <thread>
 #include <utility>
 #include <variant>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
 #include <serve/raw_client.hpp>
 #include <support.hpp>
+#include <zero_height.hpp>
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -88,6 +90,9 @@ public:
             if (frame.opcode == 1 && message["type"] == "drawing") {
                 drawing_ = message;
             }
+            if (frame.opcode == 1 && message["type"] == "findings") {
+                findings_ = message["list"];
+            }
             if (frame.opcode == 1 && message["type"] == "idle") {
                 idle_ = message;
             }
@@ -98,6 +103,16 @@ public:
     }
     /// What is drawn, as it was told last.
     json const& drawing() const { return drawing_; }
+    /// The kinds and texts of the warnings of the last job.
+    std::vector<std::pair<std::string, std::string>> warnings() const {
+        std::vector<std::pair<std::string, std::string>> found;
+        for (json const& finding : findings_) {
+            if (finding["severity"] == "warning") {
+                found.emplace_back(finding["kind"], finding["text"]);
+            }
+        }
+        return found;
+    }
     json draw(json const& what) { return ask(json{{"id", 1}, {"do", "draw"}, {"what", what}}.dump()); }
     /// Waits until the terrain of a revision is there, unless that was told before another answer; what was told of it.
     json wait_for(std::int64_t revision) {
@@ -119,6 +134,7 @@ public:
 private:
     RawClient client_;
     json drawing_;
+    json findings_ = json::array();
     json idle_{{"revision", -1}, {"job", 0}};
 };
 
@@ -170,6 +186,33 @@ protected:
 };
 
 class SoakStudios : public Studios {};
+
+// Warnings belong to a terrain, whether its stages were run or their results were kept, and whoever comes to see it.
+TEST_F(Studios, FindingsAreThoseOfTheTerrainShown) {
+    test::write(at("r.geojson"), test::zero_height);
+    test::write(at("lines.toml"), "[grid]\ncell = 50\n[network]\nsource = \"lines\"\n[network.lines]\npath = "
+                                  "\"r.geojson\"\n[surface]\n");
+    new_document(at("rivers"), at("lines.toml"));
+    Running const studio({.folder = at("rivers"), .threads = 2});
+    Window window(studio);
+    std::int64_t revision = window.wait_for(0)["revision"];
+    auto const first = window.warnings();
+    ASSERT_GE(first.size(), 2U);
+    EXPECT_EQ(first[0].first, "placeholder_heights");
+    EXPECT_EQ(first[1].first, "filled_heights");
+    // Lines are kept; then they are read again; then all is kept.
+    for (auto const& [key, value] : {std::pair{"surface.hillslope", "40"}, {"network.lines.snap", "0.5"}}) {
+        ASSERT_EQ(window.set(key, value)["ok"], true);
+        window.wait_for(++revision);
+        EXPECT_EQ(window.warnings(), first) << key;
+    }
+    ASSERT_EQ(window.ask(R"({"id": 0, "do": "undo"})")["ok"], true);
+    window.wait_for(++revision);
+    EXPECT_EQ(window.warnings(), first) << "kept";
+    Window late(studio);
+    late.next("findings");
+    EXPECT_EQ(late.warnings(), first) << "late";
+}
 
 /// Edits at random through a window, sees now and then that what is exported is what make makes of the saved recipe,
 /// then undoes everything and does it again.

@@ -4,7 +4,9 @@
 
 #include <functional>
 #include <string>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 
 namespace CLI {
@@ -23,8 +25,9 @@ struct Session {
     bool quiet = false;
     bool verbose = false;
     bool json = false;
-    bool progress = false; ///< as lines of JSON
-    Run run;               ///< ready when the command is called
+    bool progress = false;              ///< as lines of JSON
+    Run run;                            ///< ready when the command is called
+    std::vector<Finding> findings = {}; ///< that the command's run reported
 };
 
 /// A command adds its options to the app and returns its action. help.hpp describes how help, manual and completion

@@ -12,6 +12,7 @@
 #include <thalweg/io/network/schema.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/pipeline/commands/convert.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -30,7 +31,7 @@ struct ConvertOptions {
 void tell(pipeline::ConvertResult const& made, Session const& session) {
     std::size_t const shown = session.verbose ? made.findings.size() : 10;
     for (std::size_t i = 0; i < std::min(shown, made.findings.size()); ++i) {
-        session.run.tell("note", made.findings[i].text);
+        session.run.say(line_of(made.findings[i]));
     }
     if (made.findings.size() > shown) {
         session.run.tell("note", fmt::format("... and {} more; --verbose prints all", made.findings.size() - shown));
@@ -49,13 +50,9 @@ nlohmann::ordered_json json_of(pipeline::ConvertResult const& made) {
     nlohmann::ordered_json json{{"written", made.written}, {"schema", made.schema}, {"crs", made.crs},
                                 {"arcs", made.arcs},       {"nodes", made.nodes},   {"split", made.split},
                                 {"heights", made.heights}, {"areas", made.areas}};
-    json["findings"] = nlohmann::ordered_json::array();
-    for (Finding const& f : made.findings) {
-        json["findings"].push_back({{"kind", f.kind},
-                                    {"feature", f.feature},
-                                    {"where", {f.where.x, f.where.y}},
-                                    {"amount", f.amount},
-                                    {"text", f.text}});
+    json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(made.findings));
+    for (auto& one : json["findings"]) {
+        one["where"] = {one.value("x", 0.0), one.value("y", 0.0)}; // its name in earlier versions
     }
     return json;
 }

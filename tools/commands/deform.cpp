@@ -49,7 +49,7 @@ int deform(DeformOptions& options, Session const& session) {
                      {{"file", file}, {"vertices", mesh->vertices}, {"handles", pulled}, {"residual", mesh->residual}},
                      {file});
     } else {
-        auto const& dem = std::get<blend::Deformed>(made);
+        auto const& dem = std::get<pipeline::DeformedDem>(made);
         session.run.tell("deform", fmt::format("{} cells, {} of them pulled", dem.cells, pulled));
         print_result(session,
                      {{"file", file},

@@ -17,10 +17,7 @@ namespace {
 
 int draw(pipeline::DrawParams const& params, Session const& session) {
     pipeline::DrawResult const drawn = pipeline::run_draw(params, session.run);
-    for (std::string const& note : drawn.notes) {
-        session.run.tell("note", note);
-    }
-    print_result(session, {{"files", drawn.files}, {"notes", drawn.notes}}, drawn.files, -1);
+    print_result(session, {{"files", drawn.files}, {"notes", texts_of(drawn.findings)}}, drawn.files, -1);
     return Exit::done;
 }
 

@@ -22,14 +22,11 @@ namespace {
 
 int export_terrain(pipeline::ExportParams const& params, Session const& session) {
     pipeline::ExportResult const made = pipeline::run_export(params, session.run);
-    for (std::string const& note : made.notes) {
-        session.run.tell("note", note);
-    }
     session.run.tell("export",
                      fmt::format("{} x {}, {:.6g} to {:.6g} m", made.width, made.height, made.min_m, made.max_m));
     auto json = nlohmann::ordered_json::parse(made.description);
     json["files"] = made.files;
-    json["notes"] = made.notes;
+    json["notes"] = texts_of(made.findings);
     print_result(session, json, made.files);
     return Exit::done;
 }

@@ -19,6 +19,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/commands/ensemble.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/pipeline/report/report.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -45,6 +46,7 @@ std::string as_json(pipeline::Forecast const& forecast) {
     json["cells"] = forecast.cells;
     json["memory_bytes"] = forecast.memory_bytes;
     json["seconds"] = forecast.seconds;
+    json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(forecast.findings));
     return json.dump(2) + "\n";
 }
 
@@ -123,6 +125,7 @@ int make_ensemble(MakeOptions& options, Session& session) {
         session.quiet = true;
         session.run.log = {};
         session.run.progress = nullptr;
+        session.run.found = [](Finding const&) {};
     }
     pipeline::EnsembleResult const made =
         ranks ? pipeline::run_ensemble_on(*ranks, params, session.run) : pipeline::run_ensemble(params, session.run);
@@ -144,6 +147,7 @@ int make_ensemble(MakeOptions& options, Session& session) {
         json["with_warnings"] = made.warned;
         session.run.tell("table", toned(Tone::name, made.table, stderr));
     }
+    json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(made.findings));
     fmt::print("{}\n", session.json ? json.dump(2) : params.output);
     return made.failed > 0 ? Exit::failed : made.checks_failed > 0 ? Exit::check_failed : Exit::done;
 }
@@ -158,12 +162,6 @@ CLI::Option* add_key_option(CLI::App& app, char const* name, char const* key, st
         }
     };
     return app.add_option_function<T>(name, put, meaning);
-}
-
-void tell_all(char const* what, std::vector<Finding> const& findings, Run const& run) {
-    for (Finding const& finding : findings) {
-        run.tell(what, finding.text);
-    }
 }
 
 /// Runs make, or rebuild.
@@ -186,10 +184,6 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
     }
     pipeline::Made const made =
         rebuilds ? pipeline::run_rebuild(options.params, session.run) : pipeline::run_make(options.params, session.run);
-    if (session.verbose) {
-        tell_all("repair", pipeline::repairs_of(made), session.run);
-        tell_all("finding", made.assessment.findings, session.run);
-    }
     for (Check const& check : made.assessment.checks) {
         if (!check.ok) {
             session.run.tell("check", fmt::format("{}  {}", in_words(check), toned(Tone::bad, "FAILED", stderr)));

@@ -25,7 +25,7 @@ struct MeasureOptions {
 
 ordered_json json_of(pipeline::MeasureResult const& made) {
     ordered_json json{{"files", made.files},
-                      {"notes", made.notes},
+                      {"notes", texts_of(made.findings)},
                       {"cells", made.cells},
                       {"area_m2", made.area_m2},
                       {"pit_cells", made.pits}};
@@ -48,9 +48,6 @@ ordered_json json_of(pipeline::MeasureResult const& made) {
 int measure(MeasureOptions& options, Session const& session) {
     options.params.read.fields = fields_by_quantity(options.fields);
     pipeline::MeasureResult const made = pipeline::run_measure(options.params, session.run);
-    for (std::string const& note : made.notes) {
-        session.run.tell("note", note);
-    }
     print_result(session, json_of(made), made.files, -1);
     return Exit::done;
 }

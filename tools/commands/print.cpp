@@ -7,12 +7,18 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/pipeline/report/report.hpp>
+
 namespace thalweg::tools {
 
 void print_result(Session const& session, nlohmann::ordered_json const& json, std::vector<std::string> const& files,
                   int indent) {
     if (session.json) {
-        fmt::print("{}\n", json.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
+        nlohmann::ordered_json whole = json;
+        if (!whole.contains("findings")) {
+            whole["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(session.findings));
+        }
+        fmt::print("{}\n", whole.dump(indent, ' ', false, nlohmann::ordered_json::error_handler_t::replace));
         return;
     }
     for (std::string const& file : files) {

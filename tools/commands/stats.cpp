@@ -17,6 +17,7 @@
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
+#include "commands/print.hpp"
 
 namespace thalweg::tools {
 
@@ -83,8 +84,10 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
     }
     measure::Statistics const& s = found.statistics;
     if (session.json) {
-        fmt::print("{}", pipeline::statistics_json(s, found.laws ? &*found.laws : nullptr,
-                                                   found.relief ? &*found.relief : nullptr));
+        print_result(session,
+                     nlohmann::ordered_json::parse(pipeline::statistics_json(s, found.laws ? &*found.laws : nullptr,
+                                                                             found.relief ? &*found.relief : nullptr)),
+                     {}, -1);
         return Exit::done;
     }
     fmt::print("cells      {} with data, {} without ({} x {})\n", s.cells, s.nodata, found.grid.width,

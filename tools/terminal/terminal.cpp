@@ -100,6 +100,11 @@ void Terminal::line(std::string_view text) {
     }
 }
 
+void Terminal::data(std::string_view json) {
+    std::lock_guard const lock(mutex_);
+    write_to_stderr(fmt::format("{}\n", json)); // escaped by its writer
+}
+
 void Terminal::begin_stage(std::string_view what) {
     auto const name_end = std::min(what.find(' '), what.size());
     std::string_view const name = what.substr(0, name_end);

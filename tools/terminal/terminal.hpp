@@ -48,6 +48,8 @@ public:
     Terminal& operator=(Terminal const&) = delete;
 
     void line(std::string_view text);
+    /// Writes a line for other programs, where the progress is lines of JSON.
+    void data(std::string_view json);
     /// Removes the bar; the next report shows it again.
     void wipe();
     /// Seconds by stage so far, as StageTimes.

@@ -20,7 +20,7 @@ const files = ['dem.tif', 'network.gpkg', 'report.html', 'recipe.toml', 'contour
 const noArcs = { id: [], ds: [], basin: [], strahler: [], shreve: [], hack: [], survives: [], length: [], z_up: [], z_down: [], us_area: [], ds_area: [], n: [] };
 const noData = { command: '', recipe: '', crs: '', contour_m: 0, rivers: { step: 1, prune: 0, arcs: noArcs }, ridges: null, sea: null, lakes: false, summits: [], profiles: [],
   curve: null, hypsometry: null, laws: { rows: [], support: null, orders: [], dem_orders: [], hack: {}, concavity: {} }, relief: null, statistics: [], given: [], checks: [],
-  timings: [], repairs: { count: 0, shown: [] }, findings: { count: 0, shown: [] }, notes: [] };
+  timings: [], warnings: { count: 0, shown: [] }, repairs: { count: 0, shown: [] }, findings: { count: 0, shown: [] }, notes: [] };
 
 const button = (text, title, click) => {
   const b = make('button', { type: 'button', textContent: text, title });
@@ -66,11 +66,23 @@ export function openStudio(about, state) {
   }
   const log = make('ol', { className: 'said' });
   const messages = make('details', { className: 'messages', hidden: true }, make('summary', { textContent: 'Messages' }), log);
+  let warned = []; // items of the last job's warnings, which stand first
+  function count() {
+    messages.hidden = log.children.length === 0;
+    messages.firstElementChild.textContent = `Messages (${log.children.length})`;
+  }
   function say(text) {
-    messages.hidden = false;
     log.append(make('li', { textContent: text }));
     while (log.children.length > 50) log.firstElementChild.remove();
-    messages.firstElementChild.textContent = `Messages (${log.children.length})`;
+    count();
+  }
+  function warn(findings) {
+    state.findings = findings;
+    for (const one of warned) one.remove();
+    warned = findings.filter(({ severity }) => severity === 'warning')
+      .map(({ kind, text, remedy }) => make('li', { className: 'careful', title: kind, textContent: remedy ? `${text}. ${remedy}.` : text }));
+    log.prepend(...warned);
+    count();
   }
 
   // ── What the page asks, and whether it waits for an answer.
@@ -446,6 +458,7 @@ export function openStudio(about, state) {
     scene,
     heights,
     say: ({ text }) => say(text),
+    findings: ({ list }) => warn(list),
   });
   Object.assign(state, {
     level: null,

@@ -14,7 +14,8 @@ const words = (name) => name.replace(/_/g, ' ');
 const limit = (c) => `${c.bound === 'at_least' ? '≥' : '≤'} ${number(c.limit)}`;
 
 /** What was found, with a way to its place. */
-function item({ text, at }, actions) {
+function item({ text, at, remedy }, actions) {
+  if (remedy) text = `${text}. ${remedy}.`;
   if (!at) return make('li', { textContent: text });
   const button = make('button', { type: 'button', className: 'show', textContent: 'Show' });
   button.setAttribute('aria-label', `Show on the land: ${text}`);
@@ -43,12 +44,19 @@ function passed(checks) {
 export function verdict(parent, data, actions) {
   const failed = data.checks.filter((c) => !c.ok);
   const good = data.checks.filter((c) => c.ok);
+  const { warnings } = data;
+  if (warnings.count) {
+    const list = fold(make('span', { className: 'careful' }, make('span', { textContent: '! ' }), `${warnings.count} ${warnings.count === 1 ? 'warning' : 'warnings'}`),
+      make('ul', { className: 'warnings' }, ...warnings.shown.map((f) => item(f, actions))));
+    list.open = true;
+    parent.append(list);
+  }
   if (!data.checks.length) return;
   const count = (n) => `${n} ${n === 1 ? 'check' : 'checks'}`;
   const head = (sign, text, className) => make('span', { className }, make('span', { textContent: `${sign} ` }), text);
   const whole = failed.length
     ? fold(head('✗', `${failed.length} of ${count(data.checks.length)} failed`, 'bad'),
-      make('ul', { className: 'failures' }, ...failed.map((c) => failure(c, data.findings.shown, actions))), fold(`${count(good.length)} passed`, ...passed(good)))
+      make('ul', { className: 'failures' }, ...failed.map((c) => failure(c, [...data.findings.shown, ...warnings.shown], actions))), fold(`${count(good.length)} passed`, ...passed(good)))
     : fold(head('✓', `${count(good.length)} passed`, 'ok'), ...passed(good));
   whole.open = failed.length > 0;
   parent.append(whole);

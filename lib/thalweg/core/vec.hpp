@@ -4,6 +4,7 @@
 
 #include <cmath>
 #include <cstddef>
+#include <limits>
 #include <vector>
 
 namespace thalweg {
@@ -14,6 +15,9 @@ struct Vec2 {
     double y = 0.0;
     friend bool operator==(Vec2 const&, Vec2 const&) = default;
 };
+
+/// No position.
+inline constexpr Vec2 nowhere{std::numeric_limits<double>::quiet_NaN(), std::numeric_limits<double>::quiet_NaN()};
 
 /// Position in plan and height [m].
 struct Vec3 {

@@ -63,7 +63,6 @@ struct PlacedPoints {
 constexpr std::uint64_t place_stage = 0x7363617474657231; // "scatter1"
 constexpr std::uint64_t annulus_stage = 0x7363617474657232;
 constexpr std::uint64_t choice_stage = 0x7363617474657234;
-constexpr double darts_jam = 0.62;
 constexpr double densest = 1.15;
 constexpr std::int64_t most_darts = 1'000'000;
 constexpr int candidates = 30; // around a point (Bridson)
@@ -247,12 +246,7 @@ PlacedPoints place_points(Grid const& grid, Mask const& free, PlacePointsParams 
     for (Vec2 const p : params.standing) {
         crowd.add(p);
     }
-    if (placed.density > darts_jam) {
-        run.say(fmt::format("warning: {} points {} cells apart have a density of {:.3f}, about as dense as points at "
-                            "random can stand (0.7)",
-                            params.count, params.spacing_cells, placed.density));
-    }
-    if (placed.density > darts_jam && free.cells() == 0) {
+    if (placed.density > darts_density && free.cells() == 0) {
         spread(crowd, ground, params, spacing_m, run);
     } else { // which also reaches separate areas
         throw_darts(crowd, ground, params, run);

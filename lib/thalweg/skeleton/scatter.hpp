@@ -57,6 +57,9 @@ struct ScatterParams {
     Falloff falloff = Falloff::literal; ///< of that attraction
 };
 
+/// The density up to which darts find room for points; above it they are spread (Bridson).
+inline constexpr double darts_density = 0.62;
+
 /// What scatter() returns.
 struct Scattered {
     FeaturePoints points;     ///< extremes first: highest, then lowest

@@ -120,7 +120,8 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
     run.threads = threads_;
     run.progress = report;
     run.progress_arg = &reporting;
-    run.log = [&](std::string_view line) { tell(watcher_.said, job, line); };
+    std::vector<Finding> findings;
+    run.found = [&](Finding const& finding) { findings.push_back(finding); };
     run.stop = stop;
     run.kept = &kept_;
     try {
@@ -128,6 +129,8 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
         std::string const made_from = "made\n" + job.toml + pipeline::state_of_files(job.recipe);
         auto made = std::static_pointer_cast<pipeline::Made const>(kept_.find(made_from));
         if (made) {
+            findings = pipeline::findings_of(*made);
+            tell(watcher_.found, job, findings);
             if (job.recipe.network) {
                 tell(watcher_.rivers, job, made->plan, made->planform, run);
             }
@@ -139,6 +142,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             auto const fresh = std::make_shared<pipeline::Made>();
             fresh->plan = pipeline::resolve(job.recipe, run);
             fresh->planform = pipeline::make_planform(fresh->plan, run);
+            tell(watcher_.found, job, findings);
             if (job.recipe.network) {
                 tell(watcher_.rivers, job, fresh->plan, fresh->planform, run);
             }
@@ -150,9 +154,11 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             };
             fresh->terrain = pipeline::make_terrain(fresh->plan, fresh->planform, run);
             run.preview = nullptr;
+            tell(watcher_.found, job, findings);
             fresh->recipe = pipeline::recipe_of(fresh->plan, fresh->terrain);
             tell(watcher_.made, job, *fresh);
             fresh->assessment = pipeline::assess(fresh->plan, fresh->planform, fresh->terrain, run);
+            tell(watcher_.found, job, findings);
             made = fresh;
             kept_.keep(made_from, made, bytes_of(*made));
         }
@@ -170,6 +176,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             tell(watcher_.stopped, job);
             return;
         }
+        tell(watcher_.found, job, findings);
         tell(watcher_.failed, job, std::string_view(error.what()));
     }
 }

@@ -13,7 +13,9 @@
 #include <string>
 #include <string_view>
 #include <thread>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/make.hpp>
@@ -42,7 +44,8 @@ struct Heights {
 /// Hears what becomes of jobs, one call at a time, on the engine's thread. Each may be empty.
 struct Watcher {
     std::function<void(Job const&, std::string_view stage, double share)> at = {}; ///< [0, 1] of a stage is done
-    std::function<void(Job const&, std::string_view line)> said = {};
+    /// \param findings all of the job so far, again after each stage that may find something
+    std::function<void(Job const&, std::vector<Finding> const& findings)> found = {};
     /// Before their land. \param run of the job
     std::function<void(Job const&, pipeline::Plan const&, pipeline::Planform const&, Run const& run)> rivers = {};
     std::function<void(Job const&, Heights const&)> heights = {};

@@ -359,6 +359,17 @@ std::string say_message(std::string_view text) {
     return text_of({{"type", "say"}, {"text", std::string(text)}});
 }
 
+std::string findings_message(Job const& job, std::vector<Finding> const& findings) {
+    std::vector<Finding> printed;
+    std::ranges::copy_if(findings, std::back_inserter(printed),
+                         [](Finding const& finding) { return finding.kind.row().printed == Printed::always; });
+    return text_of({{"type", "findings"},
+                    {"job", job.number},
+                    {"revision", job.revision},
+                    {"count", findings.size()},
+                    {"list", ordered_json::parse(pipeline::findings_json(printed))}});
+}
+
 std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms> const& arms) {
     if (!arms) {
         return text_of({{"type", "cluster"}, {"job", job.number}, {"width", 0}, {"height", 0}, {"arms", ""}});

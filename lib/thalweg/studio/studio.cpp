@@ -136,6 +136,9 @@ private:
         if (!scene_.empty()) {
             server_.send_text(client, scene_);
         }
+        if (!findings_.empty()) {
+            server_.send_text(client, findings_);
+        }
         server_.send_text(client, state_.empty() ? idle_message({}, 0.0) : state_);
     }
 
@@ -310,12 +313,14 @@ private:
         }
         engine_.stop();
         left_ = engine_.last(); // what is on its way of them is not shown any more
-        cluster_.clear();
-        scene_.clear();
-        coarse_.reset();
-        full_.reset();
         Job nothing = job_of(folder_.document());
         nothing.number = left_;
+        cluster_.clear();
+        scene_.clear();
+        findings_ = findings_message(nothing, {});
+        server_.send_text(serve::everyone, findings_);
+        coarse_.reset();
+        full_.reset();
         state_ = idle_message(nothing, 0.0);
         server_.send_text(serve::everyone, state_);
     }
@@ -379,7 +384,7 @@ private:
 
     Watcher watcher() {
         return {.at = [this](Job const& job, std::string_view stage, double share) { tell_share(job, stage, share); },
-                .said = [this](Job const&, std::string_view line) { tell_warning(line); },
+                .found = [this](Job const& job, std::vector<Finding> const& found) { show_findings(job, found); },
                 .rivers = [this](Job const& job, pipeline::Plan const& plan, pipeline::Planform const& planform,
                                  Run const& run) { show_rivers(job, plan, planform, run); },
                 .heights = [this](Job const& job, Heights const& heights) { show_heights(job, heights); },
@@ -409,9 +414,12 @@ private:
         }
     }
 
-    void tell_warning(std::string_view line) {
-        if (line.starts_with("warning")) {
-            server_.send_text(serve::everyone, say_message(line));
+    void show_findings(Job const& job, std::vector<Finding> const& found) {
+        std::string findings = findings_message(job, found);
+        std::scoped_lock const lock(guard_);
+        if (job.number > left_) {
+            findings_ = findings;
+            server_.send_text(serve::everyone, std::move(findings));
         }
     }
 
@@ -496,6 +504,7 @@ private:
     std::mutex guard_; ///< of what follows: sent to all and to who comes later
     std::string cluster_;
     std::string scene_;
+    std::string findings_; ///< of the last job
     std::string state_;
     std::optional<Shown> coarse_;
     std::optional<Shown> full_;

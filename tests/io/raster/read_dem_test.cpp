@@ -68,7 +68,7 @@ std::string refusal(std::string const& path, io::ReadDemParams const& params = {
 }
 
 bool notes_say(Drawable const& read, std::string const& words) {
-    for (std::string const& note : read.notes) {
+    for (std::string const& note : texts_of(read.findings)) {
         if (note.find(words) != std::string::npos) {
             return true;
         }
@@ -154,17 +154,16 @@ TEST(UndeclaredNodata, StoredValuesCountNotScaledOnes) {
 TEST(UndeclaredNodata, NanIsCounted) {
     ScratchFolder const folder;
     std::string const path = write(folder, hole(none));
-    std::string log;
-    thalweg::Run run;
-    run.log = [&](std::string_view line) { log += std::string(line) + "\n"; };
-    EXPECT_EQ(missing(io::read_dem(path, run)), 36);
-    EXPECT_TRUE(has(log, "dem.tif: 36 cells are NaN and count as no-data"));
-    EXPECT_TRUE(has(io::read_drawable(path).notes.at(0), "36 cells are NaN"));
-    log.clear();
-    io::read_dem(write(folder, hole(none), {.nodata = none}), run);
-    EXPECT_EQ(log, "");
-    io::read_dem(write(folder, hole(-9999.0)), {.nodata = -9999.0}, run);
-    EXPECT_TRUE(has(log, "dem.tif: 36 cells of -9999 are no-data"));
+    io::DemFile const read = io::read_dem_file(path);
+    EXPECT_EQ(missing(read.dem), 36);
+    ASSERT_EQ(read.findings.size(), 1U);
+    EXPECT_EQ(read.findings[0].kind, "nan_cells");
+    EXPECT_EQ(read.findings[0].amount, 36.0);
+    EXPECT_EQ(read.findings[0].text, "dem.tif: 36 cells are NaN and count as no-data");
+    EXPECT_TRUE(has(io::read_drawable(path).findings.at(0).text, "36 cells are NaN"));
+    EXPECT_TRUE(io::read_dem_file(write(folder, hole(none), {.nodata = none})).findings.empty());
+    EXPECT_EQ(io::read_dem_file(write(folder, hole(-9999.0)), {.nodata = -9999.0}).findings.at(0).text,
+              "dem.tif: 36 cells of -9999 are no-data");
 }
 
 TEST(UndeclaredNodata, PicturesOfMeansKnowTheValue) {
@@ -189,13 +188,13 @@ TEST(NearlySquareCells, AreTakenWhereTheyMakeATenthOfACellAtMost) {
     std::string const near = write(folder, slope, high(30.0007, {}));
     EXPECT_EQ(io::read_dem(near).grid(), (Grid{40, 30, 30.0, 500000.0, 5000000.0, "EPSG:32632"}));
     EXPECT_TRUE(io::has_square_cells(near));
-    EXPECT_TRUE(io::read_drawable(near).notes.empty());
+    EXPECT_TRUE(io::read_drawable(near).findings.empty());
     // A tenth of a cell over 120 columns; and cells that are visibly not square, however few.
     for (Tiff const& wanted : {high(30.026, {.width = 120}), high(30.1, {.width = 4, .height = 4})}) {
         std::string const far = write(folder, slope, wanted);
         EXPECT_FALSE(io::has_square_cells(far));
         EXPECT_TRUE(has(error_of([&] { io::read_dem(far); }), "BadInput io.read_dem", "30"));
-        EXPECT_EQ(io::read_drawable(far).notes.size(), 1U);
+        EXPECT_EQ(io::read_drawable(far).findings.size(), 1U);
     }
 }
 
@@ -283,7 +282,7 @@ TEST(ReadDrawable, WhatReadDemTakesIsReadAlike) {
     ScratchFolder const folder;
     std::string const path = make(folder, "dem.tif", small);
     Drawable const read = read_drawable(path);
-    EXPECT_TRUE(read.notes.empty());
+    EXPECT_TRUE(read.findings.empty());
     Raster<float> const dem = io::read_dem(path);
     EXPECT_EQ(read.dem.grid(), dem.grid());
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -341,7 +340,7 @@ TEST(ReadDrawable, MetresThatAreNoneAreWarped) {
     EXPECT_NEAR(read.dem.grid().cell_m, 30.0 * 0.681, 0.2);
     EXPECT_TRUE(notes_say(read, "warped from WGS 84 / Pseudo-Mercator into WGS 84 / UTM zone 32N"));
     Drawable const kept = read_drawable(path, {.metres = io::MetresOf::any_crs});
-    EXPECT_TRUE(kept.notes.empty());
+    EXPECT_TRUE(kept.findings.empty());
     EXPECT_EQ(kept.dem.grid().crs, "EPSG:3857");
 }
 

@@ -63,7 +63,7 @@ void expect_forest(Imported const& imported) {
         EXPECT_LE(imported.network.out_arcs(n).size(), 1U);
         EXPECT_GT(imported.network.basin(n), 0);
     }
-    EXPECT_EQ(std::ranges::count(imported.repairs, "secondary", &Finding::kind),
+    EXPECT_EQ(std::ranges::count(imported.repairs, std::string_view("secondary"), &Finding::kind),
               static_cast<std::ptrdiff_t>(imported.secondary.size()));
     ASSERT_EQ(imported.stretches.size(), imported.network.arc_count());
     for (std::size_t a = 0; a < imported.network.arc_count(); ++a) {

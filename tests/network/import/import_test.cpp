@@ -48,7 +48,7 @@ RiverLines with_heights(std::vector<std::vector<Vec3>> const& all) {
 
 Finding first(Imported const& imported, std::string const& kind) {
     auto const found = std::ranges::find(imported.repairs, kind, &Finding::kind);
-    return found == imported.repairs.end() ? Finding{} : *found;
+    return found == imported.repairs.end() ? Finding{"removed"} : *found;
 }
 
 // Law: trees; lines end bit for bit in their nodes; nothing repeats.

@@ -62,7 +62,7 @@ std::vector<std::pair<std::int64_t, double>> kept(RiverLines const& before) {
             of_channels += result.back().second;
         }
     }
-    EXPECT_EQ(std::ranges::count(after.findings, "connector", &Finding::kind), std::ssize(result));
+    EXPECT_EQ(std::ranges::count(after.findings, std::string_view("connector"), &Finding::kind), std::ssize(result));
     for (SecondaryLine const& one : after.secondary) {
         EXPECT_EQ(one.cause, LeftOut::filter);
         EXPECT_EQ(one.reason, "waterway ditch");

@@ -113,8 +113,8 @@ TEST(PrintExport, IsAClosedSolidInMillimetresFromTheOrigin) {
     expect_closed(printed.triangles);
     EXPECT_NEAR(volume(printed.triangles), 120.0 * 80.0 * (60.0 + 4.0), 1.0);
     EXPECT_EQ(made.vertices, 7 * 5 + 20 + 1);
-    EXPECT_TRUE(test::has(made.notes.at(0), "1 : 500", "120.0 x 80.0 x 124.0 mm"));
-    EXPECT_EQ(made.notes.size(), 1U);
+    EXPECT_TRUE(test::has(made.findings.at(0).text, "1 : 500", "120.0 x 80.0 x 124.0 mm"));
+    EXPECT_EQ(made.findings.size(), 1U);
     // South is below: the corner at the origin is that of the south-west, and heights rise to the east.
     for (Triangle const& t : printed.triangles) {
         for (Place const& p : t) {
@@ -147,11 +147,11 @@ TEST(PrintExport, HasNoMoreVerticesThanAPrintShows) {
 TEST(PrintExport, SaysHowToShowLowRelief) {
     PrintExport const low = print(plane(0.02F)).made; // 0.12 m on 60 m: 0.3 mm
     EXPECT_NEAR(low.relief_mm, 0.3, 1e-4);
-    ASSERT_EQ(low.notes.size(), 2U);
-    EXPECT_TRUE(test::has(low.notes[1], "0.3 mm", "--exaggeration 33 ", "10 mm"));
+    ASSERT_EQ(low.findings.size(), 2U);
+    EXPECT_TRUE(test::has(low.findings[1].text, "0.3 mm", "--exaggeration 33 ", "10 mm"));
     EXPECT_NEAR(print(plane(0.02F), {.exaggeration = 33.0}).made.relief_mm, 10.0, 0.2);
-    EXPECT_TRUE(test::has(print(plane(0.0002F)).made.notes.at(1), "--exaggeration 3300 "));
-    EXPECT_TRUE(test::has(print(plane(0.0F)).made.notes.at(1), "flat"));
+    EXPECT_TRUE(test::has(print(plane(0.0002F)).made.findings.at(1).text, "--exaggeration 3300 "));
+    EXPECT_TRUE(test::has(print(plane(0.0F)).made.findings.at(1).text, "flat"));
     expect_box(print(plane(0.0F)).triangles, {150.0, 100.0, 3.0});
 }
 

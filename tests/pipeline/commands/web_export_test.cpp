@@ -64,7 +64,7 @@ nlohmann::json data_of(std::string const& page) {
 TEST(WebExport, PagesAndRiversSayWhatTheTilesAre) {
     ScratchFolder const folder;
     WebExport const made = exported(valley("EPSG:32616"), folder / "web", {.exaggeration = 2.0});
-    EXPECT_TRUE(made.notes.empty());
+    EXPECT_TRUE(made.findings.empty());
     EXPECT_EQ(made.min_m, 100.0);
     EXPECT_EQ(made.max_m, 159.0);
     EXPECT_EQ(static_cast<std::int64_t>(made.files.size()), made.tiles + 3);
@@ -94,9 +94,9 @@ TEST(WebExport, HolesAndAMissingCrsAreSaid) {
     scene.network.reset();
     scene.orders = {};
     WebExport const made = exported(scene, folder / "web");
-    ASSERT_EQ(made.notes.size(), 2U);
-    EXPECT_TRUE(test::has(made.notes[0], "1 of 4800 cells have no data"));
-    EXPECT_TRUE(test::has(made.notes[1], "no CRS"));
+    ASSERT_EQ(made.findings.size(), 2U);
+    EXPECT_TRUE(test::has(made.findings[0].text, "1 of 4800 cells have no data"));
+    EXPECT_TRUE(test::has(made.findings[1].text, "no CRS"));
     EXPECT_EQ(made.holes, 1);
     EXPECT_NEAR(made.bounds.west, -made.bounds.east, 1e-6);
     EXPECT_TRUE(data_of(test::bytes_of(folder / "web/index.html"))["rivers"].is_null());
@@ -104,7 +104,7 @@ TEST(WebExport, HolesAndAMissingCrsAreSaid) {
     scene.sea = Sea{-3.0, true};
     WebExport const sea = exported(scene, folder / "sea");
     EXPECT_EQ(sea.min_m, -3.0);
-    EXPECT_TRUE(test::has(sea.notes[0], "the sea, 1 of 4800 cells, lies level at -3 m"));
+    EXPECT_TRUE(test::has(sea.findings[0].text, "the sea, 1 of 4800 cells, lies level at -3 m"));
 }
 
 TEST(WebExport, APageThatBecomesTooLargeLosesItsDeepestLevels) {
@@ -112,7 +112,7 @@ TEST(WebExport, APageThatBecomesTooLargeLosesItsDeepestLevels) {
     WebExport const made = exported(valley("EPSG:32616"), folder / "web", {.most_bytes = 1});
     EXPECT_EQ(made.page_max_zoom, made.min_zoom);
     EXPECT_LT(made.page_max_zoom, made.max_zoom);
-    EXPECT_TRUE(test::has(made.notes.back(), "terrain.html ends at zoom level"));
+    EXPECT_TRUE(test::has(made.findings.back().text, "terrain.html ends at zoom level"));
 }
 
 TEST(WebExport, WithoutHeightsThereIsNone) {

@@ -337,7 +337,7 @@ TEST(RiverDirections, OfAFileDrawnFromTheMouthAMendedCopyIsTurned) {
     EXPECT_EQ(checked.written.size(), 1U);
     EXPECT_EQ(test::count(checked.mended, "reversed"), 7);
     EXPECT_EQ(test::count(checked.notes, "directions"), 1);
-    EXPECT_EQ(test::count(checked.notes, "uncertain_direction"), 0);
+    EXPECT_EQ(test::count(checked.notes, "doubtful_directions"), 0);
 }
 
 // A line alone whose file is drawn in all directions: a warning, and a DEM decides, in make and in check --fix.
@@ -364,11 +364,11 @@ TEST(RiverDirections, WhatIsUncertainADemDecides) {
     pipeline::CheckParams params;
     params.network = folder / "rivers.geojson";
     params.fix = folder / "mended.gpkg";
-    EXPECT_EQ(test::count(pipeline::run_check(params).notes, "uncertain_direction"), 1);
+    EXPECT_EQ(test::count(pipeline::run_check(params).notes, "doubtful_directions"), 1);
     params.dem = folder / "dem.asc";
     params.existing = io::Existing::replace;
     pipeline::CheckResult const checked = pipeline::run_check(params);
-    EXPECT_EQ(test::count(checked.notes, "uncertain_direction"), 0);
+    EXPECT_EQ(test::count(checked.notes, "doubtful_directions"), 0);
     EXPECT_TRUE(
         std::ranges::any_of(checked.mended, [](Finding const& f) { return f.kind == "reversed" && f.feature == 8; }));
 }

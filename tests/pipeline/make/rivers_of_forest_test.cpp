@@ -152,8 +152,8 @@ TEST(PlanForest, PointsMoveToTheCoast) {
         forest + "prune = 0\n[network.forest]\nregion = \"region.geojson\"\noutlets = \"points.csv\"\n";
     Made const t = made(recipe + dilated, files.folder());
     expect_lawful(t);
-    EXPECT_EQ(count(repairs_of(t), "moved_outlet"), 1);
-    EXPECT_EQ(count(repairs_of(t), "added_outlet"), 1); // the islet's
+    EXPECT_EQ(count(findings_of(t), "moved_outlet"), 1);
+    EXPECT_EQ(count(findings_of(t), "added_outlet"), 1); // the islet's
     EXPECT_EQ(t.terrain.rivers.network.planform.outlets().size(), 3U);
 }
 
@@ -178,7 +178,7 @@ TEST(PlanForest, OutletsThatArePrunedAwayAreReported) {
     std::size_t const before = all.terrain.rivers.network.planform.outlets().size();
     std::size_t const after = some.terrain.rivers.network.planform.outlets().size();
     EXPECT_LT(after, before);
-    EXPECT_EQ(count(repairs_of(some), "pruned_outlet"), static_cast<std::int64_t>(before - after));
+    EXPECT_EQ(count(findings_of(some), "pruned_outlet"), static_cast<std::int64_t>(before - after));
 }
 
 } // namespace rivers_of_forest_test

@@ -283,9 +283,10 @@ TEST(Page, TheProfileIsThatOfTheLongestFlowPath) {
 TEST(Page, LongListsAreCut) {
     Made terrain = small_terrain(Land::with);
     terrain.terrain.surface->increments.assign(5000, 2.0);
-    terrain.assessment.findings.assign(61, {"uphill", 1, {}, 0.0, "arc 1 runs uphill"});
-    terrain.planform.statistics.repairs.clear();
-    terrain.terrain.notes.clear();
+    terrain.assessment.findings.assign(61, {"z_rising", 1, nowhere, 0.0, "arc 1 runs uphill"});
+    terrain.plan.findings.clear();
+    terrain.planform.findings.clear();
+    terrain.terrain.findings.clear();
     json const data = data_of(page(terrain));
     json const& points = data["curve"]["points"];
     EXPECT_EQ(points.size(), 600U);
@@ -350,7 +351,7 @@ TEST(Page, NoTextLeavesItsPlace) {
     Made terrain = small_terrain(Land::with);
     std::string const hostile = "</script><script>alert(1)</script> <!-- \"quoted\" 'it' & @@DATA@@ @@LINES@@ 谷\n";
     terrain.recipe.output.title = hostile + "\xff\xc3";
-    terrain.assessment.findings.push_back({"uphill", 1, {}, std::numeric_limits<double>::quiet_NaN(), hostile});
+    terrain.assessment.findings.push_back({"z_rising", 1, {}, std::numeric_limits<double>::quiet_NaN(), hostile});
     terrain.assessment.checks.push_back({hostile, std::numeric_limits<double>::quiet_NaN(), 0.0, false});
     std::string const html = page(terrain, {.contour_interval_m = 0.0, .recipe = hostile});
     EXPECT_FALSE(test::has(html, "<script>alert"));

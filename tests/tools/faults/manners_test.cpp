@@ -86,7 +86,7 @@ TEST(Manners, JsonIsExactlyOneObject) {
     EXPECT_EQ(check["ok"], true);
     auto const stats = thalweg_run("stats out/dem.tif --json", place.path()).json();
     for (auto const& [key, value] : stats.items()) {
-        EXPECT_EQ(value, report["dem"][key]) << key;
+        EXPECT_EQ(value, key == "findings" ? nlohmann::json::array() : report["dem"][key]) << key;
     }
     EXPECT_GT(stats["lx_cells"], 0.0);
     EXPECT_GT(stats["dimension"], 2.0);

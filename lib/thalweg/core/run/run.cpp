@@ -18,6 +18,7 @@
 #include <oneapi/tbb/parallel_for.h>
 #include <oneapi/tbb/task_arena.h>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg {
@@ -40,6 +41,24 @@ void Run::tell(std::string_view stage, std::string_view words) const {
     std::string line(stage);
     line.append(std::max(column, stage.size()) - stage.size() + 1, ' ');
     say(line.append(words));
+}
+
+Run Run::quiet() const {
+    Run run;
+    run.threads = threads;
+    run.device = device;
+    run.stop = stop;
+    return run;
+}
+
+void Run::report(std::vector<Finding> const& findings) const {
+    for (Finding const& finding : findings) {
+        if (found) {
+            found(finding);
+        } else if (finding.kind.row().printed == Printed::always) {
+            say(line_of(finding));
+        }
+    }
 }
 
 namespace {

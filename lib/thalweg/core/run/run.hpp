@@ -6,6 +6,7 @@
 #include <functional>
 #include <stop_token>
 #include <string_view>
+#include <vector>
 
 namespace thalweg {
 
@@ -14,6 +15,7 @@ enum class Device : std::uint8_t { cpu, opencl };
 
 template <class T> class Raster;
 class Kept;
+struct Finding;
 
 /// Controls execution (progress, cancellation, threads, device). It never changes results.
 struct Run {
@@ -27,6 +29,9 @@ struct Run {
     Progress progress = nullptr;
     void* progress_arg = nullptr;
     std::function<void(std::string_view)> log; ///< called with one line, without newline
+    /// Receives what was found, once each, also where a kept result says it; empty: log has a line of each that is
+    /// printed always.
+    std::function<void(Finding const&)> found;
     std::stop_token stop;
     /// Receives a terrain while it is made: heights [m], first of larger cells, which what follows refines;
     /// is_finished: those of the result. Called by one thread at a time; empty: nobody looks on.
@@ -45,6 +50,11 @@ struct Run {
     /// \param stage name of the stage, in a column of its own
     /// \param words the message
     void tell(std::string_view stage, std::string_view words) const;
+    /// \return a run on the same threads and device, with the same stop token, that reports nothing
+    Run quiet() const;
+    /// Hands findings of a stage's result to whoever looks on.
+    /// \param findings part of the result
+    void report(std::vector<Finding> const& findings) const;
     void say(std::string_view line) const {
         if (log) {
             log(line);

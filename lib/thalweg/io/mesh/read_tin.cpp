@@ -325,8 +325,11 @@ TinFile read_tin(std::string const& path, Run const& run) {
     }
     refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
     if (file.split > 0) {
-        run.tell("note",
-                 fmt::format("{}: {} faces with more than three corners are cut into triangles", path, file.split));
+        file.findings.push_back(
+            {.kind = "split_faces",
+             .amount = static_cast<double>(file.split),
+             .text = fmt::format("{}: {} faces with more than three corners are cut into triangles", path, file.split),
+             .layer = path});
     }
     return file;
 }

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
@@ -17,6 +18,7 @@ struct TinFile {
     Tin tin;
     std::string crs;        ///< from the comment of write_tin; "" for none
     std::int64_t split = 0; ///< faces that were split into triangles
+    std::vector<Finding> findings = {};
 };
 
 /// Tells whether a file name has the extension of a mesh that read_tin reads: .2dm, .obj or .off.
@@ -25,8 +27,7 @@ struct TinFile {
 bool holds_tin(std::string const& path);
 
 /// Reads a mesh: 2DM (E3T, E4Q, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are skipped. Faces with
-/// more than three corners are split into triangles, quadrilaterals along the shorter diagonal; the log reports their
-/// number.
+/// more than three corners are split into triangles, quadrilaterals along the shorter diagonal, with a finding.
 /// \param path of the file
 /// \return vertices and triangles in the file's order; restores a TIN written by write_tin in these formats
 /// \throws BadInput naming file and line: an invalid number, a face without three corners or with a vertex that does

@@ -217,7 +217,7 @@ std::vector<Finding> AttributeReader::findings() const {
         std::string const text = fmt::format("{} values are not UTF-8: their bytes are kept as \\xNN; name their "
                                              "encoding (of a shapefile, in a file .cpg beside it)",
                                              escaped_);
-        all.push_back({"not_utf8", 0, {}, static_cast<double>(escaped_), text});
+        all.push_back({"not_utf8", 0, nowhere, static_cast<double>(escaped_), text});
     }
     return all;
 }
@@ -423,12 +423,13 @@ void RiverFields::link(std::vector<RiverLine>& lines) const {
 // Lines.
 
 void OtherShapes::add(OGRGeometry const& shape, std::int64_t feature) {
-    Finding& first = types_[OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()))];
+    std::string const type = OGRGeometryTypeToName(wkbFlatten(shape.getGeometryType()));
+    Finding& first = types_.try_emplace(type, Finding{"not_a_line"}).first->second;
     if (first.amount == 0.0) {
         OGREnvelope box;
         shape.getEnvelope(&box);
         first.feature = feature;
-        first.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{};
+        first.where = box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : nowhere;
     }
     first.amount += 1.0;
     ++count_;

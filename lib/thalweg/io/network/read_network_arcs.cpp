@@ -31,7 +31,8 @@ std::vector<Finding> Notes::take() {
     for (auto const& [kind, count] : count_) {
         if (count > kept_of_a_kind) {
             std::size_t const more = count - kept_of_a_kind;
-            findings_.push_back({kind, 0, {}, static_cast<double>(more), fmt::format("{}: {} more", kind, more)});
+            findings_.push_back(
+                {kind, 0, nowhere, static_cast<double>(more), fmt::format("{}: {} more", kind.name(), more)});
         }
     }
     count_.clear();
@@ -355,11 +356,11 @@ private:
     }
 
     void note_shapes(NetworkFile& file) {
-        auto const note = [&](char const* kind, std::int64_t amount, std::string text) {
+        auto const note = [&](FindingKind kind, std::int64_t amount, std::string text) {
             notes_.add(arcs_.what, kind, 0, static_cast<double>(amount), std::move(text));
         };
         for (Finding const& other : others_.findings()) { // whose places are in coordinates of the file
-            notes_.add(arcs_.what, other.kind.c_str(), 0, other.amount, other.text);
+            notes_.add(arcs_.what, other.kind, 0, other.amount, other.text);
         }
         if (measured_ > 0) {
             note("measures", measured_, fmt::format("{} lines have measures (M), which were left out", measured_));

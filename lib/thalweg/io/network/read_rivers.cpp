@@ -147,7 +147,7 @@ private:
         if (drawn != nullptr && drawn->IsEmpty() == 0) {
             drawn->getEnvelope(&box);
         }
-        return {"left_out", number_, box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : Vec2{}, 0.0,
+        return {"left_out", number_, box.IsInit() != 0 ? Vec2{box.MinX, box.MinY} : nowhere, 0.0,
                 fmt::format("feature {} {}; it is left out", number_,
                             drawn == nullptr ? "has no geometry" : "has no line of any length")};
     }
@@ -173,8 +173,9 @@ void require_any(LineReader const& read, std::string const& what) {
                                    "{}; set network.lines.filter = \"none\" to take them all",
                                    what, read.others.size(), read.others.front().why.reason));
     }
-    auto const why = std::ranges::find_if(
-        read.findings, [](Finding const& f) { return f.kind == "not_a_line" || f.kind == "left_out"; });
+    auto const why = std::ranges::find_if(read.findings, [](Finding const& f) {
+        return f.kind == FindingKind("not_a_line") || f.kind == FindingKind("left_out");
+    });
     throw BadInput(why == read.findings.end() ? what + " is empty"
                                               : fmt::format("{} holds no line: {}", what, why->text));
 }
@@ -200,8 +201,8 @@ struct Bring {
     }
     void operator()(Finding& finding) const {
         Vec3 at{finding.where.x, finding.where.y, 0.0};
-        bool const has_place = finding.where != Vec2{};
-        finding.where = has_place && metres.apply({&at, 1}).front() != 0 ? in_plan(at) : Vec2{};
+        bool const has_place = is_finite(finding.where);
+        finding.where = has_place && metres.apply({&at, 1}).front() != 0 ? in_plan(at) : nowhere;
     }
 };
 

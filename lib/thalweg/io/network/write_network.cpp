@@ -282,10 +282,12 @@ void write_findings(std::vector<Finding> const& findings, std::string const& crs
     table.shape_at = [=](std::size_t row) {
         return std::vector<Vec3>{{finite(at(row).where.x), finite(at(row).where.y), 0.0}};
     };
-    table.columns = {{"kind", Column::Kind::text, 0, [=](std::size_t row) { return at(row).kind; }},
-                     {"feature", Column::Kind::wide_integer, 0, [=](std::size_t row) { return at(row).feature; }},
-                     {"amount", Column::Kind::real, 0, [=](std::size_t row) { return finite(at(row).amount); }},
-                     {"text", Column::Kind::text, 0, [=](std::size_t row) { return at(row).text; }}};
+    table.columns = {
+        {"kind", Column::Kind::text, 0, [=](std::size_t row) { return std::string(at(row).kind); }},
+        {"severity", Column::Kind::text, 0, [=](std::size_t row) { return std::string(name_of(at(row).severity())); }},
+        {"feature", Column::Kind::wide_integer, 0, [=](std::size_t row) { return at(row).feature; }},
+        {"amount", Column::Kind::real, 0, [=](std::size_t row) { return finite(at(row).amount); }},
+        {"text", Column::Kind::text, 0, [=](std::size_t row) { return at(row).text; }}};
     std::set<std::string> kinds;
     std::ranges::transform(findings, std::inserter(kinds, kinds.end()), &Finding::kind);
     table.style = finding_style({kinds.begin(), kinds.end()});

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/height_unit.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -27,17 +29,27 @@ struct ReadDemParams {
     CellValues values = CellValues::heights;
 };
 
+/// A DEM as it was read.
+struct DemFile {
+    Raster<float> dem;
+    std::vector<Finding> findings; ///< named_nodata, nan_cells
+};
+
 /// Reads the only band of any GDAL raster file, scale and offset applied, in metres by the unit that the band or the
-/// vertical part of its CRS names (metres where none is named); no-data and masked cells become NaN; cells that are NaN
-/// themselves are counted in the log. crs may be geographic or "" here; cell_m is in its unit. A raster without
+/// vertical part of its CRS names (metres where none is named); no-data and masked cells become NaN, and so do cells
+/// that are NaN themselves, with a finding. crs may be geographic or "" here; cell_m is in its unit. A raster without
 /// position has cells of 1 and its south-west corner at 0.
 /// \param source the file
-/// \return the raster
+/// \return the raster, with findings
 /// \throws BadInput no such file, not a raster, more than one band, cells not square (their sides differ by more than
 /// 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated or south-up, larger than memory, no
 /// heights at all, a height beyond 1e30 (a damaged tile), values that no terrain has and the file does not declare as
 /// no-data: -9999, -32767, -32768, -99999; where it declares none and the cells are heights, also the lowest or highest
 /// value when it is not 0, fills 3 x 3 cells and lies farther from the next one than the others are apart
+DemFile read_dem_file(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
+
+/// \param source the file
+/// \return the raster of read_dem_file()
 Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run const& run = {});
 
 /// \param source the file

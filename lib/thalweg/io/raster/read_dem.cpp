@@ -179,17 +179,25 @@ struct TakenAway {
     std::int64_t nan = 0;
 };
 
-void tell_of(TakenAway const& taken, ReadDemParams const& params, std::string const& path, Run const& run) {
+std::vector<Finding> findings_of(TakenAway const& taken, ReadDemParams const& params, std::string const& path) {
     std::string const name = std::filesystem::path(path).filename().string();
+    std::vector<Finding> findings;
     if (params.nodata && !std::isnan(*params.nodata)) {
-        run.tell("note", fmt::format("{}: {} cells of {:g} are no-data", name, taken.named, *params.nodata));
+        findings.push_back({.kind = "named_nodata",
+                            .amount = static_cast<double>(taken.named),
+                            .text = fmt::format("{}: {} cells of {:g} are no-data", name, taken.named, *params.nodata),
+                            .layer = name});
     }
     if (taken.nan > 0) {
-        run.tell("note", fmt::format("{}: {} cells are NaN and count as no-data", name, taken.nan));
+        findings.push_back({.kind = "nan_cells",
+                            .amount = static_cast<double>(taken.nan),
+                            .text = fmt::format("{}: {} cells are NaN and count as no-data", name, taken.nan),
+                            .layer = name});
     }
+    return findings;
 }
 
-Raster<float> read(Source const& source, Unit wanted, ReadDemParams const& params, Run const& run) {
+DemFile read(Source const& source, Unit wanted, ReadDemParams const& params, Run const& run) {
     std::string const what = "io.read_dem: " + source.path;
     Driver const driver;
     Dataset const dataset = open_file(source, GDAL_OF_RASTER, what);
@@ -244,22 +252,25 @@ Raster<float> read(Source const& source, Unit wanted, ReadDemParams const& param
     driver.check(what);
     refuse_if<BadInput>(empty, "{} holds no heights, only no-data", what);
     undeclared.require_none(what, source.path);
-    tell_of(taken, params, source.path, run);
-    return dem;
+    return {std::move(dem), findings_of(taken, params, source.path)};
 }
 
 } // namespace
 
-Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run const& run) {
+DemFile read_dem_file(Source const& source, ReadDemParams const& params, Run const& run) {
     return read(source, Unit::metre, params, run);
 }
 
+Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run const& run) {
+    return read_dem_file(source, params, run).dem;
+}
+
 Raster<float> read_dem(Source const& source, Run const& run) {
-    return read(source, Unit::metre, {}, run);
+    return read_dem_file(source, {}, run).dem;
 }
 
 Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params, Run const& run) {
-    return read(source, Unit::stored, params, run);
+    return read(source, Unit::stored, params, run).dem;
 }
 
 bool has_square_cells(Source const& source) {

@@ -331,8 +331,8 @@ void require_heights(GDALDataset& source, std::string const& what) {
                         "{} holds complex numbers, not heights", what);
 }
 
-/// Converts the raster to north-up squares of metres; null: it is that already. Records the changes in notes.
-Dataset made_drawable(GDALDataset& source, ReadDrawableParams const& params, std::vector<std::string>& notes,
+/// Converts the raster to north-up squares of metres; null: it is that already. Records the changes.
+Dataset made_drawable(GDALDataset& source, ReadDrawableParams const& params, std::vector<Finding>& findings,
                       std::string const& what, Driver const& driver, Run const& run) {
     std::int64_t const most_side = params.most_side;
     std::optional<Frame> const placed = frame_of(source);
@@ -347,22 +347,27 @@ Dataset made_drawable(GDALDataset& source, ReadDrawableParams const& params, std
     if (target) {
         Warped done = warp(source, &*target, most_side, what, driver, run);
         char const* const name = target->GetName();
-        notes.push_back(fmt::format("warped from {} into {}, cells of {:.4g} m",
-                                    reference->GetName() == nullptr ? "its CRS" : reference->GetName(),
-                                    name == nullptr ? "metres" : name, done.cell));
+        findings.push_back({.kind = "dem_reprojected",
+                            .amount = done.cell,
+                            .text = fmt::format("warped from {} into {}, cells of {:.4g} m",
+                                                reference->GetName() == nullptr ? "its CRS" : reference->GetName(),
+                                                name == nullptr ? "metres" : name, done.cell)});
         warped = std::move(done.dataset);
     } else if (placed && !is_square_and_north_up(*placed, source.GetRasterXSize(), source.GetRasterYSize())) {
         Frame const& f = *placed;
         Warped done = warp(source, nullptr, most_side, what, driver, run);
         bool const turned = f[2] != 0.0 || f[4] != 0.0 || f[1] < 0.0 || f[5] > 0.0;
-        notes.push_back(turned
-                            ? fmt::format("turned north-up, cells of {:.6g} m", done.cell)
-                            : fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", f[1], -f[5], done.cell));
+        findings.push_back({.kind = "turned_raster",
+                            .amount = done.cell,
+                            .text = turned ? fmt::format("turned north-up, cells of {:.6g} m", done.cell)
+                                           : fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", f[1],
+                                                         -f[5], done.cell)});
         warped = std::move(done.dataset);
     }
     if (reference == nullptr) {
-        notes.emplace_back(placed ? "it has no CRS: its coordinates are drawn as metres"
-                                  : "it has no position: its cells are drawn as 1 m");
+        findings.push_back({.kind = "no_crs",
+                            .text = placed ? "it has no CRS: its coordinates are drawn as metres"
+                                           : "it has no position: its cells are drawn as 1 m"});
     }
     return warped;
 }
@@ -404,31 +409,41 @@ Drawable read_drawable(std::string const& path, ReadDrawableParams const& params
                         what, source->GetRasterXSize(), source->GetRasterYSize());
     Drawable out;
     if (source->GetRasterCount() > 1) {
-        out.notes.push_back(fmt::format("drawn from the first of {} bands", source->GetRasterCount()));
+        out.findings.push_back({.kind = "bands",
+                                .amount = static_cast<double>(source->GetRasterCount()),
+                                .text = fmt::format("drawn from the first of {} bands", source->GetRasterCount())});
     }
     double const unit = height_unit_of(*source);
     if (unit != 1.0) {
-        out.notes.push_back(fmt::format("its heights, in {}, are drawn in metres", words_for_unit(unit)));
+        out.findings.push_back({.kind = "heights_in_metres",
+                                .amount = unit,
+                                .text = fmt::format("its heights, in {}, are drawn in metres", words_for_unit(unit))});
     }
     GDALRasterBand& band = *source->GetRasterBand(1);
     double const scale = band.GetScale() * unit;
     double const offset = band.GetOffset() * unit;
     StoredNodata const found = stored_nodata_in(*source, params, path, what, driver, run);
     if (params.nodata && !std::isnan(*params.nodata)) {
-        out.notes.push_back(fmt::format("{} cells of {:g} are no-data", found.named, *params.nodata));
+        out.findings.push_back({.kind = "named_nodata",
+                                .amount = static_cast<double>(found.named),
+                                .text = fmt::format("{} cells of {:g} are no-data", found.named, *params.nodata)});
     }
     if (found.nan > 0) {
-        out.notes.push_back(fmt::format("{} cells are NaN and count as no-data", found.nan));
+        out.findings.push_back({.kind = "nan_cells",
+                                .amount = static_cast<double>(found.nan),
+                                .text = fmt::format("{} cells are NaN and count as no-data", found.nan)});
     }
     Dataset const declared = found.value ? with_nodata(*source, *found.value, what, driver) : nullptr;
     GDALDataset& known = declared ? *declared : *source;
-    Dataset const warped = made_drawable(known, params, out.notes, what, driver, run);
+    Dataset const warped = made_drawable(known, params, out.findings, what, driver, run);
     GDALDataset& ready = warped ? *warped : known;
     std::int64_t const longest = std::max(ready.GetRasterXSize(), ready.GetRasterYSize());
     std::int64_t const k = (longest + most_side - 1) / most_side;
     Grid const grid = grid_of_means(ready, k, frame_of(*source).has_value());
     if (k > 1) {
-        out.notes.push_back(fmt::format("drawn from means of {}x{} cells", k, k));
+        out.findings.push_back({.kind = "reduced",
+                                .amount = static_cast<double>(grid.cells()),
+                                .text = fmt::format("drawn from means of {}x{} cells", k, k)});
     }
     out.dem = read_means(ready, grid, k, scale, offset, what, driver, run);
     return out;

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 
@@ -25,10 +26,10 @@ struct ReadDrawableParams {
     std::optional<double> nodata = {};      ///< as in ReadDemParams
 };
 
-/// A DEM that can be drawn, with notes on its conversion.
+/// A DEM that can be drawn, with findings on its conversion.
 struct Drawable {
     Raster<float> dem;
-    std::vector<std::string> notes;
+    std::vector<Finding> findings;
 };
 
 /// Reads any raster of heights for pictures, even if read_dem would reject it: one larger than most_side cells a side
@@ -38,7 +39,7 @@ struct Drawable {
 /// cells that are not square, rotated or south-up become north-up squares; of several bands the first is used; without
 /// a CRS coordinates count as metres.
 /// \param path of the file
-/// \return with one note per change; NaN: no-data and masked cells; scale and offset are applied
+/// \return with one finding per change; NaN: no-data and masked cells; scale and offset are applied
 /// \throws BadInput for a missing file, one that is not a raster, complex numbers, no heights at all, a height beyond
 /// 1e30, undeclared no-data as in read_dem, a position without a projection, or params.nodata if the file declares
 /// another value

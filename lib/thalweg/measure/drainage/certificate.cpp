@@ -243,7 +243,7 @@ private:
         std::erase_if(rivers_, [this](flow::RiverCell const& c) { return corner_[c.cell] != 0; });
     }
 
-    void find(char const* kind, std::int64_t feature, Cell at, double amount, std::string text) {
+    void find(FindingKind kind, std::int64_t feature, Cell at, double amount, std::string text) {
         if (++told_[kind] <= listed) {
             Vec2 const where = grid_.centre(at);
             out_.findings.push_back({kind, feature, where, amount, std::move(text)});

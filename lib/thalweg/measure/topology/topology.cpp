@@ -74,7 +74,7 @@ TopologyReport check_topology(NetworkFile const& file, TopologyParams const& par
     TopologyReport report;
     Findings& findings = report.findings;
     if (file.arcs.empty()) {
-        findings.push_back({"empty", 0, {}, 0.0, "the file holds no arcs"});
+        findings.push_back({"empty", 0, nowhere, 0.0, "the file holds no arcs"});
     }
     auto const ambiguous = check_ids(file, findings);
     Outlines plans = check_shapes(file, findings);

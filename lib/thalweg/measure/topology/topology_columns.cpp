@@ -35,11 +35,12 @@ void check_downstream(NetworkFile const& file, Graph const& g, std::vector<char>
     }
 }
 
-void check_order(NetworkFile const& file, FileArc const& arc, char const* name, std::int64_t given, std::int64_t right,
+void check_order(NetworkFile const& file, FileArc const& arc, FindingKind kind, std::int64_t given, std::int64_t right,
                  Findings& findings) {
     if (given != right) {
+        std::string_view const name = kind.name().substr(0, kind.name().find('_'));
         findings.push_back(
-            {fmt::format("{}_mismatch", name), number_of(file, arc), start_of(arc), static_cast<double>(right),
+            {kind, number_of(file, arc), start_of(arc), static_cast<double>(right),
              fmt::format("arc {}: its {} is {} and should be {}", number_of(file, arc), name, given, right)});
     }
 }
@@ -89,10 +90,10 @@ void check_orders(NetworkFile const& file, Graph const& g, std::size_t junctions
             continue;
         }
         if (file.says.strahler) {
-            check_order(file, file.arcs[a], "strahler", file.arcs[a].strahler, orders[a].strahler, findings);
+            check_order(file, file.arcs[a], "strahler_mismatch", file.arcs[a].strahler, orders[a].strahler, findings);
         }
         if (file.says.shreve) {
-            check_order(file, file.arcs[a], "shreve", file.arcs[a].shreve, orders[a].shreve, findings);
+            check_order(file, file.arcs[a], "shreve_mismatch", file.arcs[a].shreve, orders[a].shreve, findings);
         }
     }
 }

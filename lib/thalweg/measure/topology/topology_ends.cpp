@@ -396,7 +396,7 @@ namespace {
 // Whether the network is a forest.
 
 /// Reports one finding for each group of arcs: its first arc and its size. part: by arc, the group or none.
-void find_groups(NetworkFile const& file, std::vector<std::size_t> const& part, std::size_t parts, char const* kind,
+void find_groups(NetworkFile const& file, std::vector<std::size_t> const& part, std::size_t parts, FindingKind kind,
                  char const* what, Findings& findings) {
     std::vector<std::int64_t> size(parts, 0);
     for (std::size_t const p : part) {

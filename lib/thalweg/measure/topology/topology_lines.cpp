@@ -31,7 +31,7 @@ template <class Visit> void each_repeated(std::vector<Id> ids, Visit const& visi
 }
 
 // id: the file's own number.
-Finding repeated_id(char const* kind, char const* noun, std::int64_t id, std::size_t count, Vec2 second) {
+Finding repeated_id(FindingKind kind, char const* noun, std::int64_t id, std::size_t count, Vec2 second) {
     return {
         kind, id, second, static_cast<double>(count),
         fmt::format("{} {}: {} {}s have this id, the second at ({}, {})", noun, id, count, noun, second.x, second.y)};

@@ -434,7 +434,7 @@ private:
         return any;
     }
 
-    void note(char const* kind, Basin const& basin, double amount, std::string const& what) {
+    void note(FindingKind kind, Basin const& basin, double amount, std::string const& what) {
         Vec2 const at = grid_.centre(grid_.at(basin.cells.front()));
         notes.push_back({kind, basin.label, at, amount,
                          fmt::format("lake {} at ({:.3f}, {:.3f}): {}", basin.label, at.x, at.y, what)});

@@ -471,13 +471,12 @@ public:
             least_cost_path(at, cells_along({at}, ground_.grid()).front(), ground_, ends_, [&](Confluence const& into) {
                 return params_.join && basins_.root(into.basin) != basins_.root(basin);
             });
-        Finding note;
+        Finding note{"closed_basin"};
         auto const last = network_.in(outlet).front();
         std::int64_t const feature = network_.arc(last).feature;
         note.feature = feature != 0 ? feature : static_cast<std::int64_t>(last) + 1;
         note.where = at;
         if (way.cells.empty()) {
-            note.kind = "closed_basin";
             note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) stays inside the grid: every way to its border "
                                     "meets a river",
                                     at.x, at.y);
@@ -490,7 +489,7 @@ public:
         }
         char const* const to = joins ? "river" : ends_.at_border(way.cells.back()) ? "border" : "coast";
         ground_.add(line, basin, "a carried outlet"); // invalidates pointers: the path is no longer used
-        note.kind = joins ? "joined_outlet" : "carried_outlet";
+        note.kind = joins ? FindingKind("joined_outlet") : "carried_outlet";
         note.amount = length_of(line);
         note.text = fmt::format("the outlet at ({:.3f}, {:.3f}) was carried {:.3f} m to the {} at ({:.3f}, {:.3f})",
                                 at.x, at.y, note.amount, to, line.back().x, line.back().y);

@@ -16,6 +16,7 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {
@@ -51,8 +52,11 @@ BlendedDem blend_dems(BlendParams const& params, Run const& run) {
                             "by gdal_edit.py -a_srs");
     BlendIntoParams const& patch = params.patch;
     io::OutputFile file(params.output, params.existing);
-    Raster<float> const target = io::read_dem(patch.target, {.nodata = patch.nodata}, run);
+    io::DemFile const read = io::read_dem_file(patch.target, {.nodata = patch.nodata}, run);
+    Raster<float> const& target = read.dem;
     BlendedDem made = blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
+    made.findings.insert(made.findings.begin(), read.findings.begin(), read.findings.end());
+    run.report(made.findings);
     io::write_dem(made.pasted.dem, file.staging(), run);
     file.commit();
     return made;
@@ -132,6 +136,9 @@ BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
     io::OutputFile file(asked.output, asked.existing);
     io::TinFile target = io::read_tin(params.target, run);
     io::TinFile patch = io::read_tin(params.source.path, run);
+    std::vector<Finding> findings = target.findings;
+    append(findings, patch.findings);
+    run.report(findings);
     for (std::string* const crs : {&target.crs, &patch.crs}) {
         if (crs->empty() && !asked.source_crs.empty()) {
             *crs = io::projected_crs(asked.source_crs);
@@ -145,6 +152,7 @@ BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
     MeshBox const around_target = box_of(target.tin);
     MeshBox const around_patch = box_of(patch.tin);
     BlendedTin made;
+    made.findings = std::move(findings);
     made.at = around_patch.middle();
     if (params.at) {
         made.at = *params.at;

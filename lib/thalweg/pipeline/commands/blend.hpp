@@ -4,8 +4,10 @@
 
 #include <string>
 #include <variant>
+#include <vector>
 
 #include <thalweg/blend/tin.hpp>
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -29,7 +31,8 @@ struct BlendedTin {
     blend::FusedTin fused;
     std::string crs;
     PatchPlace place = PatchPlace::given;
-    Vec2 at; ///< [m] centre of the patch's box
+    Vec2 at;                            ///< [m] centre of the patch's box
+    std::vector<Finding> findings = {}; ///< how the meshes were read
 };
 
 /// What run_blend() returns: a DEM or a mesh, as the target is.

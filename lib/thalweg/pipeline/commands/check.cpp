@@ -197,10 +197,7 @@ void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOut
                                    sinks_in(mended.network.planform, file)};
     if (output.is_shapefile()) {
         for (io::ShortenedName const& one : io::shortened_names(tables)) {
-            checked.notes.push_back({"shortened_field",
-                                     0,
-                                     {},
-                                     1.0,
+            checked.notes.push_back({"shortened_field", 0, nowhere, 1.0,
                                      fmt::format("field {} is {} in the shapefile", one.name, one.in_shapefile)});
         }
     }
@@ -232,7 +229,8 @@ RiverRasters rasters_beside(std::string const& network) {
 /// Whether the direction and the receiver of each arc are unambiguous.
 bool has_direction(measure::TopologyReport const& topology) {
     return std::none_of(topology.findings.begin(), topology.findings.end(), [](Finding const& f) {
-        return f.kind == "cycle" || f.kind == "duplicate_arc_id" || f.kind == "nan";
+        return f.kind == FindingKind("cycle") || f.kind == FindingKind("duplicate_arc_id") ||
+               f.kind == FindingKind("nan");
     });
 }
 
@@ -269,10 +267,7 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
         RiverRasters const rasters = rasters_beside(params.network);
         checked.certificate = certify_files(network, params, rasters, run);
         if (checked.certificate->waived_cells > 0) {
-            checked.notes.push_back({"not_honoured",
-                                     0,
-                                     {},
-                                     static_cast<double>(checked.certificate->waived_cells),
+            checked.notes.push_back({"not_honoured", 0, nowhere, static_cast<double>(checked.certificate->waived_cells),
                                      fmt::format("{} river cells are not checked against the DEM: a patch with rivers "
                                                  "= \"replace\" took their place, or that of rivers below ({})",
                                                  checked.certificate->waived_cells, rasters.drawn)});
@@ -280,16 +275,16 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
         append(checked.checks, checked.certificate->checks());
         append(checked.findings, checked.certificate->findings);
     } else if (!params.dem.empty()) {
-        checked.notes.push_back({"no_certificate",
-                                 0,
-                                 {},
-                                 0.0,
+        checked.notes.push_back({"no_certificate", 0, nowhere, 0.0,
                                  "the DEM was not checked: rivers run in circles, share ids or have vertices that are "
                                  "no numbers"});
     }
 
     if (fix) {
-        Raster<float> const dem = read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.nodata, run);
+        StageLog stage_log(run);
+        Raster<float> const dem =
+            read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.nodata, stage_log, run);
+        append(checked.notes, stage_log.take_findings());
         RepairedNetwork const mended =
             repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
         checked.mended = mended.mended;

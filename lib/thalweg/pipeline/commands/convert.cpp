@@ -44,8 +44,11 @@ bool is_known(std::vector<double> const& areas) {
     return std::ranges::all_of(areas, [](double a) { return a >= 0.0; }); // NaN and -1 fail the test
 }
 
-Raster<float> read_dem(ConvertParams const& params, std::string const& crs, Run const& run) {
-    Raster<float> dem = io::read_dem(params.dem, {.nodata = params.nodata}, run);
+Raster<float> read_dem(ConvertParams const& params, std::string const& crs, std::vector<Finding>& findings,
+                       Run const& run) {
+    io::DemFile read = io::read_dem_file(params.dem, {.nodata = params.nodata}, run);
+    append(findings, read.findings);
+    Raster<float> dem = std::move(read.dem);
     refuse_if<BadInput>(!io::same_crs(dem.grid().crs, crs, "pipeline.run_convert: " + params.dem, params.path),
                         "pipeline.run_convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})",
                         params.dem, dem.grid().crs, params.path, crs, crs);
@@ -193,10 +196,7 @@ public:
     void report_renamed_columns(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
         if (!database_ && write_.format == io::NetworkFormat::shapefile) {
             for (io::ShortenedName const& one : io::shortened_names(tables, params_.schema)) {
-                findings.push_back({"shortened_field",
-                                    0,
-                                    {},
-                                    1.0,
+                findings.push_back({"shortened_field", 0, nowhere, 1.0,
                                     fmt::format("field {} is {} in the shapefile", one.name, one.in_shapefile)});
             }
         }
@@ -240,7 +240,7 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
     Ready ready{network::from_file(file), {}, {}};
     std::optional<Raster<float>> dem;
     if (!params.dem.empty()) {
-        dem = read_dem(params, file.crs, run);
+        dem = read_dem(params, file.crs, converted.findings, run);
     }
     complete(ready, file, dem ? &*dem : nullptr, converted, run);
     if (params.max_upstream != 0) {

@@ -20,7 +20,7 @@ namespace thalweg::pipeline {
 
 namespace {
 
-blend::Deformed deform_dem(DeformParams const& params, Run const& run) {
+DeformedDem deform_dem(DeformParams const& params, Run const& run) {
     refuse_if<BadParameter>(params.rotate_deg != 0.0 || params.axis,
                             "pipeline.run_deform: --rotate and --axis turn meshes (.2dm, .obj, .off); a DEM has one "
                             "height a cell. `thalweg tin` makes a mesh of it, `thalweg blend --rotate` turns a patch "
@@ -31,7 +31,9 @@ blend::Deformed deform_dem(DeformParams const& params, Run const& run) {
     io::OutputFile file(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
                             "pipeline.run_deform: nothing to do: give a scale or heights to pull to");
-    Raster<float> const target = io::read_dem(params.target, {.nodata = params.nodata}, run);
+    io::DemFile const read = io::read_dem_file(params.target, {.nodata = params.nodata}, run);
+    run.report(read.findings);
+    Raster<float> const& target = read.dem;
     Grid const& grid = target.grid();
     Mask const region = read_part(params.mask, grid, run);
     std::vector<blend::Handle> handles;
@@ -43,7 +45,7 @@ blend::Deformed deform_dem(DeformParams const& params, Run const& run) {
         handles.push_back({cell, h.z});
     }
     run.at(0.0, "deform");
-    blend::Deformed made = blend::deform(target, region, handles, {.scale = params.scale}, run);
+    DeformedDem made{blend::deform(target, region, handles, {.scale = params.scale}, run), read.findings};
     io::write_dem(made.dem, file.staging(), run);
     file.commit();
     return made;
@@ -88,15 +90,17 @@ std::uint32_t nearest_inside(Tin const& tin, std::vector<char> const& inside, Ve
     return static_cast<std::uint32_t>(best);
 }
 
-/// The CRS of a mesh without one: its mask's; "": neither has one.
-std::string crs_of_mask(DeformParams const& params, Run const& run) {
+/// The CRS of a mesh without one: its mask's, with a finding; "": neither has one.
+std::string crs_of_mask(DeformParams const& params, std::vector<Finding>& findings) {
     io::PolygonsCrs mask = io::crs_of_polygons(params.mask);
     refuse_if<BadInput>(!mask.crs.empty() && !mask.in_metres,
                         "pipeline.run_deform: {} is in {:.60}, {} has no CRS: name it (--source-crs EPSG:n)",
                         params.mask, mask.crs, params.target);
     if (!mask.crs.empty()) {
-        run.say(fmt::format("note: {} has no CRS: it is taken to be in {:.60}, as {}.", params.target, mask.crs,
-                            params.mask));
+        findings.push_back({.kind = "no_crs",
+                            .text = fmt::format("{} has no CRS: it is taken to be in {:.60}, as {}", params.target,
+                                                mask.crs, params.mask),
+                            .layer = params.target});
     }
     return std::move(mask.crs);
 }
@@ -112,11 +116,14 @@ DeformedTin deform_mesh(DeformParams const& params, Run const& run) {
                             "pipeline.run_deform: nothing to do: give a scale, a rotation or heights to pull to");
     io::TinFile file = io::read_tin(params.target, run);
     if (file.crs.empty()) {
-        file.crs = params.source_crs.empty() ? crs_of_mask(params, run) : io::projected_crs(params.source_crs);
+        file.crs =
+            params.source_crs.empty() ? crs_of_mask(params, file.findings) : io::projected_crs(params.source_crs);
     }
+    run.report(file.findings);
     Tin const& tin = file.tin;
     std::vector<char> const inside = vertices_inside(tin, io::read_polygons(params.mask, file.crs, run));
     DeformedTin made;
+    made.findings = file.findings;
     made.vertices = std::count(inside.begin(), inside.end(), char{1});
     refuse_if<BadInput>(made.vertices == 0, "pipeline.run_deform: no vertex of {} lies in {}", params.target,
                         params.mask);

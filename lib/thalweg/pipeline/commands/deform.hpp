@@ -9,6 +9,7 @@
 #include <vector>
 
 #include <thalweg/blend/deform.hpp>
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
@@ -38,12 +39,18 @@ struct DeformParams {
 struct DeformedTin {
     Tin tin;
     std::string crs;
-    std::int64_t vertices = 0; ///< in the region
-    double residual = 0.0;     ///< as blend::PastedTin
+    std::int64_t vertices = 0;          ///< in the region
+    double residual = 0.0;              ///< as blend::PastedTin
+    std::vector<Finding> findings = {}; ///< how the mesh was read
+};
+
+/// A deformed DEM.
+struct DeformedDem : blend::Deformed {
+    std::vector<Finding> findings = {}; ///< how it was read
 };
 
 /// What run_deform() returns: a DEM or a mesh, as the target is.
-using DeformResult = std::variant<blend::Deformed, DeformedTin>;
+using DeformResult = std::variant<DeformedDem, DeformedTin>;
 
 /// Runs `thalweg deform`: reads a DEM or a mesh, deforms a region of it and writes the result, completely or not at
 /// all. DEMs: blend::deform. Meshes: rotates and scales the gradients of triangles whose corners all lie in the region,

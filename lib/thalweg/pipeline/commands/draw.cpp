@@ -195,21 +195,22 @@ DrawResult run_draw(DrawParams const& params, Run const& run) {
     std::vector<std::string> names(tasks.size());
     std::transform(tasks.begin(), tasks.end(), names.begin(), [](Task const& task) { return task.name; });
     io::OutputFolder out(order.folder, io::Existing::add, files_there(order.folder, names, params.existing));
-    DrawResult drawn{{}, std::move(read.notes)};
+    DrawResult drawn{{}, std::move(read.findings)};
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         run.at(static_cast<double>(i) / static_cast<double>(tasks.size()),
                tasks[i].kind ? name_of(*tasks[i].kind) : page_word);
         Look look = params.look;
         look.format = tasks[i].format;
-        io::write_text(out.path(tasks[i].name), tasks[i].kind
-                                                    ? draw_picture(*tasks[i].kind, read.scene, look, run).bytes
-                                                    : scene_page(read.scene, drawn.notes, command_of(params), run));
+        io::write_text(out.path(tasks[i].name),
+                       tasks[i].kind ? draw_picture(*tasks[i].kind, read.scene, look, run).bytes
+                                     : scene_page(read.scene, texts_of(drawn.findings), command_of(params), run));
         drawn.files.push_back(order.folder == "." && !order.single.empty()
                                   ? tasks[i].name
                                   : (fs::path(order.folder) / tasks[i].name).string());
     }
     run.at(1.0, "draw");
     out.commit();
+    run.report(drawn.findings);
     return drawn;
 }
 

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
@@ -34,7 +35,7 @@ struct DrawParams {
 /// What run_draw() returns.
 struct DrawResult {
     std::vector<std::string> files; ///< paths, folder included
-    std::vector<std::string> notes; ///< changes and choices, as sentences
+    std::vector<Finding> findings;  ///< changes and choices
 };
 
 /// Runs `thalweg draw`: draws pictures of a folder written by make, of a raster, or of an ensemble. Each file is

@@ -156,10 +156,16 @@ void add_indices(EnsembleView& view) {
         }
     }
     if (!empty.empty()) {
-        view.notes.push_back(fmt::format("left out, as no member has a number: {}", fmt::join(empty, ", ")));
+        view.findings.push_back(
+            {.kind = "columns_left_out",
+             .amount = static_cast<double>(empty.size()),
+             .text = fmt::format("left out, as no member has a number: {}", fmt::join(empty, ", "))});
     }
     if (!equal.empty()) {
-        view.notes.push_back(fmt::format("left out, as all members have the same number: {}", fmt::join(equal, ", ")));
+        view.findings.push_back(
+            {.kind = "columns_left_out",
+             .amount = static_cast<double>(equal.size()),
+             .text = fmt::format("left out, as all members have the same number: {}", fmt::join(equal, ", "))});
     }
 }
 
@@ -266,8 +272,8 @@ draw::Thumbnail thumbnail_of(MembersTable const& table, DrawnMember const& membe
         one.missing = "no dem.tif";
     } else {
         run.check();
-        Run const quiet{.threads = run.threads, .device = run.device, .log = {}, .stop = run.stop, .preview = {}};
-        one.shade = io::hillshade(io::read_drawable(dem.string(), {.most_side = most_thumbnail_cells}, quiet).dem);
+        one.shade =
+            io::hillshade(io::read_drawable(dem.string(), {.most_side = most_thumbnail_cells}, run.quiet()).dem);
     }
     return one;
 }
@@ -416,7 +422,7 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
         names.insert(names.end(), {"contact_sheet.png", "ensemble.html"});
     }
     io::OutputFolder out(order.folder, io::Existing::add, files_there(order.folder, names, params.existing));
-    DrawResult drawn{{}, view.notes};
+    DrawResult drawn{{}, view.findings};
     auto const write = [&](std::string const& file_name, std::string const& bytes) {
         io::write_text(out.path(file_name), bytes);
         drawn.files.push_back(
@@ -441,7 +447,7 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
     }
     if (wants_page) {
         EnsembleSheet const sheet = sheet_of_members(view, folder, params.look, run);
-        drawn.notes.push_back(sheet.note);
+        drawn.findings.push_back({.kind = "contact_sheet", .text = sheet.note});
         if (!sheet.png.empty() && order.single.empty()) {
             write("contact_sheet.png", sheet.png);
         }
@@ -451,6 +457,7 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
     }
     run.at(1.0, "draw");
     out.commit();
+    run.report(drawn.findings);
     return drawn;
 }
 

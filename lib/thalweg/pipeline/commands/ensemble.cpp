@@ -223,11 +223,16 @@ Next in_order(std::vector<std::int64_t> const& numbers, std::atomic<std::size_t>
     };
 }
 
-void warn_of_members(std::int64_t count, std::int64_t members, char const* what, std::string const& first,
-                     Run const& run) {
-    if (count > 0) {
-        run.say(fmt::format("warning: {} of {} members {}. The first, {}", count, members, what, first));
+/// A warning of members that something is wrong with; none where their count is 0.
+std::vector<Finding> on_members(FindingKind kind, std::int64_t count, std::int64_t members, char const* what,
+                                std::string const& first) {
+    if (count == 0) {
+        return {};
     }
+    return {{.kind = kind,
+             .amount = static_cast<double>(count),
+             .text = fmt::format("{} of {} members {}. The first, {}", count, members, what, first),
+             .numbers = {{"members", static_cast<double>(members)}}}};
 }
 
 std::string range_of(std::uint64_t first, std::int64_t members) {
@@ -254,9 +259,13 @@ void finish(MemberStore& store, EnsembleParams const& params, EnsembleResult& re
     result.failed = account.failed;
     result.warned = account.warned;
     result.table = (std::filesystem::path(params.output) / "table.csv").string();
-    warn_of_members(account.failed, params.members, "could not be made", account.first_failed, run);
-    warn_of_members(account.checks_failed, params.members, "fail a check", account.first_check, run);
-    warn_of_members(account.warned, params.members, "gave warnings", account.first_warning, run);
+    std::int64_t const all = params.members;
+    std::vector<Finding> findings =
+        on_members("members_failed", account.failed, all, "could not be made", account.first_failed);
+    append(findings, on_members("members_failed", account.checks_failed, all, "fail a check", account.first_check));
+    append(findings, on_members("members_warned", account.warned, all, "gave warnings", account.first_warning));
+    run.report(findings);
+    append(result.findings, findings);
 }
 
 /// Makes members, and deals them to other ranks where there are any.
@@ -306,6 +315,8 @@ EnsembleResult run_first(EnsembleParams const& params, Ranks* ranks, Run const& 
                           share.of > 1 ? MemberStore::Role::share : MemberStore::Role::alone, share, run);
         std::vector<std::int64_t> const missing = store.missing(share);
         EnsembleResult result{.members = params.members};
+        result.findings = store.findings();
+        run.report(result.findings);
         result.found = store.members_of(share) - static_cast<std::int64_t>(missing.size());
         run.tell("ensemble", fmt::format("{} members, {}{}{}{}", params.members,
                                          range_of(asked.ensemble.recipe.seed, params.members),

@@ -26,15 +26,16 @@ struct EnsembleParams : MakeParams {
 
 /// What became of an ensemble.
 struct EnsembleResult {
-    std::int64_t members = 0;       ///< of the ensemble
-    std::int64_t made_now = 0;      ///< by this run
-    std::int64_t found = 0;         ///< of its share, made by earlier runs
-    std::int64_t ok = 0;            ///< of all members, like the following; 0 for a share
-    std::int64_t checks_failed = 0; ///< made, and a check failed
-    std::int64_t failed = 0;        ///< not made
-    std::int64_t warned = 0;        ///< made with warnings
-    std::string table = {};         ///< path of table.csv; "" for a share
-    double seconds = 0.0;           ///< of making and writing members
+    std::int64_t members = 0;           ///< of the ensemble
+    std::int64_t made_now = 0;          ///< by this run
+    std::int64_t found = 0;             ///< of its share, made by earlier runs
+    std::int64_t ok = 0;                ///< of all members, like the following; 0 for a share
+    std::int64_t checks_failed = 0;     ///< made, and a check failed
+    std::int64_t failed = 0;            ///< not made
+    std::int64_t warned = 0;            ///< made with warnings
+    std::string table = {};             ///< path of table.csv; "" for a share
+    double seconds = 0.0;               ///< of making and writing members
+    std::vector<Finding> findings = {}; ///< on the whole ensemble
 };
 
 /// Runs `thalweg make --ensemble`: makes terrains by one recipe that differ in the seed and in what varies, and leaves

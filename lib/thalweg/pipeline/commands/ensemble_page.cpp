@@ -293,9 +293,9 @@ std::string ensemble_page(EnsembleView const& view, EnsembleSheet const& sheet, 
                             html_text(sheet.note),
                             io::base64({reinterpret_cast<std::uint8_t const*>(sheet.png.data()), sheet.png.size()}));
     }
-    if (!view.notes.empty()) {
+    if (!view.findings.empty()) {
         html += "<h2>Notes</h2>\n";
-        for (std::string const& note : view.notes) {
+        for (std::string const& note : texts_of(view.findings)) {
             html += fmt::format("<p>{}.</p>\n", html_text(note));
         }
     }

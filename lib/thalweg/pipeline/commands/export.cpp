@@ -86,7 +86,7 @@ void require_options(ExportParams const& params, ExportFormat format) {
     }
 }
 
-ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<std::string>& notes) {
+ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& grid, std::vector<Finding>& findings) {
     refuse_if<BadInput>(grid.width < 2 || grid.height < 2,
                         "pipeline.run_export: {} has {} x {} cells: at least 2 x 2 are needed", params.source,
                         grid.width, grid.height);
@@ -109,8 +109,11 @@ ExportSize size_of(ExportParams const& params, ExportFormat format, Grid const& 
         return {grid.width, grid.height};
     }
     ExportSize const fit = fitting(grid, most);
-    notes.push_back(fmt::format("{} x {} cells are reduced to {} x {} {} (--size sets another size)", grid.width,
-                                grid.height, fit.width, fit.height, is_mesh(format) ? "vertices" : "samples"));
+    findings.push_back(
+        {.kind = "reduced",
+         .amount = static_cast<double>(fit.width * fit.height),
+         .text = fmt::format("{} x {} cells are reduced to {} x {} {} (--size sets another size)", grid.width,
+                             grid.height, fit.width, fit.height, is_mesh(format) ? "vertices" : "samples")});
     return fit;
 }
 
@@ -274,8 +277,8 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     SceneRead read =
         read_scene({.source = params.source, .network = {}, .nodata = params.nodata, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
-    made.notes = std::move(read.notes);
-    ExportSize const size = size_of(params, made.format, read.scene.dem->grid(), made.notes);
+    made.findings = std::move(read.findings);
+    ExportSize const size = size_of(params, made.format, read.scene.dem->grid(), made.findings);
     Lattice const ground = sampled(read.scene, size, made, run);
     made.width = ground.z.width();
     made.height = ground.z.height();
@@ -299,6 +302,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     io::write_text(files.path(files.description()), made.description + "\n");
     run.at(1.0, "write");
     made.files = files.commit();
+    run.report(made.findings);
     return made;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -66,7 +67,7 @@ struct ExportParams {
 /// What run_export() wrote.
 struct ExportResult {
     std::vector<std::string> files; ///< paths: the file named, its companions, its description (FILE.json)
-    std::vector<std::string> notes; ///< changes and choices, as sentences
+    std::vector<Finding> findings;  ///< changes and choices
     ExportFormat format = ExportFormat::png16;
     std::int64_t width = 0;            ///< samples or vertices of a row, of all tiles together
     std::int64_t height = 0;           ///< samples or vertices of a column

@@ -428,7 +428,7 @@ public:
         io::HeightmapScale scale = io::heightmap_scale(ground_.z);
         if (scale.step_m == 0.0) {
             scale.step_m = 1.0 / 65535.0; // programs refuse a range of 0
-            made.notes.emplace_back("the terrain is flat: 16 bits are a metre");
+            made.findings.push_back({.kind = "flat", .text = "the terrain is flat: 16 bits are a metre"});
         }
         made.exaggeration = params_.exaggeration.value_or(1.0);
         made.min_m = scale.min_m;
@@ -457,10 +457,11 @@ private:
         Grid const& grid = scene_.dem->grid();
         ExportSize const all = tiles_.all();
         if (all.width != grid.width || all.height != grid.height) {
-            made.notes.push_back(fmt::format("{} x {} cells are resampled to {} x {} samples, {:.6g} m apart to the "
-                                             "east and {:.6g} m to the south",
-                                             grid.width, grid.height, all.width, all.height, made.step_m.x,
-                                             made.step_m.y));
+            made.findings.push_back(
+                {.kind = "resampled",
+                 .text = fmt::format("{} x {} cells are resampled to {} x {} samples, {:.6g} m apart to the east and "
+                                     "{:.6g} m to the south",
+                                     grid.width, grid.height, all.width, all.height, made.step_m.x, made.step_m.y)});
         }
     }
     ForJson head(ExportResult const& made) const {
@@ -515,8 +516,9 @@ private:
             run_.at(static_cast<double>(list.size()) / static_cast<double>(wanted.size()), "masks");
             bool const of_rivers = mask == LandMask::river_distance || mask == LandMask::river_width;
             if (of_rivers && rivers_.empty() && (params_.masks.empty() || params_.masks.front() == "all")) {
-                made.notes.push_back(
-                    fmt::format("there are no rivers: no mask {}", land_masks()[static_cast<std::size_t>(mask)].name));
+                made.findings.push_back({.kind = "no_rivers",
+                                         .text = fmt::format("there are no rivers: no mask {}",
+                                                             land_masks()[static_cast<std::size_t>(mask)].name)});
                 continue;
             }
             list.push_back(mask == LandMask::land_cover ? land_cover() : one_mask(mask));
@@ -628,7 +630,10 @@ private:
                       {"point", {"x", "y", "z", "width_m", "discharge_m3s", "ground"}},
                       {"ground", "height of the heightmap there, in the unit and direction of heights"}};
         if (outside > 0) {
-            made.notes.push_back(fmt::format("{} of {} points of rivers lie outside the DEM", outside, all));
+            made.findings.push_back(
+                {.kind = "off_dem",
+                 .amount = static_cast<double>(outside),
+                 .text = fmt::format("{} of {} points of rivers lie outside the DEM", outside, all)});
         }
         ForJson file = facts;
         file.erase("file");
@@ -687,7 +692,7 @@ ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFold
     print.base_mm = params.base.value_or(print.base_mm);
     print.exaggeration = params.exaggeration.value_or(1.0);
     PrintExport const printed = write_print(scene, print, out, run);
-    std::ranges::copy(printed.notes, std::back_inserter(made.notes));
+    std::ranges::copy(printed.findings, std::back_inserter(made.findings));
     auto const range = height_range(*scene.dem);
     made.format = ExportFormat::stl;
     made.width = printed.width;
@@ -719,7 +724,7 @@ ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder
     WebExportParams web;
     web.exaggeration = params.exaggeration.value_or(1.0);
     WebExport const written = write_web(scene, web, out, run);
-    std::ranges::copy(written.notes, std::back_inserter(made.notes));
+    std::ranges::copy(written.findings, std::back_inserter(made.findings));
     made.width = scene.dem->width();
     made.height = scene.dem->height();
     made.min_m = written.min_m;
@@ -784,7 +789,7 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
         read_scene({.source = params.source, .network = {}, .nodata = params.nodata, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     ExportResult made;
-    made.notes = std::move(read.notes);
+    made.findings = std::move(read.findings);
     std::string const name = fs::path(params.source).lexically_normal().filename().string();
     ForJson json{
         {"thalweg", version()}, {"source", name.empty() || name == "." ? params.source : name}, {"for", params.preset}};
@@ -802,6 +807,7 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     for (std::string const& file : files) {
         made.files.push_back((fs::path(params.output) / file).string());
     }
+    run.report(made.findings);
     return made;
 }
 

@@ -45,7 +45,9 @@ Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run con
     }
     if (scene.sea) {
         made.hole_m = scene.sea->level_m;
-        made.notes.push_back(fmt::format("the sea, {}, lies level at {} m", count(), *made.hole_m));
+        made.findings.push_back({.kind = "level_sea",
+                                 .amount = *made.hole_m,
+                                 .text = fmt::format("the sea, {}, lies level at {} m", count(), *made.hole_m)});
         Raster<float> filled = dem;
         fill_holes(filled, *made.hole_m);
         return lattice(filled, size.width, size.height, run);
@@ -57,14 +59,18 @@ Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run con
     }
     Lattice out = lattice(dem, size.width, size.height, run);
     if (is_mesh(made.format)) {
-        made.notes.push_back(fmt::format("{} have no data: the mesh has holes there", count()));
+        made.findings.push_back({.kind = "holes",
+                                 .amount = static_cast<double>(made.holes),
+                                 .text = fmt::format("{} have no data: the mesh has holes there", count())});
         return out;
     }
     auto const range = height_range(out.z);
     refuse_if<BadInput>(!range, "pipeline.run_export: no sample has a height");
     made.hole_m = range->first;
-    made.notes.push_back(fmt::format("{} have no data: their samples get the lowest height, {} m", count(),
-                                     fmt::format("{:.6g}", *made.hole_m)));
+    made.findings.push_back(
+        {.kind = "holes",
+         .amount = static_cast<double>(made.holes),
+         .text = fmt::format("{} have no data: their samples get the lowest height, {:.6g} m", count(), *made.hole_m)});
     fill_holes(out.z, *made.hole_m);
     return out;
 }

@@ -173,28 +173,23 @@ std::string style_of_areas(Grid const& grid, double greatest_m2) {
     return io::qml(io::area_style(cell_m2, std::max(cell_m2, greatest_m2)));
 }
 
-std::vector<std::string> notes_on(NetworkFile const& file, MeasuredCatchments const& c) {
-    std::vector<std::string> notes;
-    for (Finding const& finding : file.findings) {
-        notes.push_back(finding.text);
-    }
-    if (file.id_shift != 0) {
-        notes.push_back(fmt::format("arc_id is the file's and {}", file.id_shift));
-    }
-    if (c.arcs_cut + c.arcs_outside > 0) {
-        notes.push_back(
-            fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
-    }
-    if (c.arcs_nowhere > 0) {
-        notes.push_back(fmt::format("{} arcs have a vertex that is not a number and were left out", c.arcs_nowhere));
-    }
-    if (std::int64_t const idle = c.arcs - c.arcs_outside - c.count.catchments; idle > 0) {
-        notes.push_back(fmt::format("{} arcs have no catchment: other arcs own their cells", idle));
-    }
-    if (c.cells_without > 0) {
-        notes.push_back(fmt::format("water of {} cells leaves the DEM before it meets a river", c.cells_without));
-    }
-    return notes;
+std::vector<Finding> findings_on(NetworkFile const& file, MeasuredCatchments const& c) {
+    std::vector<Finding> findings = file.findings;
+    auto const find = [&](FindingKind kind, std::int64_t amount, std::string text) {
+        if (amount != 0) {
+            findings.push_back({.kind = kind, .amount = static_cast<double>(amount), .text = std::move(text)});
+        }
+    };
+    find("renumbered", file.id_shift, fmt::format("arc_id is the file's and {}", file.id_shift));
+    find("arcs_off_dem", c.arcs_cut + c.arcs_outside,
+         fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
+    find("left_out", c.arcs_nowhere,
+         fmt::format("{} arcs have a vertex that is not a number and were left out", c.arcs_nowhere));
+    std::int64_t const idle = std::max<std::int64_t>(0, c.arcs - c.arcs_outside - c.count.catchments);
+    find("no_catchment", idle, fmt::format("{} arcs have no catchment: other arcs own their cells", idle));
+    find("water_without_river", c.cells_without,
+         fmt::format("water of {} cells leaves the DEM before it meets a river", c.cells_without));
+    return findings;
 }
 
 } // namespace
@@ -203,7 +198,8 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
     Measured const source = source_of(params);
     auto const wanted = wanted_of(params, source);
     Writer out(params.output, wanted, params.existing);
-    Raster<float> const dem = io::read_dem(source.dem, {.nodata = params.nodata}, run);
+    io::DemFile const read = io::read_dem_file(source.dem, {.nodata = params.nodata}, run);
+    Raster<float> const& dem = read.dem;
     require_metres(dem.grid(), source.dem, "pipeline.run_measure");
     NetworkFile network;
     if (wanted.contains(outlines)) {
@@ -218,6 +214,7 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
 
     flow::FlowField const drainage = flow::route(dem, run);
     MeasureResult made;
+    made.findings = read.findings;
     made.pits = drainage.pits;
     made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
                                [](flow::Direction way) { return way != flow::Direction::no_data; });
@@ -245,9 +242,10 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
     }
     if (wanted.contains(outlines)) {
         made.catchments = write_catchments(network, drainage, out.path("catchments.gpkg"), run);
-        made.notes = notes_on(network, *made.catchments);
+        append(made.findings, findings_on(network, *made.catchments));
     }
     made.files = out.commit();
+    run.report(made.findings);
     return made;
 }
 

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
@@ -38,7 +39,7 @@ struct MeasuredCatchments {
 /// What run_measure() returns.
 struct MeasureResult {
     std::vector<std::string> files; ///< paths, folder included
-    std::vector<std::string> notes; ///< omissions, as sentences
+    std::vector<Finding> findings;  ///< omissions
     std::int64_t cells = 0;         ///< with data
     double area_m2 = 0.0;           ///< of these
     std::int64_t pits = 0;          ///< cells in depressions, through which water is routed

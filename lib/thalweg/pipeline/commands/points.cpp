@@ -59,10 +59,12 @@ PointsResult run_points(PointsParams const& params, Run const& run) {
                             "pipeline.run_points: --skeleton needs a folder written by make; {} is not one",
                             params.path);
     fs::path const folder(params.path);
-    Raster<float> land =
-        io::read_dem(is_folder ? (folder / "dem.tif").string() : params.path, {.nodata = params.nodata}, run);
+    io::DemFile read =
+        io::read_dem_file(is_folder ? (folder / "dem.tif").string() : params.path, {.nodata = params.nodata}, run);
+    run.report(read.findings);
+    Raster<float> land = std::move(read.dem);
     require_metres(land.grid(), params.path, "pipeline.run_points");
-    PointsResult made{0, land.grid().crs};
+    PointsResult made{0, land.grid().crs, std::move(read.findings)};
     if (params.of == PointsOf::skeleton) {
         SkeletonOfLand const drawn = skeleton_of(std::move(land), folder, run);
         made.count = io::write_points(drawn.skeleton, drawn.rivers, file.staging(), write, run);

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 
@@ -32,6 +34,7 @@ struct PointsParams {
 struct PointsResult {
     std::uint64_t count = 0;
     std::string crs;
+    std::vector<Finding> findings = {}; ///< how the DEM was read
 };
 
 /// Runs `thalweg points`: reads a DEM and writes its cells as points, completely or not at all; for a skeleton, the

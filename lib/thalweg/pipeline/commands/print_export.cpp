@@ -61,19 +61,24 @@ double in_round_numbers(double factor) {
     return std::floor(factor / step + 0.5) * step;
 }
 
-std::vector<std::string> print_notes(PrintExport const& made, PrintParams const& params) {
-    std::vector<std::string> notes{fmt::format("printed at 1 : {:.0f}, {:.1f} x {:.1f} x {:.1f} mm", made.scale,
-                                               made.size_mm.x, made.size_mm.y, made.size_mm.z)};
+std::vector<Finding> print_findings(PrintExport const& made, PrintParams const& params) {
+    std::vector<Finding> findings{{.kind = "print_size",
+                                   .amount = std::max(made.size_mm.x, made.size_mm.y),
+                                   .text = fmt::format("printed at 1 : {:.0f}, {:.1f} x {:.1f} x {:.1f} mm", made.scale,
+                                                       made.size_mm.x, made.size_mm.y, made.size_mm.z)}};
     constexpr double low_mm = 2.0;
     constexpr double well_seen_mm = 10.0;
     if (made.relief_mm > 0.0 && made.relief_mm < low_mm) {
         double const factor = params.exaggeration * well_seen_mm / made.relief_mm;
-        notes.push_back(fmt::format("the relief is only {:.2g} mm high: --exaggeration {:.6g} makes it about {} mm",
-                                    made.relief_mm, in_round_numbers(factor), well_seen_mm));
+        findings.push_back(
+            {.kind = "low_relief",
+             .amount = made.relief_mm,
+             .text = fmt::format("the relief is only {:.2g} mm high: --exaggeration {:.6g} makes it about {} mm",
+                                 made.relief_mm, in_round_numbers(factor), well_seen_mm)});
     } else if (made.relief_mm == 0.0) {
-        notes.emplace_back("the terrain is flat");
+        findings.push_back({.kind = "flat", .text = "the terrain is flat"});
     }
-    return notes;
+    return findings;
 }
 
 } // namespace
@@ -107,7 +112,7 @@ PrintExport write_print(Scene const& scene, PrintParams const& params, io::Outpu
     made.vertices = static_cast<std::int64_t>(mesh.vertices.size());
     made.triangles = static_cast<std::int64_t>(mesh.triangles.size());
     made.files = {name};
-    made.notes = print_notes(made, params);
+    made.findings = print_findings(made, params);
     return made;
 }
 

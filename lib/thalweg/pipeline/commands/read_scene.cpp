@@ -111,18 +111,21 @@ ElevatedNetwork drape(StreamNetwork plan, Raster<float> const& dem) {
 
 /// Rivers from any line file on a DEM; nothing: none lies on it.
 std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string const& file,
-                                         std::vector<std::string>& notes, Run const& run) {
+                                         std::vector<Finding>& findings, Run const& run) {
     io::ReadRiversParams params;
     params.path = file;
     params.crs = dem.grid().crs;
     RiverLines const lines = network::clip_lines(io::read_rivers(params, run), dem.grid());
     for (Finding const& finding : lines.findings) {
-        if (finding.kind == "not_a_line") {
-            notes.push_back(fmt::format("{}: {}", lines.name, finding.text));
+        if (finding.kind == FindingKind("not_a_line")) {
+            findings.push_back(finding);
+            findings.back().text = fmt::format("{}: {}", lines.name, finding.text);
         }
     }
     if (lines.lines.empty()) {
-        notes.push_back(fmt::format("no river of {} runs on the DEM", lines.name));
+        findings.push_back({.kind = "no_rivers",
+                            .text = fmt::format("no river of {} runs on the DEM", lines.name),
+                            .layer = lines.name});
         return std::nullopt;
     }
     network::Imported imported = network::import_lines(lines, {}, run);
@@ -130,8 +133,11 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
         try {
             return network::take_file_heights(imported, lines);
         } catch (BadInput const&) { // they run uphill somewhere, or were clipped
-            notes.push_back(
-                fmt::format("heights of {} do not fall all the way: the rivers take those of the DEM", lines.name));
+            findings.push_back(
+                {.kind = "heights_not_falling",
+                 .text =
+                     fmt::format("heights of {} do not fall all the way: the rivers take those of the DEM", lines.name),
+                 .layer = lines.name});
         }
     }
     return drape(std::move(imported.network), dem);
@@ -176,7 +182,7 @@ SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
             dem, {.most_side = params.most_side, .metres = io::MetresOf::any_crs, .nodata = params.nodata},
             run); // the choice of its maker
         scene.dem = std::move(read.dem);
-        out.notes = std::move(read.notes);
+        out.findings = std::move(read.findings);
     }
     if (params.network.empty() && fs::exists(rivers)) {
         NetworkFile const file = io::read_network(rivers, run);
@@ -215,14 +221,14 @@ SceneRead read_scene(ReadSceneParams const& params, Run const& run) {
     } else {
         io::Drawable read = io::read_drawable(source, {.most_side = params.most_side, .nodata = params.nodata}, run);
         out.scene.dem = std::move(read.dem);
-        out.notes = std::move(read.notes);
+        out.findings = std::move(read.findings);
         out.scene.title = fs::path(source).stem().string();
     }
     if (!network.empty()) {
         if (!out.scene.dem) {
             throw BadInput(fmt::format("pipeline.read_scene: there is no DEM to lay the rivers of {} on", network));
         }
-        out.scene.network = rivers_on(*out.scene.dem, network, out.notes, run);
+        out.scene.network = rivers_on(*out.scene.dem, network, out.findings, run);
     }
     if (out.scene.network) {
         out.scene.orders = network::order(out.scene.network->planform);

@@ -96,7 +96,7 @@ public:
     LineRepairer(NetworkFile const& file, measure::TopologyReport const& found, double near_m)
         : file_(file), found_(found), nodes_(file), near_m_(near_m) {
         for (Finding const& f : found.findings) {
-            if (f.kind == "spike" || f.kind == "self_touching") {
+            if (f.kind == FindingKind("spike") || f.kind == FindingKind("self_touching")) {
                 looped_.insert(f.feature);
             }
         }
@@ -188,7 +188,7 @@ public:
     }
 
 private:
-    void say(char const* kind, std::int64_t feature, Vec2 at, double amount, std::string text) {
+    void say(FindingKind kind, std::int64_t feature, Vec2 at, double amount, std::string text) {
         result_.mended.push_back({kind, feature, at, amount, std::move(text)});
     }
 
@@ -370,7 +370,7 @@ void report_repairs(measure::TopologyReport const& found, std::vector<Finding>& 
             std::find_if(first, found.findings.end(), [&](Finding const& f) { return f.kind != first->kind; });
         mended.push_back(
             {"mended", first->feature, first->where, static_cast<double>(last - first),
-             fmt::format("{} of kind {} repaired, the first: {}", last - first, first->kind, first->text)});
+             fmt::format("{} of kind {} repaired, the first: {}", last - first, first->kind.name(), first->text)});
         first = last;
     }
 }
@@ -387,29 +387,13 @@ void report_lowering(network::Lowered const& lowered, std::int64_t id_shift, std
     }
 }
 
-/// Lengths reversed, by evidence, then sentences on doubtful directions.
-std::vector<Finding> doubts_of_directions(network::Directions const& directions, bool has_dem) {
-    std::vector<Finding> notes;
-    if (std::string const turned = turned_in_words(directions); !turned.empty()) {
-        double sum_m = 0.0;
-        for (network::Directions::Turned const& one : directions.turned) {
-            sum_m += one.length_m;
-        }
-        notes.push_back({"directions", 0, {}, sum_m, turned});
-    }
-    for (std::string const& doubt : direction_doubts(directions, has_dem ? "" : "--dem FILE", "")) {
-        notes.push_back({"uncertain_direction", 0, {}, 0.0, doubt});
-    }
-    return notes;
-}
-
 } // namespace
 
 RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport const& found,
                                RepairNetworkParams const& params, Run const& run) {
     RepairedNetwork mended;
     auto const give_up = [&](std::string const& why) {
-        mended.mended.push_back({"not_mended", 0, {}, 0.0, why});
+        mended.mended.push_back({"not_mended", 0, nowhere, 0.0, why});
         return mended;
     };
     double const near_m = params.near_m > 0.0 ? params.near_m : 1e-6 * diagonal_of(file);
@@ -432,7 +416,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
         return give_up(cannot.what());
     }
     append(mended.mended, std::move(imported.repairs));
-    mended.doubts = doubts_of_directions(imported.directions, params.dem != nullptr);
+    mended.doubts = direction_findings(imported.directions, params.dem != nullptr ? "" : "--dem FILE", "");
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     report_lowering(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {

@@ -21,7 +21,7 @@ namespace {
 
 struct MetricDem {
     Raster<float> dem;
-    std::vector<std::string> notes; // the changes, as sentences
+    std::vector<Finding> findings; // the changes
 };
 
 /// Reads a DEM and warps it onto square cells in metres if necessary.
@@ -30,12 +30,14 @@ MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params
     if (!io::has_square_cells(path)) {
         constexpr std::int64_t most_side = 30000;
         io::Drawable read = io::read_drawable(path, {.most_side = most_side, .nodata = params.nodata}, run);
-        for (std::string& note : read.notes) {
-            note.insert(0, name + ": ");
+        for (Finding& finding : read.findings) {
+            finding.text.insert(0, name + ": ");
+            finding.layer = name;
         }
-        return {std::move(read.dem), std::move(read.notes)};
+        return {std::move(read.dem), std::move(read.findings)};
     }
-    MetricDem out{io::read_dem(path, params, run), {}};
+    io::DemFile read = io::read_dem_file(path, params, run);
+    MetricDem out{std::move(read.dem), std::move(read.findings)};
     Grid const own = out.dem.grid();
     io::GroundCell const ground = io::ground_cell(own);
     bool const is_distorted = ground.unit == io::GridUnit::distorted;
@@ -49,12 +51,22 @@ MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params
     lattice.west = 0.0;
     lattice.north = 0.0;
     out.dem = io::warp_to_grid(out.dem, lattice, "pipeline.run_stats: " + path, run);
-    out.notes.push_back(fmt::format("{}: coordinates in {} are reprojected into {}, onto cells of {:.2f} m", name,
-                                    is_distorted ? fmt::format("{:.60}, whose metres are {:.2f} m on the ground,",
-                                                               own.crs, ground.side_m / own.cell_m)
-                                                 : "degrees",
-                                    fmt::format("{:.60}", lattice.crs), ground.side_m));
+    std::string const from = is_distorted ? fmt::format("{:.60}, whose metres are {:.2f} m on the ground,", own.crs,
+                                                        ground.side_m / own.cell_m)
+                                          : "degrees";
+    out.findings.push_back(
+        {.kind = "dem_reprojected",
+         .amount = ground.side_m,
+         .text = fmt::format("{}: coordinates in {} are reprojected into {:.60}, onto cells of {:.2f} m", name, from,
+                             lattice.crs, ground.side_m),
+         .layer = name});
     return out;
+}
+
+/// Reads a DEM on its own cells.
+MetricDem as_it_is(std::string const& path, io::ReadDemParams const& params, Run const& run) {
+    io::DemFile read = io::read_dem_file(path, params, run);
+    return {std::move(read.dem), std::move(read.findings)};
 }
 
 } // namespace
@@ -62,14 +74,17 @@ MetricDem dem_in_metres(std::string const& path, io::ReadDemParams const& params
 StatsResult run_stats(StatsParams const& params, Run const& run) {
     // A recipe has its own cells: recipe_of_dem determines their size.
     io::ReadDemParams const reading{.nodata = params.nodata};
-    MetricDem const read = params.recipe ? MetricDem{io::read_dem(params.path, reading, run), {}}
-                                         : dem_in_metres(params.path, reading, run);
+    MetricDem const read =
+        params.recipe ? as_it_is(params.path, reading, run) : dem_in_metres(params.path, reading, run);
     Raster<float> const& dem = read.dem;
-    for (std::string const& note :
-         read.notes.empty() ? io::conversions_of(params.path, "", dem.grid().crs) : read.notes) {
-        run.say("note   " + note);
+    std::vector<Finding> findings = read.findings;
+    if (findings.empty()) {
+        for (std::string const& words : io::conversions_of(params.path, "", dem.grid().crs)) {
+            findings.push_back({.kind = "converted", .text = words});
+        }
     }
-    StatsResult found{dem.grid(), measure::statistics(dem, run)};
+    run.report(findings);
+    StatsResult found{.grid = dem.grid(), .statistics = measure::statistics(dem, run), .findings = std::move(findings)};
     if (params.laws || params.relief) {
         Raster<float> const ground = on_ground(dem);
         flow::FlowField const drainage = flow::route(ground, run);

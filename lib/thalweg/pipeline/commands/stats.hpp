@@ -6,6 +6,7 @@
 #include <optional>
 #include <string>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
@@ -32,11 +33,12 @@ struct StatsResult {
     std::optional<DemLaws> laws = {};
     std::optional<TerrainRelief> relief = {};
     std::optional<DemRecipe> recipe = {};
+    std::vector<Finding> findings = {}; ///< how the DEM was read
 };
 
 /// Runs `thalweg stats`: reads a DEM and computes its statistics. A DEM in degrees, or in metres whose lengths are
 /// wrong by more than 1 % (Web Mercator), is warped to the UTM zone of its middle, on cells of the same size as its
-/// own; one whose cells are not square to squares; the run's log says so.
+/// own; one whose cells are not square to squares; findings say so.
 /// \param params file and options
 /// \return the statistics, and what else is set
 /// \throws BadInput as io::read_dem, the statistics and recipe_of_dem, and for a geographic DEM in no UTM zone

@@ -46,7 +46,9 @@ Breaklines read_lines(std::string const& path, std::string const& crs, std::stri
 
 TinResult of_dem(std::string const& path, TinParams const& params, Run const& run) {
     double const error_m = params.error_m.value_or(geometry::TinOfDemParams{}.error_m);
-    auto const dem = io::read_dem(path, {.nodata = params.nodata}, run);
+    io::DemFile const read = io::read_dem_file(path, {.nodata = params.nodata}, run);
+    run.report(read.findings);
+    Raster<float> const& dem = read.dem;
     if (io::is_distorted(dem.grid())) {
         require_metres(dem.grid(), path, "pipeline.run_tin");
     }
@@ -57,6 +59,7 @@ TinResult of_dem(std::string const& path, TinParams const& params, Run const& ru
     made.source = "dem";
     made.error_m = simplified.error_m;
     made.left_out = simplified.left_out;
+    made.findings = read.findings;
     return made;
 }
 

@@ -5,7 +5,9 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -42,6 +44,7 @@ struct TinResult {
     double averaged_dz_m = 0.0;
     std::int64_t crossings = 0;
     double crossings_dz_m = 0.0;
+    std::vector<Finding> findings = {}; ///< how a DEM was read
 };
 
 /// Runs `thalweg tin`: reads a file and writes a TIN of its content, completely or not at all: of a DEM within an

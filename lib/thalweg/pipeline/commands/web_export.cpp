@@ -38,7 +38,7 @@ struct WebHeights {
     std::int64_t holes = 0;
 };
 
-WebHeights without_holes(Scene const& scene, std::vector<std::string>& notes, Run const& run) {
+WebHeights without_holes(Scene const& scene, std::vector<Finding>& findings, Run const& run) {
     Raster<float> const& dem = *scene.dem;
     WebHeights out{dem, Mask(dem.grid(), 1), 0};
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
@@ -56,14 +56,19 @@ WebHeights without_holes(Scene const& scene, std::vector<std::string>& notes, Ru
             z = std::isnan(z) ? static_cast<float>(scene.sea->level_m) : z;
         }
         std::ranges::fill(out.shown.values(), std::uint8_t{1});
-        notes.push_back(fmt::format("the sea, {}, lies level at {} m", count, scene.sea->level_m));
+        findings.push_back({.kind = "level_sea",
+                            .amount = scene.sea->level_m,
+                            .text = fmt::format("the sea, {}, lies level at {} m", count, scene.sea->level_m)});
         return out;
     }
     Raster<std::int64_t> const nearest = nearest_cells(out.shown, run);
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         out.z[i] = dem[nearest[i]];
     }
-    notes.push_back(fmt::format("{} have no data: they are transparent, at the height of the nearest cell", count));
+    findings.push_back(
+        {.kind = "holes",
+         .amount = static_cast<double>(out.holes),
+         .text = fmt::format("{} have no data: they are transparent, at the height of the nearest cell", count)});
     return out;
 }
 
@@ -130,7 +135,7 @@ struct WebRivers {
 };
 
 WebRivers web_rivers(Scene const& scene, io::WebPyramid const& pyramid, std::int64_t most_bytes,
-                     std::vector<std::string>& notes) {
+                     std::vector<Finding>& findings) {
     if (!scene.network || scene.network->planform.arc_count() == 0) {
         return {};
     }
@@ -148,7 +153,9 @@ WebRivers web_rivers(Scene const& scene, io::WebPyramid const& pyramid, std::int
         out.some = geojson_from(++order, lines, widths, scene);
     }
     if (order > 1) {
-        notes.push_back(fmt::format("terrain.html holds the rivers from Strahler order {} on", order));
+        findings.push_back({.kind = "some_rivers",
+                            .amount = static_cast<double>(order),
+                            .text = fmt::format("terrain.html holds the rivers from Strahler order {} on", order)});
     }
     return out;
 }
@@ -217,7 +224,7 @@ WebExport write_web(Scene const& scene, WebExportParams const& params, io::Outpu
     require_web(scene, params);
     Raster<float> const& dem = *scene.dem;
     WebExport made;
-    WebHeights const ground = without_holes(scene, made.notes, run);
+    WebHeights const ground = without_holes(scene, made.findings, run);
     made.holes = ground.holes;
     std::tie(made.min_m, made.max_m) = *height_range(ground.z);
     io::WebPyramid const pyramid = io::web_pyramid(dem.grid(), params.pyramid);
@@ -226,19 +233,22 @@ WebExport write_web(Scene const& scene, WebExportParams const& params, io::Outpu
     made.bounds = pyramid.box;
     made.tiles = pyramid.tiles;
     if (dem.grid().crs.empty()) {
-        made.notes.emplace_back("the DEM has no CRS: it is laid around 0 degrees north, 0 degrees east");
+        made.findings.push_back(
+            {.kind = "no_crs", .text = "the DEM has no CRS: it is laid around 0 degrees north, 0 degrees east"});
     }
     if (pyramid.max_zoom < pyramid.full_zoom) {
-        made.notes.push_back(
-            fmt::format("zoom levels end at {}, where a sample has several cells; all cells would need "
-                        "level {}",
-                        pyramid.max_zoom, pyramid.full_zoom));
+        made.findings.push_back(
+            {.kind = "zoom_levels",
+             .amount = static_cast<double>(pyramid.max_zoom),
+             .text = fmt::format("zoom levels end at {}, where a sample has several cells; all cells would need level "
+                                 "{}",
+                                 pyramid.max_zoom, pyramid.full_zoom)});
     }
     std::string const picture = web_picture(scene, run);
     made.files = io::write_web_tiles({ground.z, ground.shown, picture}, pyramid, out, run);
 
     run.at(0.0, "pages");
-    WebRivers const rivers = web_rivers(scene, pyramid, params.most_bytes / 4, made.notes);
+    WebRivers const rivers = web_rivers(scene, pyramid, params.most_bytes / 4, made.findings);
     if (!rivers.all.empty()) {
         io::write_text(out.path("rivers.geojson"), rivers.all + "\n");
         made.files.emplace_back("rivers.geojson");
@@ -262,8 +272,11 @@ WebExport write_web(Scene const& scene, WebExportParams const& params, io::Outpu
     WebInside const inside = tiles_inside(pyramid, out, params.most_bytes - taken);
     made.page_max_zoom = inside.max_zoom;
     if (inside.max_zoom < pyramid.max_zoom) {
-        made.notes.push_back(fmt::format("terrain.html ends at zoom level {} of {}: more would take over {} MB",
-                                         inside.max_zoom, pyramid.max_zoom, params.most_bytes / 1'000'000));
+        made.findings.push_back(
+            {.kind = "zoom_levels",
+             .amount = static_cast<double>(inside.max_zoom),
+             .text = fmt::format("terrain.html ends at zoom level {} of {}: more would take over {} MB",
+                                 inside.max_zoom, pyramid.max_zoom, params.most_bytes / 1'000'000)});
     }
     data["max_zoom"] = inside.max_zoom;
     data["tiles"] = inside.places;

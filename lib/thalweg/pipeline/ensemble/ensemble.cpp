@@ -143,26 +143,6 @@ void add_dem(Values& values, SurfaceMeasures const& measured) {
                                  {"dem.hypsometric_integral", measured.hypsometry->integral}});
 }
 
-/// A run of a member: warnings are counted, other lines dropped, and progress is not reported.
-struct Listener {
-    std::int64_t warnings = 0;
-    std::string first;
-
-    Run of(Run const& run) {
-        Run quiet;
-        quiet.threads = run.threads;
-        quiet.device = run.device;
-        quiet.stop = run.stop;
-        quiet.log = [this](std::string_view line) {
-            constexpr std::string_view mark = "warning: ";
-            if (line.starts_with(mark)) {
-                first = warnings++ == 0 ? std::string(line.substr(mark.size())) : first;
-            }
-        };
-        return quiet;
-    }
-};
-
 } // namespace
 
 VariedKey read_varied_key(std::string const& text) {
@@ -251,22 +231,23 @@ MemberRow row_of(Member const& member, Made const& made) {
         }
     }
     row.timings_s = timings_of(made);
+    std::vector<Finding> const findings = findings_of(made);
+    row.warnings = warnings_in(findings);
+    if (row.warnings > 0) {
+        row.first_warning = std::ranges::find(findings, Severity::warning, &Finding::severity)->text;
+    }
     return row;
 }
 
 MadeMember make_member(Ensemble const& ensemble, std::int64_t number, Run const& run) {
     Member const member = member_of(ensemble, number);
-    Listener listener;
-    Run const quiet = listener.of(run);
     auto const failed = [&](std::string const& reason) {
         return MadeMember{{.member = member, .state = MemberState::failed, .reason = reason}, {}};
     };
     try {
         MadeMember out;
-        out.made = make(recipe_of(ensemble, member), quiet);
+        out.made = make(recipe_of(ensemble, member), run.quiet());
         out.row = row_of(member, *out.made);
-        out.row.warnings = listener.warnings;
-        out.row.first_warning = listener.first;
         return out;
     } catch (Cancelled const&) {
         throw;

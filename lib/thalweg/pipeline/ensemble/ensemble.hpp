@@ -81,7 +81,7 @@ struct MemberRow {
 /// Measures a member.
 /// \param member which one
 /// \param made its terrain
-/// \return the row, without warnings
+/// \return the row
 MemberRow row_of(Member const& member, Made const& made);
 
 /// A member with its terrain.

@@ -115,7 +115,7 @@ MemberStore::MemberStore(std::string const& folder, Ensemble const& ensemble, st
     fs::create_directories(inner_, error);
     require_at(inner_, error);
     try {
-        lock(role, share, run);
+        lock(role, share);
         if (role != Role::helper) {
             start(vary, run);
         }
@@ -154,7 +154,7 @@ MemberStore::~MemberStore() {
     }
 }
 
-void MemberStore::lock(Role role, Share const& share, Run const& run) {
+void MemberStore::lock(Role role, Share const& share) {
     if (role == Role::helper) {
         return;
     }
@@ -167,9 +167,10 @@ void MemberStore::lock(Role role, Share const& share, Run const& run) {
                         "folder",
                         folder_);
     if (state == Locked::no) {
-        run.say(fmt::format("warning: another thalweg works on share {} of {} in {}: members are made twice where it "
-                            "has not committed them, and kept once",
-                            share.number, share.of, folder_));
+        findings_.push_back({.kind = "share_in_use",
+                             .text = fmt::format("another thalweg works on share {} of {} in {}: members are made "
+                                                 "twice where it has not committed them, and kept once",
+                                                 share.number, share.of, folder_)});
     }
 }
 

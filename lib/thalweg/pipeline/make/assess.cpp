@@ -71,15 +71,16 @@ std::vector<Check> surface_checks(Plan const& plan, Terrain const& terrain, Surf
 }
 
 /// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
-void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief const& relief, Run const& run) {
+void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief const& relief, StageLog& stage_log) {
     constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
     if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
         return;
     }
     std::string const outside = unusual_relief(relief_rows(relief), plan.recipe.network->source == Source::lines);
     if (!outside.empty()) {
-        run.say("warning: measures of the relief lie outside those of the reference DEMs: " + outside +
-                ". docs/relief_measures.md says what they mean.");
+        stage_log.find({.kind = "unusual_relief",
+                        .text = "measures of the relief lie outside those of the reference DEMs: " + outside,
+                        .remedy = "docs/relief_measures.md says what they mean"});
     }
 }
 
@@ -120,7 +121,7 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
     }
     found.laws = stage_log.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
     found.relief = stage_log.stage("relief", [&] { return relief_of_terrain(plan, terrain, *found.statistics, run); });
-    warn_of_texture(plan, terrain, *found.relief, run);
+    warn_of_texture(plan, terrain, *found.relief, stage_log);
     return found;
 }
 
@@ -141,38 +142,61 @@ measure::TopologyReport topology_of(Terrain const& terrain, StageLog& stage_log,
     });
 }
 
-/// The check given_length; logs the account of the input's length, and warns where more than 1 % of it is missing.
-Check length_check(Plan const& plan, GivenLength const& given, Grid const& grid, Run const& run) {
+/// The check given_length; notes the account of the input's length, and warns where more than 1 % of it is missing.
+Check length_check(Plan const& plan, GivenLength const& given, Grid const& grid, StageLog& stage_log) {
     constexpr double worth_a_word = 0.99;
     double const share = given.share();
     double const least = plan.recipe.network->lines.keep;
-    run.tell("given", line_of(given));
+    stage_log.find({.kind = "given",
+                    .amount = given.given_m(),
+                    .text = line_of(given),
+                    .key = "network.lines.path",
+                    .layer = plan.lines.name,
+                    .numbers = {{"kept", given.kept_m, "m"}}});
     if (share < worth_a_word) {
         double const gone_m = given.given_m() - given.kept_m;
         double const short_m = given.left_out(LeftOut::too_short);
-        run.say(fmt::format("warning: {:.1f} of the {:.1f} km of rivers in {} are not in the network, {}. Layer "
-                            "secondary of network.gpkg has them.{}",
-                            gone_m / 1000.0, given.given_m() / 1000.0, plan.lines.name,
-                            short_m > 0.5 * gone_m ? "most of them too short"
-                                                   : "most of them cut at heads that lie beside other rivers",
-                            short_m < gone_m
-                                ? fmt::format(" Finer cells keep them apart: --set grid.cell={}.", grid.cell_m / 2.0)
-                                : ""));
+        stage_log.find(
+            {.kind = "rivers_missing",
+             .amount = gone_m,
+             .text = fmt::format("{:.1f} of the {:.1f} km of rivers in {} are not in the network, {}. Layer secondary "
+                                 "of network.gpkg has them",
+                                 gone_m / 1000.0, given.given_m() / 1000.0, plan.lines.name,
+                                 short_m > 0.5 * gone_m ? "most of them too short"
+                                                        : "most of them cut at heads that lie beside other rivers"),
+             .remedy = short_m < gone_m
+                           ? fmt::format("Finer cells keep them apart: --set grid.cell={}", grid.cell_m / 2.0)
+                           : "",
+             .key = "network.lines.path",
+             .layer = plan.lines.name,
+             .numbers = {{"given", given.given_m(), "m"}}});
     }
     return {"given_length", share, least, share >= least, Bound::at_least};
 }
 
-void warn_of_heights(Plan const& plan, GivenHeights const& given, Run const& run) {
+void warn_of_heights(Plan const& plan, GivenHeights const& given, StageLog& stage_log) {
+    stage_log.find({.kind = "heights",
+                    .amount = given.largest_m,
+                    .text = line_of(given),
+                    .key = "network.heights",
+                    .layer = plan.lines.name});
     if (given.missed > 0) {
-        run.say(fmt::format(
-            "warning: at {} of the {} vertices with heights in {} dem.tif is off by more than {:g} m: by "
-            "{:.3g} m on average, by {:.3g} m at most.",
-            given.missed, given.vertices, plan.lines.name, given.tolerance_m, given.mean_m, given.largest_m));
+        stage_log.find({.kind = "heights_missed",
+                        .amount = given.largest_m,
+                        .text = fmt::format("at {} of the {} vertices with heights in {} dem.tif is off by more than "
+                                            "{:g} m: by {:.3g} m on average, by {:.3g} m at most",
+                                            given.missed, given.vertices, plan.lines.name, given.tolerance_m,
+                                            given.mean_m, given.largest_m),
+                        .key = "network.heights_tolerance",
+                        .layer = plan.lines.name,
+                        .numbers = {{"missed", static_cast<double>(given.missed), "vertices"},
+                                    {"vertices", static_cast<double>(given.vertices), "vertices"},
+                                    {"mean", given.mean_m, "m"}}});
     }
 }
 
-/// Warns of given points and ridges that the terrain does not have, with a finding each.
-void warn_of_features(GivenFeatures const& given, std::vector<Finding>& findings, Run const& run) {
+/// Warns of given points and ridges that the terrain does not have, with a finding for each point.
+void warn_of_features(GivenFeatures const& given, StageLog& stage_log) {
     constexpr std::size_t listed = 1000;
     constexpr double most_crossed = 0.05; // of a ridge's cells
     constexpr double most_at_rivers = 0.5;
@@ -189,13 +213,20 @@ void warn_of_features(GivenFeatures const& given, std::vector<Finding>& findings
                            std::isnan(p.z_m) ? "no height there" : fmt::format("{:.6g} m", p.z_m));
     };
     for (std::size_t i = 0; i < std::min(listed, missed.size()); ++i) {
-        findings.push_back(
+        stage_log.find(
             {"point_missed", missed[i].number, missed[i].at, missed[i].z_m - missed[i].asked_m, words(missed[i])});
     }
     if (!missed.empty()) {
-        run.say(fmt::format("warning: {} of the {} points of {} are missed by more than {:g} m. The worst: {}",
-                            missed.size(), given.points.size(), given.points_file, given.tolerance_m,
-                            words(missed.front())));
+        stage_log.find({.kind = "points_missed",
+                        .feature = missed.front().number,
+                        .where = missed.front().at,
+                        .amount = static_cast<double>(missed.size()),
+                        .text = fmt::format("{} of the {} points of {} are missed by more than {:g} m. The worst: {}",
+                                            missed.size(), given.points.size(), given.points_file, given.tolerance_m,
+                                            words(missed.front())),
+                        .key = "skeleton.points",
+                        .layer = given.points_file,
+                        .numbers = {{"points", static_cast<double>(given.points.size())}}});
     }
     std::vector<RidgeOff> crossed;
     std::ranges::copy_if(given.ridges, std::back_inserter(crossed), [](RidgeOff const& r) {
@@ -205,10 +236,15 @@ void warn_of_features(GivenFeatures const& given, std::vector<Finding>& findings
     });
     if (!crossed.empty()) {
         RidgeOff const& first = crossed.front();
-        run.say(fmt::format("warning: {} of the {} ridges of {} are crossed by water or lie at rivers. The first, "
-                            "feature {}: of {} cells {} lie at rivers, and water crosses {}",
-                            crossed.size(), given.ridges.size(), given.ridges_file, first.feature, first.cells,
-                            first.in_rivers, first.crossed));
+        stage_log.find({.kind = "ridges_crossed",
+                        .feature = first.feature,
+                        .amount = static_cast<double>(crossed.size()),
+                        .text = fmt::format("{} of the {} ridges of {} are crossed by water or lie at rivers. The "
+                                            "first, feature {}: of {} cells {} lie at rivers, and water crosses {}",
+                                            crossed.size(), given.ridges.size(), given.ridges_file, first.feature,
+                                            first.cells, first.in_rivers, first.crossed),
+                        .key = "skeleton.ridge_lines",
+                        .layer = given.ridges_file});
     }
 }
 
@@ -223,41 +259,41 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
     Assessment found{terrain.surface ? of_surface(plan, terrain, stage_log, run)
                                      : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
     found.checks = surface_checks(plan, terrain, found);
-    found.findings = terrain.findings;
     if (plan.recipe.network) {
         measure::TopologyReport topology = topology_of(terrain, stage_log, run);
         found.checks.insert(found.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.rivers.network)));
         append(found.checks, std::move(topology.checks));
-        append(found.findings, std::move(topology.findings));
+        stage_log.find(topology.findings);
         if (terrain.drained) {
-            append(found.findings, findings_of(found.certificate));
+            stage_log.find(findings_of(found.certificate));
         }
     }
     found.given = given_length(plan, planform, terrain);
     if (found.given) {
-        found.checks.push_back(length_check(plan, *found.given, terrain.grid, run));
+        found.checks.push_back(length_check(plan, *found.given, terrain.grid, stage_log));
     }
     found.given_heights = given_heights(plan, planform, terrain);
     if (found.given_heights) {
-        run.tell("heights", line_of(*found.given_heights));
-        warn_of_heights(plan, *found.given_heights, run);
+        warn_of_heights(plan, *found.given_heights, stage_log);
     }
     found.given_features = given_features(plan, terrain);
     if (found.given_features) {
-        run.tell("features", line_of(*found.given_features));
-        warn_of_features(*found.given_features, found.findings, run);
+        stage_log.find({.kind = "features", .text = line_of(*found.given_features)});
+        warn_of_features(*found.given_features, stage_log);
     }
     if (terrain.drainage && found.given) {
         found.given_areas = given_areas(plan, planform, terrain);
     }
     if (found.given_areas) {
-        run.tell("areas", line_of(*found.given_areas));
+        stage_log.find({.kind = "areas", .text = line_of(*found.given_areas)});
     }
     if (plan.against.cells() > 0) {
         found.against = stage_log.stage("compare", [&] { return compare_with_dem(plan, terrain, run); });
         stage_log.say(line_of(*found.against));
     }
+    found.findings = stage_log.take_findings();
     found.timings_s = stage_log.take();
+    run.report(found.findings);
     return found;
 }
 

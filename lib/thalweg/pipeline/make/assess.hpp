@@ -51,7 +51,7 @@ struct Assessment : SurfaceMeasures {
     std::optional<Against> against = {};              ///< where the recipe names a DEM to compare with
     std::optional<GivenAreas> given_areas = {};       ///< where the lines have areas and the terrain drains
     std::vector<Check> checks = {};
-    std::vector<Finding> findings = {}; ///< of the checks
+    std::vector<Finding> findings = {}; ///< of the checks, and what they warn of
     Timings timings_s = {};
 
     /// \return whether every check is ok

@@ -42,6 +42,7 @@ struct PastedSource {
     blend::SourceWindow window;
     bool is_warped = false;
     bool is_elsewhere = false; // its coordinates are unrelated to the target's
+    std::vector<Finding> findings = {};
 };
 
 /// The coordinates in which a source is placed on the target.
@@ -70,8 +71,10 @@ Grid frame_for(Grid const& source, Grid const& target, BlendIntoParams const& pa
 }
 
 PastedSource read_source(BlendIntoParams const& params, Grid const& grid, Run const& run) {
-    Raster<float> dem = io::read_dem(params.source, {.nodata = params.nodata}, run);
+    io::DemFile read = io::read_dem_file(params.source, {.nodata = params.nodata}, run);
+    Raster<float> dem = std::move(read.dem);
     PastedSource source;
+    source.findings = std::move(read.findings);
     Grid const frame = frame_for(dem.grid(), grid, params, source);
     std::string const what = "pipeline.blend_into: " + params.source.path;
     source.is_warped =
@@ -126,6 +129,7 @@ BlendedDem blend_into(Raster<float> const& target, Mask keep, BlendIntoParams co
     placing.part = read_part(params.mask, grid, run);
     BlendedDem made;
     made.is_warped = source.is_warped;
+    made.findings = source.findings;
     if (params.at) {
         placing.at = params.at;
     } else if (!source.is_elsewhere && overlap(source.dem.grid(), source.window, grid)) {

@@ -5,8 +5,10 @@
 #include <cstdint>
 #include <optional>
 #include <string>
+#include <vector>
 
 #include <thalweg/blend/paste.hpp>
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
 
@@ -40,9 +42,10 @@ enum class PatchPlace : std::uint8_t {
 struct BlendedDem {
     blend::Pasted pasted;
     PatchPlace place = PatchPlace::given;
-    Vec2 at;                  ///< [m] the patch's centre
-    std::int64_t outside = 0; ///< cells of the mask off the source
-    bool is_warped = false;   ///< the source had another CRS or cell size
+    Vec2 at;                            ///< [m] the patch's centre
+    std::int64_t outside = 0;           ///< cells of the mask off the source
+    bool is_warped = false;             ///< the source had another CRS or cell size
+    std::vector<Finding> findings = {}; ///< how the DEMs were read
 };
 
 /// Reads a DEM and pastes a patch of it into another: place_patch, then paste. A source in another CRS or with other

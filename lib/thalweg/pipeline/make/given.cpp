@@ -18,7 +18,7 @@ namespace thalweg::pipeline {
 namespace {
 
 /// The doubts of a kind, the largest first.
-std::vector<Finding const*> doubts_of(network::Directions const& directions, std::string_view kind) {
+std::vector<Finding const*> doubts_of(network::Directions const& directions, FindingKind kind) {
     std::vector<Finding const*> result;
     for (Finding const& doubt : directions.doubts) {
         if (doubt.kind == kind) {
@@ -39,46 +39,59 @@ std::string in_km(double m) {
     return m < least_m ? fmt::format("{:.2g} m", m) : fmt::format("{:.1f} km", m / 1000.0);
 }
 
-} // namespace
-
-std::string turned_in_words(network::Directions const& directions) {
+/// "12.3 km reversed: 10.1 km by angles at confluences, 2.2 km by the file's links".
+std::vector<Finding> turned_lengths(network::Directions const& directions) {
     double sum_m = 0.0;
     std::string parts;
     for (network::Directions::Turned const& turned : directions.turned) {
         sum_m += turned.length_m;
         parts += fmt::format("{}{} by {}", parts.empty() ? "" : ", ", in_km(turned.length_m), turned.by);
     }
-    if (directions.turned.size() == 1) {
-        return fmt::format("{} reversed by {}", in_km(sum_m), directions.turned.front().by);
+    if (parts.empty()) {
+        return {};
     }
-    return parts.empty() ? "" : fmt::format("{} reversed: {}", in_km(sum_m), parts);
+    std::string const text = directions.turned.size() == 1
+                                 ? fmt::format("{} reversed by {}", in_km(sum_m), directions.turned.front().by)
+                                 : fmt::format("{} reversed: {}", in_km(sum_m), parts);
+    return {{.kind = "directions", .amount = sum_m, .text = text}};
 }
 
-std::vector<std::string> direction_doubts(network::Directions const& directions, std::string const& by_dem,
-                                          std::string const& by_rule) {
-    std::vector<std::string> said;
+} // namespace
+
+std::vector<Finding> direction_findings(network::Directions const& directions, std::string const& by_dem,
+                                        std::string const& by_rule) {
+    std::vector<Finding> found = turned_lengths(directions);
+    auto const doubt = [&](Vec2 at, double amount_m, std::string text, std::string const& by) {
+        found.push_back({.kind = "doubtful_directions",
+                         .where = at,
+                         .amount = amount_m,
+                         .text = std::move(text),
+                         .remedy = by.empty() ? "" : fmt::format("{} decides", by),
+                         .key = "network.lines.orientation"});
+    };
     std::string const either = by_dem.empty() ? by_rule : by_rule.empty() ? by_dem : by_dem + " or " + by_rule;
-    std::string const decides = either.empty() ? "" : fmt::format(" {} decides.", either);
     if (auto const uncertain = doubts_of(directions, "uncertain_direction"); !uncertain.empty()) {
-        said.push_back(fmt::format("the flow direction of {} ({}) is uncertain: {:.0f} % of that length is expected to "
-                                   "run the wrong way, the first group at ({:.0f}, {:.0f}).{}",
-                                   groups(uncertain.size()), in_km(directions.uncertain_m),
-                                   100.0 * directions.expected_wrong_m / directions.uncertain_m,
-                                   uncertain.front()->where.x, uncertain.front()->where.y, decides));
+        doubt(uncertain.front()->where, directions.uncertain_m,
+              fmt::format("the flow direction of {} ({}) is uncertain: {:.0f} % of that length is expected to run the "
+                          "wrong way, the first group at ({:.0f}, {:.0f})",
+                          groups(uncertain.size()), in_km(directions.uncertain_m),
+                          100.0 * directions.expected_wrong_m / directions.uncertain_m, uncertain.front()->where.x,
+                          uncertain.front()->where.y),
+              either);
     }
     if (auto const second = doubts_of(directions, "second_outlet"); !second.empty()) {
-        said.push_back(fmt::format("{} may have a second outlet, the likeliest at ({:.0f}, {:.0f}): {}.{}",
-                                   groups(second.size()), second.front()->where.x, second.front()->where.y,
-                                   second.front()->text, decides));
+        doubt(second.front()->where, 0.0,
+              fmt::format("{} may have a second outlet, the likeliest at ({:.0f}, {:.0f}): {}", groups(second.size()),
+                          second.front()->where.x, second.front()->where.y, second.front()->text),
+              either);
     }
-    for (char const* const kind : {"conflicting_direction", "contradicted_direction"}) {
+    for (FindingKind const kind : {FindingKind("conflicting_direction"), FindingKind("contradicted_direction")}) {
         if (auto const doubts = doubts_of(directions, kind); !doubts.empty()) {
             std::string const more = doubts.size() == 1 ? "" : fmt::format(" (and {} more)", doubts.size() - 1);
-            said.push_back(fmt::format("{}{}.{}", doubts.front()->text, more,
-                                       by_rule.empty() ? "" : fmt::format(" {} decides.", by_rule)));
+            doubt(doubts.front()->where, 0.0, doubts.front()->text + more, by_rule);
         }
     }
-    return said;
+    return found;
 }
 
 namespace {
@@ -98,7 +111,7 @@ constexpr std::array<Words, 8> words{{{"filter", "no natural watercourses"},
                                       {"pruned", "pruned"},
                                       {"head", "cut at heads"}}};
 
-double sum_of(std::vector<Finding> const& findings, std::initializer_list<char const*> kinds) {
+double sum_of(std::vector<Finding> const& findings, std::initializer_list<FindingKind> kinds) {
     double sum = 0.0;
     for (Finding const& f : findings) {
         sum += std::ranges::count(kinds, f.kind) > 0 ? f.amount : 0.0;
@@ -146,12 +159,13 @@ std::optional<GivenLength> given_length(Plan const& plan, Planform const& planfo
     given.kept_m = imported_m - of_imported_m;
     given.read_m = file.taken_m + of_file_m;
     given.closed_m = imported_m + given.left_out(LeftOut::pruned) + of_import_m - file.taken_m;
-    std::vector<Finding> const& repairs = planform.statistics.repairs;
+    std::vector<Finding> repairs = plan.findings;
+    append(repairs, planform.findings);
     given.carried_m = sum_of(repairs, {"carried_outlet", "joined_outlet"});
     given.turned_m = sum_of(repairs, {"reversed"});
     given.connector_m = sum_of(repairs, {"connector"});
     for (Finding const& f : repairs) {
-        given.moved_m = std::max(given.moved_m, f.kind == "snapped" ? f.amount : 0.0);
+        given.moved_m = std::max(given.moved_m, f.kind == FindingKind("snapped") ? f.amount : 0.0);
     }
     return given;
 }

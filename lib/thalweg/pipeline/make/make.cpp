@@ -39,9 +39,11 @@ Timings timings_of(Made const& made) {
     return all;
 }
 
-std::vector<Finding> repairs_of(Made const& made) {
-    std::vector<Finding> all = made.planform.statistics.repairs;
-    append(all, made.terrain.notes);
+std::vector<Finding> findings_of(Made const& made) {
+    std::vector<Finding> all = made.plan.findings;
+    append(all, made.planform.findings);
+    append(all, made.terrain.findings);
+    append(all, made.assessment.findings);
     return all;
 }
 

@@ -39,9 +39,9 @@ Made make(Recipe const& recipe, Run const& run = {});
 /// \return [s] in order
 Timings timings_of(Made const& made);
 
-/// Collects the notes on changes to the rivers: imported, extended, shortened.
+/// Collects all that was found: on the recipe and its files, the rivers, the terrain, and by the checks.
 /// \param made a terrain
-/// \return in order
-std::vector<Finding> repairs_of(Made const& made);
+/// \return in this order
+std::vector<Finding> findings_of(Made const& made);
 
 } // namespace thalweg::pipeline

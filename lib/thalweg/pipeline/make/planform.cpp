@@ -67,24 +67,34 @@ Bent bent(Plan const& plan, StreamNetwork network, RiverFile file, Grid const& g
     return {std::move(meandered.network), std::move(follows)};
 }
 
-/// Warns when outlets were extended far beyond the data.
-void warn_of_long_extensions(std::vector<Finding> const& notes, StreamNetwork const& plan, Run const& run) {
+bool is_extension(Finding const& note) {
+    return note.kind == FindingKind("carried_outlet") || note.kind == FindingKind("joined_outlet");
+}
+
+/// A warning when outlets were extended far beyond the data.
+std::vector<Finding> long_extensions(std::vector<Finding> const& notes, StreamNetwork const& plan) {
     constexpr std::int64_t many = 3;
     constexpr double much = 0.1; // of the length of all rivers
     double carried_m = 0.0;
     std::int64_t outlets = 0;
     for (Finding const& note : notes) {
-        if (note.kind == "carried_outlet" || note.kind == "joined_outlet") {
+        if (is_extension(note)) {
             carried_m += note.amount;
             ++outlets;
         }
     }
     double const length_m = std::accumulate(plan.length_m().begin(), plan.length_m().end(), 0.0);
-    if (outlets >= many && carried_m > much * length_m) {
-        run.say(fmt::format("warning: {} rivers end inside the grid and were extended by {:.3g} km in all, by the "
-                            "shortest ways. If they end at the sea: --set network.inland=coast.",
-                            outlets, carried_m / 1000.0));
+    if (outlets < many || carried_m <= much * length_m) {
+        return {};
     }
+    return {{.kind = "extended_rivers",
+             .amount = carried_m,
+             .text = fmt::format("{} rivers end inside the grid and were extended by {:.3g} km in all, by the shortest "
+                                 "ways",
+                                 outlets, carried_m / 1000.0),
+             .remedy = "If they end at the sea: --set network.inland=coast",
+             .key = "network.inland",
+             .numbers = {{"rivers", static_cast<double>(outlets)}}}};
 }
 
 /// Rivers whose outlets lie where rivers may end.
@@ -107,7 +117,7 @@ Carried with_outlets_carried(Plan const& plan, StreamNetwork network, Grid const
     bool const all = inland != InlandEnds::sink;
     network::CarryParams const params{.join = !keeps_heights};
     auto const take = [&](network::Carried carried) {
-        warn_of_long_extensions(carried.notes, result.network, run);
+        append(result.notes, long_extensions(carried.notes, result.network));
         append(result.notes, std::move(carried.notes));
         result.network = std::move(carried.network);
     };
@@ -125,8 +135,7 @@ Carried with_outlets_carried(Plan const& plan, StreamNetwork network, Grid const
         result.land = network::land_along_rivers(std::move(result.land), result.network);
         network::Carried carried =
             network::carry_outlets(result.network, result.land, all ? grid.cells() : at_sea_cells, params);
-        moved = std::ranges::count_if(
-            carried.notes, [](Finding const& f) { return f.kind == "carried_outlet" || f.kind == "joined_outlet"; });
+        moved = std::ranges::count_if(carried.notes, is_extension);
         take(std::move(carried));
     }
     result.land = network::land_along_rivers(std::move(result.land), result.network);
@@ -204,18 +213,16 @@ Pruned pruned(Plan const& plan, StreamNetwork const& network, RiverFile file, do
     return {std::move(kept.network), std::move(file), kept.arcs_before, std::move(notes)};
 }
 
-/// Without the notes on carried outlets.
-NetworkStatistics statistics_of(NetworkStatistics statistics, std::vector<Finding> conversions, Pruned const& kept) {
+NetworkStatistics statistics_of(NetworkStatistics statistics, Pruned const& kept) {
     statistics.arcs_traced = kept.arcs_before;
     statistics.arcs_kept = static_cast<std::int64_t>(kept.network.arc_count());
-    append(statistics.repairs, std::move(conversions));
-    append(statistics.repairs, kept.notes);
     return statistics;
 }
 
-/// Rivers of the source, and the times of making them.
+/// Rivers of the source, what was found and the times of making them.
 struct TimedSource {
     SourceRivers rivers;
+    std::vector<Finding> findings;
     Timings timings_s;
 };
 
@@ -231,7 +238,7 @@ TimedSource source_of(Plan const& plan, Run const& run) {
         [&] {
             StageLog stage_log(run);
             SourceRivers rivers = rivers_of_source(plan, stage_log, run);
-            return TimedSource{std::move(rivers), stage_log.take()};
+            return TimedSource{std::move(rivers), stage_log.take_findings(), stage_log.take()};
         },
         [](TimedSource const& source) {
             constexpr std::int64_t copies = 4; // of the network, with heights and features
@@ -244,13 +251,15 @@ Planform drawn(Plan const& plan, Run const& run) {
     StageLog stage_log(run);
     TimedSource made = source_of(plan, run);
     stage_log.add(made.timings_s);
+    stage_log.find(made.findings);
     SourceRivers& source = made.rivers;
-    std::vector<Finding> conversions = report_conversions(plan.recipe, source.grid, run);
+    stage_log.find(conversions(plan.recipe, source.grid));
     Pruned kept = pruned(plan, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
-    NetworkStatistics statistics = statistics_of(std::move(source.statistics), std::move(conversions), kept);
+    stage_log.find(kept.notes);
+    NetworkStatistics statistics = statistics_of(std::move(source.statistics), kept);
     Carried carried = with_outlets_carried(plan, std::move(kept.network), source.grid, std::move(source.land),
                                            source.file_heights.has_value(), run);
-    append(statistics.repairs, std::move(carried.notes));
+    stage_log.find(carried.notes);
     refuse_if<BadParameter>(has_meanders(plan) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
@@ -268,6 +277,7 @@ Planform drawn(Plan const& plan, Run const& run) {
             .land = std::move(carried.land),
             .file = std::move(rivers.file),
             .statistics = std::move(statistics),
+            .findings = stage_log.take_findings(),
             .timings_s = stage_log.take()};
 }
 
@@ -277,12 +287,14 @@ Planform make_planform(Plan const& plan, Run const& run) {
     if (!plan.recipe.network) {
         return {};
     }
-    return kept_or_made(
+    Planform planform = kept_or_made(
         run, "planform", [&] { return planform_made_from(plan); }, [&] { return drawn(plan, run); },
-        [](Planform const& planform) {
+        [](Planform const& made) {
             constexpr std::int64_t copies = 4;
-            return copies * bytes_of(planform.network) + planform.land.cells();
+            return copies * bytes_of(made.network) + made.land.cells();
         });
+    run.report(planform.findings);
+    return planform;
 }
 
 } // namespace thalweg::pipeline

@@ -29,12 +29,11 @@ struct NetworkStatistics {
     std::int64_t particles = 0; ///< of the cluster (dla) or the forest
     std::int64_t walkers = 0;   ///< released for it
     std::optional<TokunagaStatistics> tokunaga;
-    bool wide = false;                 ///< the cluster stopped at its greatest radius
-    bool full = false;                 ///< the forest stopped where no particle found room
-    bool cut = false;                  ///< the branch reached the grid's margin before the last particle
-    std::int64_t arcs_traced = 0;      ///< before pruning
-    std::int64_t arcs_kept = 0;        ///< by pruning; merged ones count once
-    std::vector<Finding> repairs = {}; ///< of imported lines, and outlets carried to the border
+    bool wide = false;            ///< the cluster stopped at its greatest radius
+    bool full = false;            ///< the forest stopped where no particle found room
+    bool cut = false;             ///< the branch reached the grid's margin before the last particle
+    std::int64_t arcs_traced = 0; ///< before pruning
+    std::int64_t arcs_kept = 0;   ///< by pruning; merged ones count once
 };
 
 /// What a file of rivers holds beside the network.
@@ -56,6 +55,7 @@ struct Planform {
     Mask land;                                   ///< 0: sea, which has no heights; without cells: no sea
     RiverFile file;                              ///< from which the rivers were imported
     NetworkStatistics statistics;
+    std::vector<Finding> findings; ///< on rivers as they were grown, imported and carried to the border
     Timings timings_s;
 };
 

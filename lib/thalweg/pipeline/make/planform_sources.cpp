@@ -175,13 +175,18 @@ std::vector<std::int64_t> downstream(network::TokunagaTree const& tree) {
 }
 
 /// Throws if less than half of a network found room; warns if much of it did not.
-void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Run const& run) {
+void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, StageLog& stage_log) {
     std::int64_t const all = placed + dropped;
-    std::string const found = fmt::format("{} of {} links found no room on {} x {} cells: {}", dropped, all, grid.width,
-                                          grid.height, more_room);
-    refuse_if<BadInput>(2 * placed < all || placed == 0, "[network.tokunaga]: {}", found);
+    std::string const found =
+        fmt::format("{} of {} links found no room on {} x {} cells", dropped, all, grid.width, grid.height);
+    refuse_if<BadInput>(2 * placed < all || placed == 0, "[network.tokunaga]: {}: {}", found, more_room);
     if (10 * placed < 9 * all) {
-        run.say("warning: [network.tokunaga]: " + found);
+        stage_log.find({.kind = "links_without_room",
+                        .amount = static_cast<double>(dropped),
+                        .text = "[network.tokunaga]: " + found,
+                        .remedy = fmt::format("To give them room, {}", more_room),
+                        .key = "network.tokunaga",
+                        .numbers = {{"links", static_cast<double>(all)}}});
     }
 }
 
@@ -202,7 +207,7 @@ SourceRivers fill_region(Plan const& plan, StageLog& stage_log, Run const& run) 
     statistics.dropped = embedded.dropped;
     stage_log.say(
         fmt::format("{} of {} links placed, {:.0f} m apart", embedded.placed, tree.links.size(), embedded.spacing_m));
-    judge_room(embedded.placed, embedded.dropped, grid, run);
+    judge_room(embedded.placed, embedded.dropped, grid, stage_log);
     return {.network = std::move(embedded.network), .grid = grid, .statistics = {.tokunaga = std::move(statistics)}};
 }
 
@@ -219,7 +224,7 @@ SourceRivers follow_strokes(Plan const& plan, StageLog& stage_log, Run const& ru
     statistics.placed = grown.placed;
     statistics.dropped = grown.dropped;
     stage_log.say(fmt::format("{} of {} links placed", grown.placed, grown.placed + grown.dropped));
-    judge_room(grown.placed, grown.dropped, grid, run);
+    judge_room(grown.placed, grown.dropped, grid, stage_log);
     return {.network = std::move(grown.network), .grid = grid, .statistics = {.tokunaga = std::move(statistics)}};
 }
 
@@ -239,9 +244,8 @@ SourceRivers rivers_of_forest(Plan const& plan, StageLog& stage_log, Run const& 
     network::PlantedForest planted =
         stage_log.stage("grow", [&] { return network::plant_forest(on.land, on.outlets, params, run); });
     stage_log.say(fmt::format("{} trees of {} particles  seed {}", planted.outlets, planted.particles, recipe.seed));
+    stage_log.find(planted.notes);
     NetworkStatistics statistics;
-    statistics.repairs = on.notes;
-    statistics.repairs.insert(statistics.repairs.end(), planted.notes.begin(), planted.notes.end());
     statistics.particles = planted.particles;
     statistics.walkers = planted.walkers;
     statistics.full = planted.stop == network::ForestStop::full;
@@ -251,9 +255,9 @@ SourceRivers rivers_of_forest(Plan const& plan, StageLog& stage_log, Run const& 
             .statistics = std::move(statistics)};
 }
 
-/// The features of the file that are not rivers.
+/// The lines of the file that are not rivers.
 std::vector<Finding> left_out(RiverLines const& lines) {
-    std::vector<Finding> findings = lines.findings;
+    std::vector<Finding> findings;
     for (SecondaryLine const& one : lines.secondary) {
         if (one.cause == LeftOut::grid) {
             continue;
@@ -265,7 +269,7 @@ std::vector<Finding> left_out(RiverLines const& lines) {
 }
 
 /// Warns where rivers end close to others, away from their mouths: they were probably meant to meet.
-void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, Run const& run) {
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, StageLog& stage_log) {
     constexpr std::int64_t near_cells = 2;
     constexpr std::int64_t mouth_cells = 5;
     Raster<std::int64_t> basin(grid, 0);
@@ -289,11 +293,15 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped
     if (gaps > 0) {
         // Centres two cells apart diagonally are nearly three sides apart.
         double const reach_m = static_cast<double>(near_cells + 1) * grid.cell_m;
-        run.say(fmt::format("warning: {} within {} cells of another river without meeting it. {}",
-                            gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells,
-                            snapped_m < reach_m
-                                ? fmt::format("If they should meet: --set network.lines.snap={}.", reach_m)
-                                : fmt::format("Finer cells keep them apart: --set grid.cell={}.", grid.cell_m / 2.0)));
+        stage_log.find(
+            {.kind = "unjoined_ends",
+             .amount = static_cast<double>(gaps),
+             .text = fmt::format("{} within {} cells of another river without meeting it",
+                                 gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells),
+             .remedy = snapped_m < reach_m
+                           ? fmt::format("If they should meet: --set network.lines.snap={}", reach_m)
+                           : fmt::format("Finer cells keep them apart: --set grid.cell={}", grid.cell_m / 2.0),
+             .key = snapped_m < reach_m ? "network.lines.snap" : "grid.cell"});
     }
 }
 
@@ -317,9 +325,15 @@ Mask land_of_coastlines(Plan const& plan, StageLog& stage_log, Run const& run) {
                               100.0 * static_cast<double>(divided.sea_cells) / static_cast<double>(grid.cells()),
                               coast.lines.size()));
     if (4 * divided.beyond > divided.behind) {
-        run.say(fmt::format("warning: rivers lie on both sides of the coastlines of {} ({} cells, and {} on the side "
-                            "that became sea); --set network.lines.coastlines=none leaves the coastlines out.",
-                            plan.lines.name, divided.behind, divided.beyond));
+        stage_log.find({.kind = "rivers_in_sea",
+                        .amount = static_cast<double>(divided.beyond),
+                        .text = fmt::format("rivers lie on both sides of the coastlines of {} ({} cells, and {} on the "
+                                            "side that became sea)",
+                                            plan.lines.name, divided.behind, divided.beyond),
+                        .remedy = "--set network.lines.coastlines=none leaves the coastlines out",
+                        .key = "network.lines.coastlines",
+                        .layer = plan.lines.name,
+                        .numbers = {{"on_land", static_cast<double>(divided.behind), "cells"}}});
     }
     return std::move(divided.land);
 }
@@ -338,18 +352,6 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     return file;
 }
 
-/// Logs reversed and doubtful directions.
-void log_directions(network::Directions const& directions, bool has_dem, Run const& run) {
-    if (std::string const turned = turned_in_words(directions); !turned.empty()) {
-        run.tell("directions", turned);
-    }
-    for (std::string const& doubt :
-         direction_doubts(directions, has_dem ? "" : "--set network.lines.dem=FILE",
-                          "--set network.lines.orientation=as_drawn (or height, rank, topology)")) {
-        run.say("warning: " + doubt);
-    }
-}
-
 /// What heights may rise downstream by noise: a river that is drawn uphill rises by more.
 double noise_of(std::vector<std::vector<double>> const& arc_z) {
     constexpr double least_m = 20.0;
@@ -366,8 +368,7 @@ double noise_of(std::vector<std::vector<double>> const& arc_z) {
 }
 
 /// The file's heights. Where they rise downstream by noise they are lowered, which is told.
-ElevatedNetwork heights_without_noise(Plan const& plan, network::Imported const& imported,
-                                      std::vector<Finding>& repairs, Run const& run) {
+ElevatedNetwork heights_without_noise(Plan const& plan, network::Imported const& imported, StageLog& stage_log) {
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     double const most_m = *std::ranges::max_element(lowered.by_m);
     if (!(most_m > 0.0) || most_m > noise_of(imported.arc_z)) {
@@ -378,24 +379,30 @@ ElevatedNetwork heights_without_noise(Plan const& plan, network::Imported const&
         if (double const by_m = lowered.by_m[a]; by_m > 0.0) {
             Arc const& arc = imported.network.arc(a);
             ++arcs;
-            repairs.push_back(
+            stage_log.find(
                 {"lowered", arc.feature, arc.line.front(), by_m,
                  fmt::format("river {}: heights rise downstream; lowered by up to {:.3g} m", arc.feature, by_m)});
         }
     }
-    run.say(fmt::format("warning: heights in {} rise downstream in {} of {} arcs. They are lowered there, by {:.3g} m "
-                        "at most; \"repairs\" in report.json lists them.",
-                        plan.lines.name, arcs, lowered.by_m.size(), most_m));
+    stage_log.find({.kind = "rising_heights",
+                    .amount = most_m,
+                    .text = fmt::format("heights in {} rise downstream in {} of {} arcs. They are lowered there, by "
+                                        "{:.3g} m at most",
+                                        plan.lines.name, arcs, lowered.by_m.size(), most_m),
+                    .remedy = "\"findings\" in report.json lists these arcs (lowered)",
+                    .key = "network.lines.path",
+                    .layer = plan.lines.name,
+                    .numbers = {{"arcs", static_cast<double>(arcs)}}});
     return std::move(lowered.network);
 }
 
 /// The heights of the file, if the recipe uses them.
 std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported,
-                                               std::vector<Finding>& repairs, Run const& run) {
+                                               StageLog& stage_log) {
     Heights const heights = plan.recipe.network->heights;
     bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
     if (heights == Heights::file || (or_straight && plan.lines.has_z)) {
-        return heights_without_noise(plan, imported, repairs, run);
+        return heights_without_noise(plan, imported, stage_log);
     }
     return std::nullopt;
 }
@@ -411,18 +418,20 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
         stage_log.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
     SourceRivers rivers;
     rivers.grid = *plan.grid;
-    std::vector<Finding>& repairs = rivers.statistics.repairs;
-    repairs = left_out(plan.lines);
-    repairs.insert(repairs.end(), imported.repairs.begin(), imported.repairs.end());
+    std::vector<Finding> const left = left_out(plan.lines);
+    stage_log.find(left);
+    stage_log.find(imported.repairs);
     rivers.file = file_of(plan.lines, imported);
     std::size_t const secondary = rivers.file.secondary.size();
-    stage_log.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(), repairs.size(),
+    stage_log.say(fmt::format("{} arcs, {} repairs{}", imported.network.arc_count(),
+                              left.size() + imported.repairs.size(),
                               secondary == 0 ? "" : fmt::format(", {} secondary", secondary)));
-    log_directions(imported.directions, params.dem != nullptr, run);
-    repairs.insert(repairs.end(), imported.directions.doubts.begin(), imported.directions.doubts.end());
-    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, run);
+    stage_log.find(direction_findings(imported.directions, params.dem != nullptr ? "" : "--set network.lines.dem=FILE",
+                                      "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
+    stage_log.find(imported.directions.doubts);
+    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, stage_log);
     rivers.land = land_of_coastlines(plan, stage_log, run);
-    rivers.file_heights = heights_of_file(plan, imported, repairs, run);
+    rivers.file_heights = heights_of_file(plan, imported, stage_log);
     rivers.network = std::move(imported.network);
     return rivers;
 }

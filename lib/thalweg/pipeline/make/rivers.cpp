@@ -95,7 +95,7 @@ RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run cons
         cut[cell] = laid.valley.z[cell];
     }
     laid.network = network::elevate_from_dem(planform.network, drawn.channels, cut);
-    laid.notes = std::move(drawn.notes);
+    laid.findings = std::move(drawn.notes);
     return laid;
 }
 

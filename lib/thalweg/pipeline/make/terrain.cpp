@@ -142,13 +142,18 @@ Raster<float> over_triangles(Ground const& ground, Run const& run) {
                        ground.valley);
 }
 
-void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams const& params, Run const& run) {
+void warn_of_jumps(surface::Dilated const& surface, surface::IncrementParams const& params, StageLog& stage_log) {
     auto const jumps = surface::increment_jumps(surface.levels, params);
     if (!jumps.empty()) {
-        run.say(fmt::format("warning: surface.increment = \"{}\" jumps from {:.3g} to {:.3g} at x = {:.4g}{}: slopes "
-                            "break there",
-                            params.increment, jumps[0].from, jumps[0].to, jumps[0].x,
-                            jumps.size() > 1 ? fmt::format(", and {} times more", jumps.size() - 1) : ""));
+        stage_log.find(
+            {.kind = "jumping_increment",
+             .amount = jumps[0].to - jumps[0].from,
+             .text = fmt::format("surface.increment = \"{}\" jumps from {:.3g} to {:.3g} at x = {:.4g}{}: slopes break "
+                                 "there",
+                                 params.increment, jumps[0].from, jumps[0].to, jumps[0].x,
+                                 jumps.size() > 1 ? fmt::format(", and {} times more", jumps.size() - 1) : ""),
+             .key = "surface.increment",
+             .numbers = {{"jumps", static_cast<double>(jumps.size())}, {"x", jumps[0].x}}});
     }
 }
 
@@ -263,7 +268,7 @@ Filled filled(Plan const& plan, Ground const& ground, StageLog& stage_log, Run c
     stage_log.say(fmt::format("{}x{}, {}", grid.width, grid.height, about(plan, result)));
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     if (wanted.method == Method::dilate) {
-        warn_of_jumps(result.surface, wanted.dilate.increment, run);
+        warn_of_jumps(result.surface, wanted.dilate.increment, stage_log);
     }
     return result;
 }
@@ -307,7 +312,7 @@ struct UndrainedTerrain {
     std::optional<DetailStatistics> detail = {};
     std::optional<fractal::MatchedDem> projection = {};
     double fine_forms_cells = 0.0;
-    Remarks remarks = {};
+    std::vector<Check> checks = {};
 };
 
 RidgeLines joined(RidgeLines some, RidgeLines const& others) {
@@ -328,13 +333,13 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, stage_log, run);
     Rivers rivers = balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types);
     Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
-    Remarks remarks = std::move(solved.remarks);
-    append(remarks.notes, std::move(raised.notes));
+    std::vector<Check> checks = std::move(solved.checks);
+    stage_log.find(raised.findings);
     Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley, run);
     std::optional<FeaturePoints> own;
     if (scatters_points(recipe)) {
         skeleton::Scattered found = scattered(plan, valley, inside, stage_log, run);
-        remarks.checks.push_back(points_missing(found.missing, recipe.skeleton->scatter, run));
+        checks.push_back(points_missing(found, *recipe.skeleton, stage_log));
         own = std::move(found.points);
     }
     FeaturePoints points = own ? std::move(*own) : FeaturePoints{};
@@ -350,7 +355,7 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     bool const whole = recipe.surface->mask.empty() && planform.land.values().empty();
     Filled made = balanced ? Filled{surface_of(std::move(solved.dem))}
                            : filled(plan, {valley, ridges, tin, points, through, inside, whole}, stage_log, run);
-    append(remarks.checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
+    append(checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
     std::optional<DetailStatistics> detail;
     if (levels_of(recipe) > 0) {
         DetailedTerrain detailed = with_detail_beside_rivers(plan, std::move(made.surface.dem), valley, run);
@@ -368,12 +373,12 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
             .equilibrium = balanced ? std::optional(std::move(solved.statistics)) : std::nullopt,
             .diffusion = made.diffusion,
             .detail = detail,
-            .remarks = std::move(remarks)};
+            .checks = std::move(checks)};
 }
 
-/// A surface from numbers and points, with a note on each conversion.
+/// A surface from numbers and points.
 UndrainedTerrain draw_alone(Plan const& plan, StageLog& stage_log, Run const& run) {
-    std::vector<Finding> notes = report_conversions(plan.recipe, *plan.grid, run);
+    stage_log.find(conversions(plan.recipe, *plan.grid));
     SurfaceAlone alone = draw_without_rivers(plan, stage_log, run);
     return {.surface = surface_of(std::move(alone.dem)),
             .tin = std::move(alone.tin),
@@ -381,7 +386,7 @@ UndrainedTerrain draw_alone(Plan const& plan, StageLog& stage_log, Run const& ru
             .detail = alone.detail,
             .projection = std::move(alone.projection),
             .fine_forms_cells = alone.fine_forms_cells,
-            .remarks = {std::move(notes), std::move(alone.checks), {}}};
+            .checks = std::move(alone.checks)};
 }
 
 BlendIntoParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
@@ -421,6 +426,7 @@ Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamN
             return blend_into(result.dem, keeps ? river_mask(result.valley) : Mask{}, params_of(plan.recipe, patch),
                               run);
         });
+        stage_log.find(made.findings);
         result.dem = std::move(made.pasted.dem);
         result.patches.push_back({made.pasted.cells, made.pasted.kept, made.pasted.seam_max_m, made.pasted.seam_rms_m});
         stage_log.say(
@@ -473,6 +479,7 @@ Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run)
     terrain.valley = std::move(raised.valley);
     terrain.areas = raised.areas ? std::move(*raised.areas) : flow::areas_nearest(planform.network, planform.grid, run);
     terrain.heights = raised.statistics;
+    terrain.findings = std::move(raised.findings);
     terrain.timings_s = stage_log.take();
     return terrain;
 }
@@ -481,9 +488,10 @@ Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run)
 
 namespace {
 
-/// A surface before it drains, and the times of drawing it.
+/// A surface before it drains, with what was found and the times of drawing it.
 struct TimedSurface {
     UndrainedTerrain terrain;
+    std::vector<Finding> findings;
     Timings timings_s;
 };
 
@@ -494,7 +502,7 @@ TimedSurface undrained(Plan const& plan, Planform const& planform, Run const& ru
             StageLog stage_log(run);
             UndrainedTerrain drawn = plan.recipe.network ? draw_around_rivers(plan, planform, stage_log, run)
                                                          : draw_alone(plan, stage_log, run);
-            return TimedSurface{std::move(drawn), stage_log.take()};
+            return TimedSurface{std::move(drawn), stage_log.take_findings(), stage_log.take()};
         },
         [](TimedSurface const& made) {
             constexpr std::int64_t of_cell = 16; // heights, valley, levels
@@ -508,16 +516,12 @@ void show(Raster<float> const& dem, bool is_finished, Run const& run) {
     }
 }
 
-} // namespace
-
-Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run) {
+Terrain terrain_with_surface(Plan const& plan, Planform const& planform, Run const& run) {
     bool const has_rivers = plan.recipe.network.has_value();
-    if (has_rivers && !plan.recipe.surface) {
-        return rivers_alone(plan, planform, run);
-    }
     StageLog stage_log(run);
     TimedSurface timed = undrained(plan, planform, run);
     stage_log.add(timed.timings_s);
+    stage_log.find(timed.findings);
     UndrainedTerrain& drawn = timed.terrain;
     if (!has_rivers || !in_equilibrium(plan.recipe)) { // in equilibrium it was seen, and drains as it is
         show(drawn.surface.dem, false, run);
@@ -553,10 +557,18 @@ Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run)
             .drained = drained.statistics,
             .projection = std::move(drawn.projection),
             .fine_forms_cells = drawn.fine_forms_cells,
-            .notes = std::move(drawn.remarks.notes),
-            .checks = std::move(drawn.remarks.checks),
-            .findings = std::move(drawn.remarks.findings),
+            .checks = std::move(drawn.checks),
+            .findings = stage_log.take_findings(),
             .timings_s = stage_log.take()};
+}
+
+} // namespace
+
+Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run) {
+    bool const rivers_only = plan.recipe.network && !plan.recipe.surface;
+    Terrain terrain = rivers_only ? rivers_alone(plan, planform, run) : terrain_with_surface(plan, planform, run);
+    run.report(terrain.findings);
+    return terrain;
 }
 
 } // namespace thalweg::pipeline

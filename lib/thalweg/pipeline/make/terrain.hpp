@@ -112,9 +112,8 @@ struct Terrain {
     std::optional<ConditioningChanges> drained;       ///< where the surface was conditioned hydrologically
     std::optional<fractal::MatchedDem> projection;    ///< how the statistics came out; its dem is moved to surface
     double fine_forms_cells = 0.0; ///< [cells] below which forms come from a Gaussian surface to meet them; 0: none
-    std::vector<Finding> notes;    ///< on rivers
     std::vector<Check> checks;     ///< of what the recipe asks of the surface
-    std::vector<Finding> findings; ///< of these
+    std::vector<Finding> findings; ///< of these, and on rivers and the surface
     Timings timings_s;
 };
 

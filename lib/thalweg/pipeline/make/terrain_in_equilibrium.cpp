@@ -181,27 +181,27 @@ std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& 
 
 /// Checks the relief or mean slope that the recipe asks for, with a warning where it is missed.
 /// by_levels: lakes have levels.
-Remarks target_remarks(surface::EquilibriumTerrain const& surface, surface::EquilibriumParams const& params,
-                       bool by_levels, Run const& run) {
+std::vector<Check> target_checks(surface::EquilibriumTerrain const& surface, surface::EquilibriumParams const& params,
+                                 bool by_levels, StageLog& stage_log) {
     constexpr double allowed = 0.05;
-    Remarks remarks;
     bool const given = params.heights != surface::RiverHeights::graded;
     if ((given || by_levels) && !params.bring_to_target) {
-        return remarks;
+        return {};
     }
     double const error = std::fabs(surface.target_share - 1.0);
-    remarks.checks.push_back({params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed});
     if (error > allowed) {
         double const asked = params.relief_m ? *params.relief_m : params.mean_slope_deg;
         char const* const unit = params.relief_m ? "m" : "degrees";
-        std::string const text =
-            fmt::format("surface.{} = {:.6g} {} cannot be reached with the {}: it is {:.4g} {}",
-                        params.relief_m ? "relief" : "mean_slope", asked, unit,
-                        given ? "heights of the rivers" : "levels of the lakes", surface.target_share * asked, unit);
-        run.say("warning: " + text);
-        remarks.findings.push_back({"target_missed", 0, {}, surface.target_share * asked, text});
+        char const* const name = params.relief_m ? "relief" : "mean_slope";
+        stage_log.find({.kind = "target_missed",
+                        .amount = surface.target_share * asked,
+                        .text = fmt::format("surface.{} = {:.6g} {} cannot be reached with the {}: it is {:.4g} {}",
+                                            name, asked, unit, given ? "heights of the rivers" : "levels of the lakes",
+                                            surface.target_share * asked, unit),
+                        .key = fmt::format("surface.{}", name),
+                        .numbers = {{"asked", asked, params.relief_m ? "m" : "deg"}}});
     }
-    return remarks;
+    return {{params.relief_m ? "relief_error" : "mean_slope_error", error, allowed, error <= allowed}};
 }
 
 double most_walled(Channels const& channels) {
@@ -213,47 +213,50 @@ bool too_walled(surface::EquilibriumTerrain const& land, Channels const& channel
 }
 
 /// Checks how many river cells only walls hold up. remedy: for the warning.
-Remarks wall_remarks(surface::EquilibriumTerrain const& surface, Channels const& channels, char const* remedy,
-                     Run const& run) {
+Check wall_check(surface::EquilibriumTerrain const& surface, Channels const& channels, char const* remedy,
+                 StageLog& stage_log) {
     constexpr std::size_t listed = 1000;
     bool const ok = !too_walled(surface, channels);
-    Remarks remarks;
-    remarks.checks.push_back(
-        {"walled_cells", static_cast<double>(surface.walled.size()), std::floor(most_walled(channels)), ok});
     if (!ok) {
-        run.say(fmt::format("warning: {} of {} river cells stand on walls above the terrain. {}", surface.walled.size(),
-                            channels.cell.size(), remedy));
+        stage_log.find({.kind = "walled_rivers",
+                        .amount = static_cast<double>(surface.walled.size()),
+                        .text = fmt::format("{} of {} river cells stand on walls above the terrain",
+                                            surface.walled.size(), channels.cell.size()),
+                        .remedy = remedy,
+                        .key = "network.heights",
+                        .numbers = {{"river_cells", static_cast<double>(channels.cell.size()), "cells"}}});
     }
     Grid const& grid = surface.dem.grid();
     for (std::size_t i = 0; i < std::min(listed, surface.walled.size()); ++i) {
         std::int64_t const cell = channels.cell[static_cast<std::size_t>(surface.walled[i])];
         Vec2 const at = grid.centre(grid.at(cell));
-        remarks.findings.push_back({"walled_cell", 0, at, static_cast<double>(surface.dem[cell]),
-                                    fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the "
-                                                "land around is lower",
-                                                at.x, at.y, surface.dem[cell])});
+        stage_log.find({"walled_cell", 0, at, static_cast<double>(surface.dem[cell]),
+                        fmt::format("the river at ({:.1f}, {:.1f}) stands {:.5g} m high, on a wall: the land around "
+                                    "is lower",
+                                    at.x, at.y, surface.dem[cell])});
     }
-    return remarks;
+    return {"walled_cells", static_cast<double>(surface.walled.size()), std::floor(most_walled(channels)), ok};
 }
 
 /// Checks that rivers lie in valleys of rebuilt terrain, with a warning where they stand above much of it.
-Remarks valley_remarks(Raster<float> const& dem, Channels const& channels, bool has_sea, Run const& run) {
+Check valley_check(Raster<float> const& dem, Channels const& channels, bool has_sea, StageLog& stage_log,
+                   Run const& run) {
     constexpr double most_sunken = 0.1;
     double const share = measure::sunken_share(dem, channels.cell, {.has_sea = has_sea}, run);
-    Remarks remarks;
-    remarks.checks.push_back({"land_below_rivers", share, most_sunken, share <= most_sunken});
     if (share > most_sunken) {
-        run.say(
-            fmt::format("warning: {:.0f} % of the land lies lower than the river nearest to it: the rivers stand on "
-                        "walls. Their slopes tell too little of the land's: give it, with --set "
-                        "surface.mean_slope=20 or --like DEM.",
-                        100.0 * share));
+        stage_log.find({.kind = "land_below_rivers",
+                        .amount = share,
+                        .text = fmt::format("{:.0f} % of the land lies lower than the river nearest to it: the rivers "
+                                            "stand on walls. Their slopes tell too little of the land's",
+                                            100.0 * share),
+                        .remedy = "Give it, with --set surface.mean_slope=20 or --like DEM",
+                        .key = "surface.mean_slope"});
     }
-    return remarks;
+    return {"land_below_rivers", share, most_sunken, share <= most_sunken};
 }
 
-/// One note for all lakes of a file that cover no cell, with a warning where levels are lost.
-std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels, Run const& run) {
+/// One note for all lakes of a file that cover no cell, or a warning where levels are lost.
+std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels) {
     std::vector<std::uint8_t> seen(polygons.polygons.size() + 1);
     for (std::int32_t const label : labels.values()) {
         seen[static_cast<std::size_t>(label)] = 1;
@@ -276,9 +279,13 @@ std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t>
     }
     if (!lost.empty()) {
         text += fmt::format("; {} of them have levels, the first is {}", lost.size(), lost.front());
-        run.say("warning: " + text);
     }
-    return {{"lake_left_out", one.feature, one.rings.front().front(), static_cast<double>(count), std::move(text)}};
+    return {{.kind = lost.empty() ? FindingKind("lake_left_out") : "lakes_unseen",
+             .feature = one.feature,
+             .where = one.rings.front().front(),
+             .amount = static_cast<double>(count),
+             .text = std::move(text),
+             .key = "surface.lakes"}};
 }
 
 /// By cell: number of its lake; 0: none; without cells: no lakes are requested.
@@ -317,7 +324,7 @@ Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfAr
     }
     Polygons const polygons = lake_polygons(plan, planform.grid, run);
     Lakes lakes{blend::number_polygons(polygons, planform.grid)};
-    lakes.notes = unseen_lakes(polygons, lakes.labels, run);
+    lakes.notes = unseen_lakes(polygons, lakes.labels);
     std::ranges::transform(polygons.polygons, std::back_inserter(lakes.level), &Polygon::value);
     return lakes;
 }
@@ -328,6 +335,7 @@ struct Solved {
     surface::EquilibriumParams params;
     std::optional<RebuildStatistics> rebuilt = {};
     std::optional<LikeStatistics> like = {};
+    std::vector<Finding> findings = {};
 };
 
 /// Whether the terrain is rebuilt from rivers with heights of a file.
@@ -356,21 +364,32 @@ surface::RebuildParams rebuild_params_of(EquilibriumRecipe const& wanted, surfac
 }
 
 /// Warns where rivers tell little of how steep the land between them is, and nothing else does.
-void warn_of_survey(surface::RiverSurvey const& survey, Run const& run) {
+std::vector<Finding> doubts_of(surface::RiverSurvey const& survey) {
     constexpr double least_km2 = 0.1;
     constexpr double least_deg = 5.0;
     constexpr double of_smooth = 0.8; // mean slope of smooth terrain relative to that of the terrain
     char const* const remedy = "Give it, with --like DEM or --set surface.mean_slope=";
     double const slope_deg = survey.mean_slope_deg / of_smooth;
     if (survey.source_km2 > 0.0 && survey.source_km2 < least_km2) {
-        run.say(fmt::format("warning: half of the rivers begin where less than {:.2g} km² drain: they are rills or "
-                            "gullies, whose slope tells little of the land's, taken for {:.0f} degrees. {}{:.0f}",
-                            survey.source_km2, slope_deg, remedy, 20.0));
-    } else if (slope_deg < least_deg) {
-        run.say(fmt::format("warning: by its rivers the land is gentle, {:.1f} degrees on average; below {:g} degrees "
-                            "they tell little of its slope. {}{:.1f}",
-                            slope_deg, least_deg, remedy, 0.5 * slope_deg));
+        return {{.kind = "rills",
+                 .amount = survey.source_km2,
+                 .text = fmt::format("half of the rivers begin where less than {:.2g} km² drain: they are rills or "
+                                     "gullies, whose slope tells little of the land's, taken for {:.0f} degrees",
+                                     survey.source_km2, slope_deg),
+                 .remedy = fmt::format("{}{:.0f}", remedy, 20.0),
+                 .key = "surface.mean_slope",
+                 .numbers = {{"mean_slope", slope_deg, "deg"}}}};
     }
+    if (slope_deg < least_deg) {
+        return {{.kind = "gentle_land",
+                 .amount = slope_deg,
+                 .text = fmt::format("by its rivers the land is gentle, {:.1f} degrees on average; below {:g} degrees "
+                                     "they tell little of its slope",
+                                     slope_deg, least_deg),
+                 .remedy = fmt::format("{}{:.1f}", remedy, 0.5 * slope_deg),
+                 .key = "surface.mean_slope"}};
+    }
+    return {};
 }
 
 Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::EquilibriumFields const& fields,
@@ -378,12 +397,11 @@ Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::Equi
     params.edge = params.edge == surface::Edge::open ? surface::Edge::closed : params.edge;
     surface::RebuiltTerrain rebuilt =
         surface::rebuild(channels, fields, rebuild_params_of(plan.recipe.surface->equilibrium, params), run);
-    if (!params.bring_to_target) {
-        warn_of_survey(rebuilt.survey, run);
-    }
-    return {std::move(rebuilt.terrain), params,
-            RebuildStatistics{rebuilt.survey.source_km2, rebuilt.survey.spacing_m, rebuilt.survey.concavity,
-                              rebuilt.smooth_slope_deg}};
+    return {.land = std::move(rebuilt.terrain),
+            .params = params,
+            .rebuilt = RebuildStatistics{rebuilt.survey.source_km2, rebuilt.survey.spacing_m, rebuilt.survey.concavity,
+                                         rebuilt.smooth_slope_deg},
+            .findings = params.bring_to_target ? std::vector<Finding>{} : doubts_of(rebuilt.survey)};
 }
 
 /// Correlation of gradients at the distance at which the DEM of surface.like has it.
@@ -418,14 +436,23 @@ Solved with_texture(LikeDem const& like, surface::EquilibriumParams params, Solv
         here = there;
     }
     solved.like = LikeStatistics{like.mean_slope_deg, like.correlation, like.lag_m, params.roughness, here};
-    run.tell("like",
-             fmt::format("with a roughness of {:.2g} gradients {:g} m apart are correlated by {:.2f} ({:.2f} in "
-                         "the DEM)",
-                         params.roughness, like.lag_m, here, like.correlation));
+    solved.findings.push_back(
+        {.kind = "like",
+         .amount = here,
+         .text = fmt::format("with a roughness of {:.2g} gradients {:g} m apart are correlated by {:.2f} ({:.2f} in "
+                             "the DEM)",
+                             params.roughness, like.lag_m, here, like.correlation),
+         .key = "surface.like",
+         .numbers = {{"roughness", params.roughness}, {"lag", like.lag_m, "m"}, {"wanted", like.correlation, "1"}}});
     if (std::fabs(here - like.correlation) > worth_a_word) {
-        run.say(fmt::format("warning: the texture of surface.like cannot be reached with surface.roughness alone: the "
-                            "terrain is {} than that DEM",
-                            here < like.correlation ? "rougher" : "smoother"));
+        solved.findings.push_back(
+            {.kind = "texture_missed",
+             .amount = here,
+             .text = fmt::format("the texture of surface.like cannot be reached with surface.roughness alone: the "
+                                 "terrain is {} than that DEM",
+                                 here < like.correlation ? "rougher" : "smoother"),
+             .key = "surface.like",
+             .numbers = {{"wanted", like.correlation, "1"}}});
     }
     return solved;
 }
@@ -438,15 +465,19 @@ Solved solve(Plan const& plan, Planform const& planform, Channels const& channel
     surface::EquilibriumParams const params =
         params_of(plan, plan.recipe.network->heights, edge_of(plan, planform, fields.land, channels));
     if (rebuilds(plan) && plan.recipe.surface->equilibrium.edge == surface::Edge::open) {
-        run.say("warning: surface.edge = \"open\" is not used: around heights of a file the terrain ends at the grid, "
-                "and all water drains to the rivers");
+        stage_log.find({.kind = "key_without_effect",
+                        .text = "surface.edge = \"open\" is not used: around heights of a file the terrain ends at the "
+                                "grid, and all water drains to the rivers",
+                        .key = "surface.edge"});
     }
     auto const solve_with = [&](surface::EquilibriumParams const& with) {
         return rebuilds(plan) ? rebuild_terrain(plan, channels, fields, with, run)
                               : Solved{surface::equilibrium(channels, fields, with, run), with};
     };
-    return stage_log.stage(
+    Solved solved = stage_log.stage(
         "fill", [&] { return plan.like ? with_texture(*plan.like, params, solve_with, run) : solve_with(params); });
+    stage_log.find(solved.findings);
+    return solved;
 }
 
 EquilibriumStatistics statistics_of(Solved const& solved, Channels const& channels) {
@@ -467,16 +498,17 @@ EquilibriumStatistics statistics_of(Solved const& solved, Channels const& channe
 }
 
 /// Warns if a requested region is not possible.
-void warn_of_region(surface::EquilibriumTerrain const& land, std::optional<double> asked, Run const& run) {
+void warn_of_region(surface::EquilibriumTerrain const& land, std::optional<double> asked, StageLog& stage_log) {
     if (!land.in_region && asked.value_or(1.0) > 1.0) {
-        run.say(
-            fmt::format("warning: surface.region = {:.6g} is not used: it needs an open edge, rivers that leave the "
-                        "grid with heights of thalweg's own, and 64 cells a side",
-                        *asked));
+        stage_log.find({.kind = "key_without_effect",
+                        .text = fmt::format("surface.region = {:.6g} is not used: it needs an open edge, rivers that "
+                                            "leave the grid with heights of thalweg's own, and 64 cells a side",
+                                            *asked),
+                        .key = "surface.region"});
     }
 }
 
-void warn_of_heights(Raster<float> const& dem, bool rebuilt, Run const& run) {
+void warn_of_heights(Raster<float> const& dem, bool rebuilt, StageLog& stage_log) {
     constexpr float most_m = 9000.0F;
     float low = std::numeric_limits<float>::infinity();
     float high = -low;
@@ -485,10 +517,14 @@ void warn_of_heights(Raster<float> const& dem, bool rebuilt, Run const& run) {
         high = z > high ? z : high;
     }
     if (high - low > most_m) {
-        run.say(fmt::format("warning: the terrain is {:.0f} m high, higher than any on Earth. {}", high - low,
-                            rebuilt ? "Land far from all rivers rises with the distance: add rivers there, or leave it "
-                                      "out with surface.mask."
-                                    : "--set surface.relief=1000 gives it a height of 1000 m."));
+        stage_log.find(
+            {.kind = "high_terrain",
+             .amount = static_cast<double>(high - low),
+             .text = fmt::format("the terrain is {:.0f} m high, higher than any on Earth", high - low),
+             .remedy = rebuilt ? "Land far from all rivers rises with the distance: add rivers there, or leave it out "
+                                 "with surface.mask"
+                               : "--set surface.relief=1000 gives it a height of 1000 m",
+             .key = rebuilt ? "surface.mask" : "surface.relief"});
     }
 }
 
@@ -501,16 +537,23 @@ struct WithLakes {
 };
 
 /// One warning for all lakes that have not the levels asked.
-void warn_of(std::vector<std::string> const& lakes, Run const& run) {
-    if (!lakes.empty()) {
-        std::string const more =
-            lakes.size() > 1 ? fmt::format(". Others that miss their levels: {}", lakes.size() - 1) : "";
-        run.say("warning: " + lakes.front() + more);
+std::vector<Finding> off_levels(std::vector<Finding> const& lakes) {
+    if (lakes.empty()) {
+        return {};
     }
+    Finding const& first = lakes.front();
+    std::string const more =
+        lakes.size() > 1 ? fmt::format(". Others that miss their levels: {}", lakes.size() - 1) : "";
+    return {{.kind = "lakes_off_levels",
+             .feature = first.feature,
+             .where = first.where,
+             .text = first.text + more,
+             .key = "surface.lakes",
+             .numbers = {{"lakes", static_cast<double>(lakes.size())}}}};
 }
 
 /// Gives lakes their levels, and their notes; warns of lakes with levels that are left out.
-void set_levels(Lakes const& wanted, network::Flooded& flooded, Run const& run) {
+void set_levels(Lakes const& wanted, network::Flooded& flooded) {
     Channels& channels = flooded.drawn.channels;
     for (network::Lake const& lake : flooded.lakes) {
         if (double const level = wanted.level_of(lake.label); !std::isnan(level)) {
@@ -518,18 +561,18 @@ void set_levels(Lakes const& wanted, network::Flooded& flooded, Run const& run) 
             channels.lake_z[lake.outlet] = static_cast<float>(level);
         }
     }
-    std::vector<std::string> lost;
+    std::vector<Finding> lost;
     for (Finding& note : flooded.notes) {
         double const level = wanted.level_of(note.feature);
         if (std::isnan(level)) {
             continue;
         }
         note.text += fmt::format("; level asked for: {:.6g} m", level);
-        if (note.kind == "lake_left_out") {
-            lost.push_back(note.text);
+        if (note.kind == FindingKind("lake_left_out")) {
+            lost.push_back(note);
         }
     }
-    warn_of(lost, run);
+    append(flooded.notes, off_levels(lost));
 }
 
 /// What keeps the level of a lake up: the next lake with a level downstream, or the end of the river.
@@ -548,13 +591,12 @@ std::string hindrance(WithLakes const& flooded, network::Lake const& lake, Raste
     return fmt::format("lake {} stands at {:.6g} m, cells downstream: {}", below->label, dem[channels.cell[at]], cells);
 }
 
-/// Notes and warnings on lakes that have not the levels asked.
-std::vector<Finding> missed_levels(WithLakes const& flooded, Raster<float> const& dem, Run const& run) {
+/// Notes, and a warning, on lakes that have not the levels asked.
+std::vector<Finding> missed_levels(WithLakes const& flooded, Raster<float> const& dem) {
     std::vector<Finding> notes;
     if (!flooded.by_levels) {
         return notes;
     }
-    std::vector<std::string> texts;
     Channels const& channels = flooded.rivers.channels;
     for (network::Lake const& lake : flooded.lakes) {
         float const wanted = channels.lake_z[lake.outlet];
@@ -566,9 +608,8 @@ std::vector<Finding> missed_levels(WithLakes const& flooded, Raster<float> const
         notes.push_back({"lake_level", lake.label, at, static_cast<double>(dem[cell]),
                          fmt::format("lake {} at ({:.3f}, {:.3f}) has the level {:.6g} m, not {:.6g} m: {}", lake.label,
                                      at.x, at.y, dem[cell], wanted, hindrance(flooded, lake, dem))});
-        texts.push_back(notes.back().text);
     }
-    warn_of(texts, run);
+    append(notes, off_levels(notes));
     return notes;
 }
 
@@ -578,7 +619,7 @@ WithLakes with_lakes(Plan const& plan, Planform const& planform, network::Channe
         return {std::move(rivers)};
     }
     network::Flooded flooded = network::flood_lakes(rivers, lakes.labels, run);
-    set_levels(lakes, flooded, run);
+    set_levels(lakes, flooded);
     append(lakes.notes, flooded.notes);
     bool const by_levels = !flooded.drawn.channels.lake_z.empty();
     return {std::move(flooded.drawn), std::move(flooded.lakes), std::move(lakes.notes), by_levels};
@@ -602,43 +643,41 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     }
     EquilibriumResult result;
     result.heights = raised ? raised->statistics : HeightsStatistics{};
-    std::vector<Finding>& notes = result.remarks.notes;
     network::ChannelsParams drawing;
     drawing.look_cells = rebuilds(plan) ? 0 : drawing.look_cells; // heights decide where water goes
     network::ChannelsOfArcs rivers =
         stage_log.stage("channels", [&] { return network::channels(planform.network, planform.grid, drawing, run); });
-    append(notes, rivers.notes);
+    stage_log.find(rivers.notes);
     if (heights != Heights::graded) {
         rivers.channels.z = asked_heights(raised->network, rivers.channels, heights);
     }
     WithLakes flooded = with_lakes(plan, planform, std::move(rivers), run);
-    append(notes, flooded.notes);
+    stage_log.find(flooded.notes);
     result.lakes = std::ssize(flooded.lakes);
     Solved solved = solve(plan, planform, flooded.rivers.channels, stage_log, run);
     surface::EquilibriumTerrain& surface = solved.land;
-    append(notes, missed_levels(flooded, surface.dem, run));
+    stage_log.find(missed_levels(flooded, surface.dem));
     rivers = std::move(flooded.rivers);
     result.statistics = statistics_of(solved, rivers.channels);
-    append(result.remarks, target_remarks(surface, solved.params, flooded.by_levels, run));
+    result.checks = target_checks(surface, solved.params, flooded.by_levels, stage_log);
     bool const given = solved.params.heights != surface::RiverHeights::graded;
     if (given || flooded.by_levels || solved.params.heads == surface::Heads::kept) {
-        char const* const remedy = given ? R"(network.heights = "graded" or "soft" lets rivers follow it.)"
-                                   : flooded.by_levels ? "Levels of lakes nearer to the terrain need fewer."
-                                                       : "A smaller grid.cell gives slopes room between rivers.";
-        append(result.remarks, wall_remarks(surface, rivers.channels, remedy, run));
+        char const* const remedy = given               ? R"(network.heights = "graded" or "soft" lets rivers follow it)"
+                                   : flooded.by_levels ? "Levels of lakes nearer to the terrain need fewer"
+                                                       : "A smaller grid.cell gives slopes room between rivers";
+        result.checks.push_back(wall_check(surface, rivers.channels, remedy, stage_log));
     }
     if (solved.rebuilt) {
-        append(result.remarks, valley_remarks(surface.dem, rivers.channels,
-                                              solved.params.edge == surface::Edge::coast ||
-                                                  solved.params.edge == surface::Edge::mainland,
-                                              run));
+        bool const has_sea =
+            solved.params.edge == surface::Edge::coast || solved.params.edge == surface::Edge::mainland;
+        result.checks.push_back(valley_check(surface.dem, rivers.channels, has_sea, stage_log, run));
     }
-    warn_of_region(surface, plan.recipe.surface->equilibrium.region, run);
-    warn_of_heights(surface.dem, solved.rebuilt.has_value(), run);
+    warn_of_region(surface, plan.recipe.surface->equilibrium.region, stage_log);
+    warn_of_heights(surface.dem, solved.rebuilt.has_value(), stage_log);
     Typed typed{planform.network, planform.types};
     if (!surface.shortened.empty()) {
         network::Shortened shortened = network::shorten(planform.network, rivers, surface.shortened);
-        append(notes, shortened.notes);
+        stage_log.find(shortened.notes);
         rivers = std::move(shortened.drawn);
         typed = type_rivers(std::move(shortened.network), *plan.recipe.network, run);
     }

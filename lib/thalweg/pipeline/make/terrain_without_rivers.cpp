@@ -137,6 +137,7 @@ struct LandOfPoints {
     Raster<float> land;
     std::optional<Tin> tin = {};
     std::optional<SolverStatistics> diffusion = {};
+    std::vector<Finding> findings = {};
 };
 
 // grid: of the terrain, whose cells may be coarser than the recipe's, of cell_m.
@@ -151,11 +152,15 @@ LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints c
         params.length_y = (s.length ? (*s.length)[1] : default_length_cells) / step;
         params.slope_rad = s.slope.value_or(0.0);
         skeleton::Regression regression = skeleton::regress(points, grid, params, run);
+        LandOfPoints made{std::move(regression.surface)};
         if (regression.rank < regression.terms) {
-            run.say(fmt::format("warning: the points determine {} of {} terms of the regression", regression.rank,
-                                regression.terms));
+            made.findings.push_back({.kind = "rank_deficient",
+                                     .amount = static_cast<double>(regression.terms - regression.rank),
+                                     .text = fmt::format("the points determine {} of {} terms of the regression",
+                                                         regression.rank, regression.terms),
+                                     .key = "surface.method"});
         }
-        return {std::move(regression.surface)};
+        return made;
     }
     if (wanted.method == Method::diffuse) {
         Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
@@ -263,16 +268,19 @@ std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeatureP
 }
 
 /// Warns of lengths that only a fit can determine: correlation is measured over lags of up to half an axis.
-void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run) {
+void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, StageLog& stage_log) {
     if (!s.length) {
         return;
     }
     auto const warn = [&](char const* name, double length, char const* axis, std::int64_t cells) {
         if (length > 0.5 * static_cast<double>(cells)) {
-            run.say(
-                fmt::format("warning: statistics.length: {} of {} cells is more than half of the {} {}: the grid is "
-                            "too small to show it, and a fit stands for it",
-                            name, length, cells, axis));
+            stage_log.find({.kind = "small_grid",
+                            .amount = length,
+                            .text = fmt::format("statistics.length: {} of {} cells is more than half of the {} {}: the "
+                                                "grid is too small to show it, and a fit stands for it",
+                                                name, length, cells, axis),
+                            .key = "statistics.length",
+                            .numbers = {{"grid", static_cast<double>(cells), "cells"}}});
         }
     };
     warn("Lx", (*s.length)[0], "columns", grid.width);
@@ -281,9 +289,9 @@ void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, Run const& run
 
 // Throws, before any work, if the statistics cannot be reached on this grid; warns of lengths that only a fit can
 // determine.
-void require_targets(StatisticsRecipe const& wanted, Grid const& grid, Run const& run) {
+void require_targets(StatisticsRecipe const& wanted, Grid const& grid, StageLog& stage_log) {
     naming_keys([&] { fractal::check_targets(Raster<float>(grid), targets_of(wanted)); });
-    warn_of_lengths(wanted, grid, run);
+    warn_of_lengths(wanted, grid, stage_log);
 }
 
 // Matches a terrain to the statistics. One from which they cannot be reached, smoother or rougher between neighbours
@@ -409,35 +417,41 @@ Coarse with_coarse_terrain(Plan const& plan, Grid const& grid, StageLog& stage_l
     skeleton::Scattered const points = points_of(recipe, grid, plan.points, run);
     std::vector<Check> checks;
     if (scatters_points(recipe)) {
-        checks.push_back(points_missing(points.missing, recipe.skeleton->scatter, run));
+        checks.push_back(points_missing(points, *recipe.skeleton, stage_log));
     }
     LandOfPoints made =
         stage_log.stage("land", [&] { return land_of_points(recipe, grid.cell_m, points.points, coarse, run); });
+    stage_log.find(made.findings);
     stage_log.say(fmt::format("{} points", points.points.points.size()));
     return {std::move(made.land), std::move(made.tin), made.diffusion, std::move(checks)};
 }
 
 } // namespace
 
-Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run) {
-    if (missing > 0) {
-        run.say(fmt::format("warning: {} of {} points found no room; a smaller skeleton.spacing or skeleton.scatter "
-                            "leaves them some",
-                            missing, wanted));
+Check points_missing(skeleton::Scattered const& points, SkeletonRecipe const& wanted, StageLog& stage_log) {
+    if (points.density > skeleton::darts_density) {
+        stage_log.find({.kind = "close_points",
+                        .amount = points.density,
+                        .text = fmt::format("{} points {} cells apart have a density of {:.3f}, about as dense as "
+                                            "points at random can stand (0.7)",
+                                            wanted.scatter, wanted.spacing_cells, points.density),
+                        .key = "skeleton.spacing"});
     }
-    return {"points_missing", static_cast<double>(missing), 0.0, missing == 0};
-}
-
-void append(Remarks& to, Remarks from) {
-    append(to.notes, std::move(from.notes));
-    append(to.checks, std::move(from.checks));
-    append(to.findings, std::move(from.findings));
+    if (points.missing > 0) {
+        stage_log.find({.kind = "points_without_room",
+                        .amount = static_cast<double>(points.missing),
+                        .text = fmt::format("{} of {} points found no room", points.missing, wanted.scatter),
+                        .remedy = "A smaller skeleton.spacing or skeleton.scatter leaves them some",
+                        .key = "skeleton.scatter",
+                        .numbers = {{"points", static_cast<double>(wanted.scatter)}}});
+    }
+    return {"points_missing", static_cast<double>(points.missing), 0.0, points.missing == 0};
 }
 
 SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run const& run) {
     Grid const& grid = *plan.grid;
     if (plan.recipe.statistics) { // before any work
-        require_targets(*plan.recipe.statistics, grid, run);
+        require_targets(*plan.recipe.statistics, grid, stage_log);
     }
     Coarse coarse = with_coarse_terrain(plan, grid, stage_log, run);
     Raster<float> dem = std::move(coarse.dem);

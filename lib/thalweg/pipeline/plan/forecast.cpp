@@ -3,7 +3,6 @@
 
 #include <algorithm>
 #include <cmath>
-#include <string_view>
 
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
@@ -122,6 +121,9 @@ std::vector<std::string> stages_of(Plan const& plan) {
     if (recipe.network) {
         stages.emplace_back("check");
     }
+    if (!recipe.output.against.empty()) {
+        stages.emplace_back("compare");
+    }
     return stages;
 }
 
@@ -164,13 +166,14 @@ double seconds_of(Recipe const& recipe, Forecast const& found) {
     return seconds;
 }
 
-/// The Run of a forecast: planning logs warnings only.
-Run warning_only(Run run) {
-    run.log = [say = std::move(run.log)](std::string_view line) {
-        if (say && line.starts_with("warning:")) {
-            say(line);
+/// The Run of a forecast: of what planning finds it reports warnings, and no progress of stages.
+Run warnings_only(Run run) {
+    run.found = [report = run](Finding const& finding) {
+        if (finding.severity() != Severity::note) {
+            report.report({finding});
         }
     };
+    run.log = {};
     return run;
 }
 
@@ -183,11 +186,12 @@ Forecast forecast(Plan const& plan) {
     found.stages = stages_of(plan);
     found.memory_bytes = memory_of(plan.recipe, found.cells);
     found.seconds = seconds_of(plan.recipe, found);
+    found.findings = plan.findings;
     return found;
 }
 
 Forecast forecast(Recipe const& recipe, Run const& run) {
-    return forecast(resolve(recipe, warning_only(run)));
+    return forecast(resolve(recipe, warnings_only(run)));
 }
 
 } // namespace thalweg::pipeline

@@ -160,9 +160,17 @@ Recipe rebuild_recipe(Recipe recipe, Run const& run) {
 
 Recipe settled_recipe(Recipe const& wanted, Run const& run) {
     check_recipe(wanted);
-    Recipe const on_grid = on_raster(wanted) ? settle_on_raster(wanted, run).recipe : wanted;
-    bool const on_lines = wanted.network && wanted.network->source == Source::lines;
-    return with_absolute_files(on_lines ? settle_on_lines(on_grid, read_lines(on_grid, run), run).recipe : on_grid);
+    OnRaster const on = on_raster(wanted) ? settle_on_raster(wanted, run) : OnRaster{wanted};
+    StageLog stage_log(run);
+    stage_log.find(on.findings);
+    Recipe settled = on.recipe;
+    if (wanted.network && wanted.network->source == Source::lines) {
+        RiverLines const lines = read_lines(settled, run);
+        stage_log.find(lines.findings);
+        settled = settle_on_lines(std::move(settled), lines, stage_log, run).recipe;
+    }
+    run.report(stage_log.take_findings());
+    return with_absolute_files(std::move(settled));
 }
 
 } // namespace thalweg::pipeline

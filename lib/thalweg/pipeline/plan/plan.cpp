@@ -44,6 +44,15 @@ void StageLog::say(std::string const& words) const {
     run_.tell(last.stage, fmt::format("{:<56}{:6.1f} s", words, last.wall_s));
 }
 
+StageLog::~StageLog() {
+    if (std::uncaught_exceptions() > exceptions_) {
+        try {
+            run_.report(findings_);
+        } catch (...) { // the error that ends the work says more
+        }
+    }
+}
+
 bool has_coastlines(Plan const& plan) {
     NetworkRecipe const& rivers = *plan.recipe.network;
     std::vector<SecondaryLine> const& lines = plan.lines.secondary;
@@ -130,7 +139,7 @@ std::vector<Cell> spread(Recipe const& recipe, Mask const& land, std::vector<Cel
 }
 
 /// The coast cells nearest to the points of a file.
-std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<Finding>& notes, Run const& run) {
+std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, StageLog& stage_log, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     Grid const& grid = land.grid();
     refuse_if<BadInput>(wanted.seeds > 0,
@@ -158,10 +167,10 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, std::vector<
         }
         double const moved = distance(at, grid.centre(*nearest));
         if (moved > grid.cell_m) {
-            notes.push_back({"moved_outlet", 0, grid.centre(*nearest), moved,
-                             fmt::format("the outlet at ({:.1f}, {:.1f}) lies off the coast and was moved {:.0f} m to "
-                                         "cell ({}, {})",
-                                         at.x, at.y, moved, nearest->col, nearest->row)});
+            stage_log.find({"moved_outlet", 0, grid.centre(*nearest), moved,
+                            fmt::format("the outlet at ({:.1f}, {:.1f}) lies off the coast and was moved {:.0f} m to "
+                                        "cell ({}, {})",
+                                        at.x, at.y, moved, nearest->col, nearest->row)});
         }
         outlets.push_back(*nearest);
     }
@@ -193,7 +202,7 @@ std::vector<Cell> coast_along_file(Recipe const& recipe, Mask& land, Run const& 
     return coast;
 }
 
-std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Finding>& notes, Run const& run) {
+std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, StageLog& stage_log, Run const& run) {
     ForestRecipe const& wanted = recipe.network->forest;
     io::Source const file = file_in(recipe, wanted.outlets);
     if (wanted.outlets.empty()) {
@@ -202,7 +211,7 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, std::vector<Findi
     }
     bool const points = io::is_text_of_points(file.path) ||
                         (!io::holds_polygons(file) && io::content_of(file).kind == io::FileContent::Kind::points);
-    return points ? at_points(recipe, land, notes, run)
+    return points ? at_points(recipe, land, stage_log, run)
                   : spread(recipe, land, coast_along_file(recipe, land, run), run);
 }
 
@@ -223,7 +232,7 @@ ForestLand forest_land(Recipe const& recipe, Raster<float> const& raster, StageL
     for (std::int64_t i = 0; i < raster.cells(); ++i) {
         found.land[i] = std::isnan(raster[i]) ? 0 : found.land[i];
     }
-    found.outlets = outlets_of(recipe, found.land, found.notes, run);
+    found.outlets = outlets_of(recipe, found.land, stage_log, run);
     found.has_sea = std::ranges::any_of(found.land.values(), [](std::uint8_t v) { return v == 0; });
     return found;
 }
@@ -365,27 +374,37 @@ Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log,
             });
     });
     stage_log.say(fmt::format("{} lines from {}", lines.lines.size(), lines.name));
-    OnLines settled = settle_on_lines(std::move(recipe), lines, run);
+    stage_log.find(lines.findings);
+    OnLines settled = settle_on_lines(std::move(recipe), lines, stage_log, run);
     Plan plan;
     plan.recipe = std::move(settled.recipe);
     Grid const grid = frame_lines(lines, plan.recipe.grid);
-    run.tell("grid", fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why));
+    stage_log.find({.kind = "grid",
+                    .amount = grid.cell_m,
+                    .text = fmt::format("{}x{} cells of {} m{}", grid.width, grid.height, grid.cell_m, settled.why),
+                    .numbers = {{"width", static_cast<double>(grid.width), "cells"},
+                                {"height", static_cast<double>(grid.height), "cells"}}});
     plan.grid = grid;
     plan = with_heights_of_lines(std::move(plan), lines);
     if (!plan.recipe.output.against.empty()) {
-        AgainstOnGrid on = against_on_grid(plan.recipe, grid, run);
+        AgainstOnGrid on = against_on_grid(plan.recipe, grid, stage_log, run);
         plan.against = std::move(on.dem);
         bool const rebuilt = in_equilibrium(plan.recipe) && plan.recipe.network->heights == Heights::file;
         plan.land = rebuilt ? std::move(on.land) : Mask{};
         if (auto const gaps = std::ranges::count(plan.land.values(), 0); gaps > 0) {
-            run.tell("gaps", fmt::format("{} cells without data in {} are no land", gaps, plan.recipe.output.against));
+            stage_log.find(
+                {.kind = "gaps",
+                 .amount = static_cast<double>(gaps),
+                 .text = fmt::format("{} cells without data in {} are no land", gaps, plan.recipe.output.against),
+                 .key = "output.against"});
         }
     }
     Mask const land = raster.cells() > 0 ? with_heights(raster) : plan.land;
     plan.lines = plan.recipe.grid.clip ? clipped(std::move(lines), grid, land) : std::move(lines);
     LinesRecipe const& wanted = plan.recipe.network->lines;
     if (wanted.orientation == network::Orientation::automatic) {
-        plan.line_dem = read_dem_in(file_in(plan.recipe, wanted.dem), grid.crs, "network.lines.dem", {}, run);
+        plan.line_dem =
+            read_dem_in(file_in(plan.recipe, wanted.dem), grid.crs, "network.lines.dem", {}, stage_log, run);
     }
     return plan;
 }
@@ -404,25 +423,30 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     return points;
 }
 
-/// The points inside the grid, where what lies off it is left out, with a word.
-FeaturePoints inside(FeaturePoints points, Recipe const& recipe, Grid const& grid, Run const& run) {
+/// The points inside the grid, where what lies off it is left out, with a finding.
+FeaturePoints inside(FeaturePoints points, Recipe const& recipe, Grid const& grid, StageLog& stage_log) {
     auto const count = points.points.size();
     std::erase_if(points.points, [&](Vec3 const& p) {
         return p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north;
     });
-    if (points.points.size() < count) {
-        run.say(fmt::format("warning: {} of the {} points of {} lie off the grid and are left out",
-                            count - points.points.size(), count, recipe.skeleton->points));
+    if (auto const off = count - points.points.size(); off > 0) {
+        stage_log.find({.kind = "points_off_grid",
+                        .amount = static_cast<double>(off),
+                        .text = fmt::format("{} of the {} points of {} lie off the grid and are left out", off, count,
+                                            recipe.skeleton->points),
+                        .key = "skeleton.points",
+                        .numbers = {{"points", static_cast<double>(count)}}});
     }
     return points;
 }
 
 /// Reads the points and ridges of [skeleton].
-Plan with_skeleton(Plan plan, Run const& run) {
+Plan with_skeleton(Plan plan, StageLog& stage_log, Run const& run) {
     plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
     plan.ridge_lines = read_ridge_lines(plan.recipe, run);
+    stage_log.find(plan.ridge_lines.findings);
     if (plan.grid && plan.recipe.grid.clip) {
-        plan.points = inside(std::move(plan.points), plan.recipe, *plan.grid, run);
+        plan.points = inside(std::move(plan.points), plan.recipe, *plan.grid, stage_log);
         plan.ridge_lines = network::clip_lines(plan.ridge_lines, *plan.grid);
     }
     return plan;
@@ -460,7 +484,7 @@ double meander_of(Plan const& plan) {
 }
 
 /// Resolves settings that depend on the source of the rivers, and their points.
-Plan with_rivers_settled(Plan plan, Run const& run) {
+Plan with_rivers_settled(Plan plan, StageLog& stage_log, Run const& run) {
     if (!plan.recipe.network) {
         return plan;
     }
@@ -472,7 +496,7 @@ Plan with_rivers_settled(Plan plan, Run const& run) {
     rivers.prune_cells = rivers.prune_cells.value_or(all_over ? 20.0 : 0.0);
     rivers.meander = rivers.meander.value_or(meander_of(plan));
     refuse_unused_keys(plan.recipe); // possible now that the rivers' heights are known
-    return with_skeleton(std::move(plan), run);
+    return with_skeleton(std::move(plan), stage_log, run);
 }
 
 /// Resolves settings that depend on the method of the surface.
@@ -494,12 +518,12 @@ Plan with_surface_settled(Plan plan) {
 }
 
 /// Reads the DEMs that the terrain shall be like, and be compared with.
-Plan with_dems(Plan plan, Run const& run) {
+Plan with_dems(Plan plan, StageLog& stage_log, Run const& run) {
     if (plan.recipe.surface && !plan.recipe.surface->equilibrium.like.empty()) {
-        plan.like = measure_like(plan.recipe, plan.recipe.grid.cell_m, run);
+        plan.like = measure_like(plan.recipe, plan.recipe.grid.cell_m, stage_log, run);
     }
     if (plan.against.cells() == 0) {
-        plan.against = read_against(plan.recipe, plan.recipe.grid.crs, run);
+        plan.against = read_against(plan.recipe, plan.recipe.grid.crs, stage_log, run);
     }
     return plan;
 }
@@ -517,7 +541,7 @@ void require_fit(Plan const& plan) {
 /// The DEM that is the surface, if there is one, on the grid that it settles.
 OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) {
     if (!on_raster(recipe)) {
-        return {recipe, {}};
+        return {.recipe = recipe};
     }
     require_files(recipe);
     OnRaster on = stage_log.stage("raster", [&] {
@@ -525,6 +549,7 @@ OnRaster with_raster(Recipe const& recipe, StageLog& stage_log, Run const& run) 
             run, "raster", [&] { return raster_made_from(recipe); }, [&] { return settle_on_raster(recipe, run); },
             [](OnRaster const& made) { return made.dem.cells() * static_cast<std::int64_t>(sizeof(float)); });
     });
+    stage_log.find(on.findings);
     GridRecipe const settled = on.recipe.grid;
     on.recipe = recipe; // what is kept may come from another one
     on.recipe.grid = settled;
@@ -544,12 +569,14 @@ Plan resolve(Recipe const& recipe, Run const& run) {
     OnRaster on = with_raster(recipe, stage_log, run);
     Plan plan = by_source(on.recipe, on.dem, stage_log, run);
     plan.raster = std::move(on.dem);
-    plan = with_rivers_settled(std::move(plan), run);
+    plan = with_rivers_settled(std::move(plan), stage_log, run);
     plan = with_surface_settled(std::move(plan));
     require_files(plan.recipe);
-    plan = with_dems(std::move(plan), run);
+    plan = with_dems(std::move(plan), stage_log, run);
     require_fit(plan);
+    plan.findings = stage_log.take_findings();
     plan.timings_s = stage_log.take();
+    run.report(plan.findings);
     return plan;
 }
 

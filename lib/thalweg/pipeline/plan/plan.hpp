@@ -30,10 +30,9 @@ using Timings = std::vector<StageTime>;
 
 /// Where a forest may grow.
 struct ForestLand {
-    Mask land;                  ///< 0: sea
-    bool has_sea = false;       ///< some cell is sea
-    std::vector<Cell> outlets;  ///< on its coast
-    std::vector<Finding> notes; ///< on outlets moved to the coast
+    Mask land;                 ///< 0: sea
+    bool has_sea = false;      ///< some cell is sea
+    std::vector<Cell> outlets; ///< on its coast
 };
 
 /// What terrain takes from the DEM of surface.like.
@@ -59,9 +58,10 @@ struct Plan {
     Raster<float> against; ///< of output.against, on the grid where that is known, else as its file has it
     /// 0: a gap of that DEM, where terrain is rebuilt from heights of a file; without cells: there is none
     Mask land;
-    FeaturePoints points;   ///< of skeleton.points; their CRS is the grid's, also without points
-    RiverLines ridge_lines; ///< of skeleton.ridge_lines; a line has heights at all vertices or NaN at all
-    Timings timings_s;      ///< of reading and growing
+    FeaturePoints points;          ///< of skeleton.points; their CRS is the grid's, also without points
+    RiverLines ridge_lines;        ///< of skeleton.ridge_lines; a line has heights at all vertices or NaN at all
+    std::vector<Finding> findings; ///< on the recipe and what was read
+    Timings timings_s;             ///< of reading and growing
 };
 
 /// Checks a recipe and its input files and resolves everything that depends on them. Rivers, strokes, regions, outlets,
@@ -80,6 +80,7 @@ struct Forecast {
     std::int64_t cells = 0;          ///< of the grid; an estimate if it is unknown
     std::int64_t memory_bytes = 0;   ///< estimated upper limit
     double seconds = 0.0;            ///< estimated, on one core of 2020
+    std::vector<Finding> findings;   ///< of the plan
 };
 
 /// Estimates the work of make().

@@ -117,31 +117,40 @@ Raster<float> read_field(io::Source const& source, Grid const& grid, std::string
 }
 
 Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
-                          std::optional<double> nodata, Run const& run) {
+                          std::optional<double> nodata, StageLog& stage_log, Run const& run) {
     if (source.path.empty()) {
         return {};
     }
-    Raster<float> dem = io::read_dem(source, {.nodata = nodata}, run);
+    io::DemFile const read = io::read_dem_file(source, {.nodata = nodata}, run);
+    stage_log.find(read.findings);
+    Raster<float> const& dem = read.dem;
     Grid lattice;
     lattice.cell_m = io::ground_cell(dem.grid()).side_m;
     lattice.crs = crs;
     return io::warp_to_grid(dem, lattice, fmt::format("{} = \"{}\"", what, source.path), run);
 }
 
-LikeDem measure_like(Recipe const& recipe, double cell_m, Run const& run) {
+LikeDem measure_like(Recipe const& recipe, double cell_m, StageLog& stage_log, Run const& run) {
     constexpr std::int64_t least_cells = 100;
     constexpr double least_lag_cells = 4.0;
     std::string const& name = recipe.surface->equilibrium.like;
     std::string const what = fmt::format("surface.like = \"{}\"", name);
-    Raster<float> const dem = io::read_dem(file_in(recipe, name), run);
+    io::DemFile const read = io::read_dem_file(file_in(recipe, name), {}, run);
+    stage_log.find(read.findings);
+    Raster<float> const& dem = read.dem;
     Grid lattice;
     lattice.cell_m = cell_m;
     lattice.crs = dem.grid().crs.empty() ? "" : io::metric_crs(dem.grid(), what);
     double const own_m = io::ground_cell(dem.grid()).side_m;
     if (own_m > 1.5 * cell_m) {
-        run.say(fmt::format("warning: {} has cells of {:.4g} m, the grid of {:.4g} m: its slopes are too gentle and "
-                            "its texture too smooth for these. A finer DEM, or --set grid.cell={:.4g}, helps.",
-                            what, own_m, cell_m, own_m));
+        stage_log.find({.kind = "coarse_like",
+                        .amount = own_m,
+                        .text = fmt::format("{} has cells of {:.4g} m, the grid of {:.4g} m: its slopes are too gentle "
+                                            "and its texture too smooth for these",
+                                            what, own_m, cell_m),
+                        .remedy = fmt::format("Take a finer DEM, or set grid.cell={:.4g}", own_m),
+                        .key = "surface.like",
+                        .numbers = {{"grid_cell", cell_m, "m"}}});
     }
     Raster<float> const there = io::warp_to_grid(dem, lattice, what, run);
     measure::Slopes const slopes = measure::slopes(there, run);
@@ -156,23 +165,29 @@ LikeDem measure_like(Recipe const& recipe, double cell_m, Run const& run) {
             found.lag_m = measure::texture_lags_m[k];
         }
     }
-    run.tell("like", fmt::format("{}: mean slope {:.3g} degrees, gradients {:g} m apart are correlated by {:.2f}", name,
-                                 found.mean_slope_deg, found.lag_m, found.correlation));
+    stage_log.find({.kind = "like",
+                    .amount = found.correlation,
+                    .text = fmt::format("{}: mean slope {:.3g} degrees, gradients {:g} m apart are correlated by "
+                                        "{:.2f}",
+                                        name, found.mean_slope_deg, found.lag_m, found.correlation),
+                    .key = "surface.like",
+                    .numbers = {{"mean_slope", found.mean_slope_deg, "deg"}, {"lag", found.lag_m, "m"}}});
     return found;
 }
 
-Raster<float> read_against(Recipe const& recipe, std::string const& crs, Run const& run) {
+Raster<float> read_against(Recipe const& recipe, std::string const& crs, StageLog& stage_log, Run const& run) {
     std::string const& name = recipe.output.against;
     if (name.empty()) {
         return {};
     }
-    Raster<float> dem = io::read_dem(file_in(recipe, name), run);
-    return dem.grid().crs.empty() ? in_crs(dem, crs) : dem;
+    io::DemFile read = io::read_dem_file(file_in(recipe, name), {}, run);
+    stage_log.find(read.findings);
+    return read.dem.grid().crs.empty() ? in_crs(read.dem, crs) : std::move(read.dem);
 }
 
-AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, Run const& run) {
+AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, StageLog& stage_log, Run const& run) {
     std::string const what = fmt::format("output.against = \"{}\"", recipe.output.against);
-    Raster<float> dem = read_against(recipe, grid.crs, run);
+    Raster<float> dem = read_against(recipe, grid.crs, stage_log, run);
     AgainstOnGrid found{io::resample(dem, grid, what, run), {}};
     for (float& z : dem.values()) {
         z = std::isnan(z) ? 0.0F : z;
@@ -197,15 +212,18 @@ std::string reason(network::ChosenCell const& chosen) {
 }
 
 /// Warns where rivers are too close together for the cells.
-void warn_of_crowding(network::ChosenCell const& chosen, Run const& run) {
+void warn_of_crowding(network::ChosenCell const& chosen, StageLog& stage_log) {
     constexpr double worth_a_word = 0.002;
     if (chosen.crowded_share <= worth_a_word) {
         return;
     }
-    run.say(fmt::format("warning: {:.1f} % of the river cells lie beside another river. {}",
-                        100.0 * chosen.crowded_share,
-                        chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart.", chosen.enough_m)
-                                              : "Take a part of the rivers, or set a smaller grid.cell."));
+    stage_log.find(
+        {.kind = "crowded_rivers",
+         .amount = chosen.crowded_share,
+         .text = fmt::format("{:.1f} % of the river cells lie beside another river", 100.0 * chosen.crowded_share),
+         .remedy = chosen.enough_m > 0.0 ? fmt::format("--set grid.cell={} keeps them apart", chosen.enough_m)
+                                         : "Take a part of the rivers, or set a smaller grid.cell",
+         .key = "grid.cell"});
 }
 
 /// A recipe with a mean slope, if it has neither one nor a relief, and the rivers have no heights.
@@ -253,28 +271,35 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
                                         .down_field = wanted.down_field,
                                         .source_crs = wanted.source_crs},
                                        run);
-    for (Finding const& finding : lines.findings) {
-        if (finding.kind == "not_a_line") {
-            run.tell("note", finding.text);
-        }
-    }
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
     network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));
     if (checked.vertices > 0) {
-        run.say(fmt::format("warning: {} vertices in {} have {} for a height, which is taken for none{}",
-                            checked.vertices, checked.lines.name, checked.zeros ? "0" : "-9999 m or less",
-                            checked.zeros ? ": a line has it between higher ones" : ""));
+        checked.lines.findings.push_back(
+            {.kind = "placeholder_heights",
+             .amount = static_cast<double>(checked.vertices),
+             .text = fmt::format("{} vertices in {} have {} for a height, which is taken for none{}", checked.vertices,
+                                 checked.lines.name, checked.zeros ? "0" : "-9999 m or less",
+                                 checked.zeros ? ": a line has it between higher ones" : ""),
+             .key = "network.lines.path",
+             .layer = checked.lines.name});
     }
     lines = std::move(checked.lines);
     network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
     if (filled.filled > 0) {
         std::string const partly =
             filled.partly > 0 ? fmt::format(" {} of them have some, which stay.", filled.partly) : "";
-        run.say(fmt::format("warning: {} of {} lines in {} lack heights, the first is feature {}.{} They get heights "
-                            "from their own vertices and the lines they meet, with network.slope beyond the last one "
-                            "known.",
-                            filled.filled, count, filled.lines.name, filled.first, partly));
+        filled.lines.findings.push_back(
+            {.kind = "filled_heights",
+             .feature = filled.first,
+             .amount = static_cast<double>(filled.filled),
+             .text = fmt::format("{} of {} lines in {} lack heights, the first is feature {}.{} They get heights from "
+                                 "their own vertices and the lines they meet, with network.slope beyond the last one "
+                                 "known",
+                                 filled.filled, count, filled.lines.name, filled.first, partly),
+             .key = "network.lines.path",
+             .layer = filled.lines.name,
+             .numbers = {{"lines", static_cast<double>(count)}, {"in_part", static_cast<double>(filled.partly)}}});
     }
     return std::move(filled.lines);
 }
@@ -286,9 +311,6 @@ RiverLines read_ridge_lines(Recipe const& recipe, Run const& run) {
     RiverLines ridges = io::read_rivers({.path = file_in(recipe, recipe.skeleton->ridge_lines),
                                          .crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs)},
                                         run);
-    for (Finding const& finding : ridges.findings) {
-        run.tell("note", finding.text);
-    }
     bool const all_zero = std::ranges::all_of(ridges.lines, [](RiverLine const& ridge) {
         return std::ranges::all_of(ridge.vertices, [](Vec3 const& v) { return !std::isfinite(v.z) || v.z == 0.0; });
     });
@@ -301,7 +323,7 @@ RiverLines read_ridge_lines(Recipe const& recipe, Run const& run) {
     return ridges;
 }
 
-OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) {
+OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, StageLog& stage_log, Run const& run) {
     recipe.grid.crs = lines.crs;
     if (recipe.grid.cell_m > 0.0) {
         return {with_slope(std::move(recipe), lines.has_z), ""};
@@ -312,7 +334,7 @@ OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run) 
     network::ChosenCell const chosen =
         network::choose_cell(lines, {.width = recipe.grid.width, .height = recipe.grid.height}, run);
     recipe.grid.cell_m = chosen.cell_m;
-    warn_of_crowding(chosen, run);
+    warn_of_crowding(chosen, stage_log);
     return {with_slope(std::move(recipe), lines.has_z), reason(chosen)};
 }
 
@@ -384,7 +406,9 @@ Recipe on_grid_of_against(Recipe recipe, Run const& run) {
 
 OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     std::string const what = fmt::format("surface.source = \"{}\"", recipe.surface->source);
-    Raster<float> given = io::read_dem(file_in(recipe, recipe.surface->source), run);
+    io::DemFile read = io::read_dem_file(file_in(recipe, recipe.surface->source), {}, run);
+    Raster<float> given = std::move(read.dem);
+    std::vector<Finding> findings = std::move(read.findings);
     GridRecipe& wanted = recipe.grid;
     bool const is_nowhere = given.grid().crs.empty();
     if (wanted.crs.empty()) {
@@ -392,21 +416,25 @@ OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     }
     wanted.crs = io::projected_crs(wanted.crs);
     if (is_nowhere) {
-        run.tell("note", fmt::format("{} has no coordinate system: its cells count as metres in {:.60}",
-                                     recipe.surface->source, wanted.crs));
+        findings.push_back({.kind = "no_crs",
+                            .text = fmt::format("{} has no coordinate system: its cells count as metres in {:.60}",
+                                                recipe.surface->source, wanted.crs),
+                            .key = "surface.source"});
         given = in_crs(given, wanted.crs);
     }
     Grid const own = given.grid();
     Grid const grid = grid_of_raster(given, wanted, what);
     wanted = on_cells_of(grid, std::move(wanted));
-    OnRaster settled{std::move(recipe), io::resample(given, grid, what, run)};
+    OnRaster settled{std::move(recipe), io::resample(given, grid, what, run), std::move(findings)};
     refuse_if<BadInput>(std::ranges::all_of(settled.dem.values(), [](float z) { return std::isnan(z); }),
                         "{} has no height within the grid, which reaches from ({}, {}) to ({}, {}) in {:.60}: leave "
                         "grid.origin, width and height out, or move them to the DEM",
                         what, grid.west, grid.south(), grid.east(), grid.north, grid.crs);
     if (!io::same_crs(own.crs, grid.crs, what, "the grid") || !io::same_lattice(own, grid)) {
-        run.tell("note", fmt::format("{} is resampled from {} to {}", settled.recipe.surface->source,
-                                     words_for_cells(own), words_for_cells(grid)));
+        settled.findings.push_back({.kind = "resampled",
+                                    .text = fmt::format("{} is resampled from {} to {}", settled.recipe.surface->source,
+                                                        words_for_cells(own), words_for_cells(grid)),
+                                    .key = "surface.source"});
     }
     return settled;
 }

@@ -67,29 +67,30 @@ Recipe with_absolute_files(Recipe recipe) {
 namespace {
 
 /// Far from its central meridian a UTM zone measures other lengths than the ground has, as other projections do.
-std::vector<Finding> warn_of_stretch(Grid const& grid, Run const& run) {
+std::vector<Finding> stretch_of(Grid const& grid) {
     constexpr double much = 0.01;
     constexpr double percent = 100.0;
     if (io::is_distorted(grid) && !io::utm_number(grid.crs)) {
         io::GroundCell const ground = io::ground_cell(grid);
         double const metre = ground.side_m / grid.cell_m;
-        std::string const words =
-            fmt::format("metres of the grid's CRS, {:.60}, are {:.3g} m on the ground there. Name another CRS: --crs "
-                        "{:.60}",
-                        grid.crs, metre, ground.crs);
-        run.say("warning: " + words);
-        return {{"stretched", 0, {}, 1.0 / metre - 1.0, words}};
+        return {
+            {.kind = "stretched",
+             .amount = 1.0 / metre - 1.0,
+             .text = fmt::format("metres of the grid's CRS, {:.60}, are {:.3g} m on the ground there", grid.crs, metre),
+             .remedy = fmt::format("Name another CRS: --crs {:.60}", ground.crs),
+             .key = "grid.crs"}};
     }
     double const stretch = io::zone_stretch(grid);
     if (!(stretch > much)) {
         return {};
     }
-    std::string const words =
-        fmt::format("the grid reaches far beyond its UTM zone {}: lengths are up to {:.1f} % too long there. Name "
-                    "another CRS: --crs EPSG:n",
-                    grid.crs, percent * stretch);
-    run.say("warning: " + words);
-    return {{"stretched", 0, {}, stretch, words}};
+    return {{.kind = "stretched",
+             .amount = stretch,
+             .text = fmt::format("the grid reaches far beyond its UTM zone {}: lengths are up to {:.1f} % too long "
+                                 "there",
+                                 grid.crs, percent * stretch),
+             .remedy = "Name another CRS: --crs EPSG:n",
+             .key = "grid.crs"}};
 }
 
 namespace fs = std::filesystem;
@@ -101,18 +102,17 @@ bool is_users(Recipe const& recipe, std::string const& path) {
 
 } // namespace
 
-std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run) {
+std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid) {
     std::vector<Finding> notes;
     for (NamedFile const& file : files_of(recipe)) {
         bool const is_lines = file.key->help.path == "network.lines.path";
         std::string const source_crs = is_lines ? recipe.network->lines.source_crs : "";
         for (std::string const& words :
              io::conversions_of(file_in(recipe, file.name), file.layer, grid.crs, source_crs)) {
-            run.say(fmt::format("{:<6} {}", "units", words));
-            notes.push_back({"converted", 0, {}, 0.0, words});
+            notes.push_back({.kind = "converted", .text = words, .key = file.key->place(file.item)});
         }
     }
-    std::vector<Finding> const stretched = warn_of_stretch(grid, run);
+    std::vector<Finding> const stretched = stretch_of(grid);
     notes.insert(notes.end(), stretched.begin(), stretched.end());
     return notes;
 }

@@ -422,28 +422,35 @@ void add_rivers(Made const& t, std::vector<Stem> const& stems, Figures& figures)
     }
 }
 
+bool is_warning(Finding const& finding) {
+    return finding.severity() == Severity::warning;
+}
+
 /// Cells from the north-west corner; nothing: no place, or beyond the grid.
 ordered_json place_of(Finding const& f, Grid const& grid) {
     double const x = (f.where.x - grid.west) / grid.cell_m;
     double const y = (grid.north - f.where.y) / grid.cell_m;
     bool const inside = x >= 0.0 && y >= 0.0 && x <= static_cast<double>(grid.width) && // false for NaN
                         y <= static_cast<double>(grid.height);
-    return f.where == Vec2{} || !inside ? ordered_json(nullptr) : ordered_json{x, y};
+    return !inside ? ordered_json(nullptr) : ordered_json{x, y};
 }
 
 /// At most so many findings that of every kind some are among them: of each the first, then of each the second...
 ordered_json shown(std::vector<Finding> const& findings, Grid const& grid) {
-    std::map<std::string, std::size_t> told;
+    std::map<std::string_view, std::size_t> told;
     std::vector<std::pair<std::size_t, Finding const*>> ranked;
     ranked.reserve(findings.size());
     for (Finding const& f : findings) {
-        ranked.emplace_back(told[f.kind]++, &f);
+        ranked.emplace_back(told[f.kind.name()]++, &f);
     }
     std::ranges::stable_sort(ranked, std::less{}, [](auto const& one) { return one.first; });
     ranked.resize(std::min(ranked.size(), most_shown));
     ordered_json list = ordered_json::array();
     for (auto const& [rank, f] : ranked) {
-        list.push_back({{"kind", f->kind}, {"text", f->text}, {"at", place_of(*f, grid)}});
+        list.push_back({{"kind", f->kind.name()}, {"text", f->text}, {"at", place_of(*f, grid)}});
+        if (is_warning(*f)) {
+            list.back()["remedy"] = remedy_of(*f);
+        }
     }
     return {{"count", findings.size()}, {"shown", list}};
 }
@@ -503,9 +510,24 @@ ordered_json timings_array(Made const& t) {
     return out;
 }
 
-ordered_json notes_array(Made const& t, std::optional<PageHeights> const& heights,
+bool is_error(Finding const& finding) {
+    return finding.severity() == Severity::error;
+}
+
+std::vector<Finding> chosen(std::vector<Finding> const& findings, bool (*is_one)(Finding const&)) {
+    std::vector<Finding> some;
+    std::ranges::copy_if(findings, std::back_inserter(some), is_one);
+    return some;
+}
+
+ordered_json notes_array(Made const& t, std::vector<Finding> const& findings, std::optional<PageHeights> const& heights,
                          std::vector<std::string> const& further) {
     ordered_json out = further;
+    for (Finding const& finding : findings) {
+        if (finding.severity() == Severity::note && !is_repair(finding)) {
+            out.push_back(finding.text);
+        }
+    }
     if (!t.terrain.surface) {
         out.push_back("the recipe has no [surface]: the page shows the rivers alone");
     }
@@ -547,6 +569,7 @@ std::string without_tags(std::string const& json) {
 std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines) {
     std::vector<Stem> const stems = stems_of(t.terrain.rivers);
+    std::vector<Finding> const findings = findings_of(t);
     Figures figures;
     if (t.assessment.statistics) {
         add_land(t, figures);
@@ -582,9 +605,10 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
         {"given", given_array(t.assessment.given, t.assessment.given_areas)},
         {"checks", ordered_json::parse(checks_json(t.assessment.checks))},
         {"timings", timings_array(t)},
-        {"repairs", shown(repairs_of(t), t.terrain.grid)},
-        {"findings", shown(t.assessment.findings, t.terrain.grid)},
-        {"notes", notes_array(t, heights, params.notes)}};
+        {"warnings", shown(chosen(findings, is_warning), t.terrain.grid)},
+        {"repairs", shown(chosen(findings, is_repair), t.terrain.grid)},
+        {"findings", shown(chosen(findings, is_error), t.terrain.grid)},
+        {"notes", notes_array(t, findings, heights, params.notes)}};
     return without_tags(data.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 

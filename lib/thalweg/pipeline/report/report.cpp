@@ -73,20 +73,32 @@ ordered_json checks_array(std::vector<Check> const& checks) {
     return out;
 }
 
+ordered_json finding_object(Finding const& f) {
+    FindingRow const& row = f.kind.row();
+    ordered_json one{{"kind", row.kind}, {"severity", name_of(row.severity)}, {"feature", f.feature}};
+    if (is_finite(f.where)) {
+        one["x"] = f.where.x;
+        one["y"] = f.where.y;
+    }
+    if (std::isfinite(f.amount)) {
+        one["amount"] = f.amount;
+    }
+    one["unit"] = row.unit;
+    one["text"] = f.text;
+    for (auto const& [name, words] : {std::pair{"remedy", remedy_of(f)}, {"key", f.key}, {"layer", f.layer}}) {
+        if (!words.empty()) {
+            one[name] = words;
+        }
+    }
+    for (FindingNumber const& number : f.numbers) {
+        one["numbers"][number.name] = {{"value", number.value}, {"unit", number.unit}};
+    }
+    return one;
+}
+
 ordered_json findings_array(std::vector<Finding> const& findings) {
     ordered_json out = ordered_json::array();
-    for (Finding const& f : findings) {
-        ordered_json one{{"kind", f.kind}, {"feature", f.feature}};
-        if (is_finite(f.where)) {
-            one["x"] = f.where.x;
-            one["y"] = f.where.y;
-        }
-        if (std::isfinite(f.amount)) {
-            one["amount"] = f.amount;
-        }
-        one["text"] = f.text;
-        out.push_back(std::move(one));
-    }
+    std::ranges::transform(findings, std::back_inserter(out), finding_object);
     return out;
 }
 
@@ -455,6 +467,11 @@ void add_statistics(Made const& t, ordered_json& report) {
 
 } // namespace
 
+bool is_repair(Finding const& finding) {
+    FindingRow const& row = finding.kind.row();
+    return row.severity == Severity::note && row.printed == Printed::verbose;
+}
+
 std::string version() {
     return THALWEG_VERSION;
 }
@@ -476,8 +493,12 @@ std::string write_report(Made const& t, std::vector<std::string> const& files, T
         report["against"] = against_object(*t.assessment.against);
     }
     report["checks"] = checks_array(t.assessment.checks);
-    report["findings"] = findings_array(t.assessment.findings);
-    report["repairs"] = findings_array(repairs_of(t));
+    std::vector<Finding> const findings = findings_of(t);
+    std::vector<Finding> no_faults;
+    std::ranges::copy_if(findings, std::back_inserter(no_faults),
+                         [](Finding const& finding) { return finding.severity() != Severity::error; });
+    report["findings"] = findings_array(findings);
+    report["repairs"] = findings_array(no_faults); // under their name of earlier versions
     report["files"] = files;
     return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
@@ -528,6 +549,10 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
 
 std::string findings_json(std::vector<Finding> const& findings) {
     return findings_array(findings).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+}
+
+std::string finding_json(Finding const& finding) {
+    return finding_object(finding).dump(-1, ' ', false, ordered_json::error_handler_t::replace);
 }
 
 std::string certificate_json(measure::Certificate const& certificate) {

@@ -15,8 +15,8 @@
 
 namespace thalweg::pipeline {
 
-/// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_rss_mb, network, dem, checks, repairs,
-/// files.
+/// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_rss_mb, network, dem, checks, findings,
+/// repairs, files.
 /// \param made a terrain
 /// \param files names of the files written
 /// \param writing times of writing them
@@ -39,6 +39,17 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
 /// \param checks any
 /// \return JSON
 std::string checks_json(std::vector<Check> const& checks);
+
+/// Formats a finding as one JSON object: kind, severity, feature, x and y [m] where it has a place, amount and its
+/// unit, text, remedy, key, layer, numbers.
+/// \param finding any
+/// \return JSON without line breaks
+std::string finding_json(Finding const& finding);
+
+/// Formats findings as one JSON array of such objects, as under "findings" in report.json.
+/// \param findings any
+/// \return JSON without line breaks
+std::string findings_json(std::vector<Finding> const& findings);
 
 /// \return the version of thalweg, e.g. "0.2.0"
 std::string version();

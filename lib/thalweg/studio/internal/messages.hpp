@@ -48,6 +48,8 @@ enum class JobEnd : std::uint8_t { made, stopped };
 std::string idle_message(Job const& job, double seconds, JobEnd end = JobEnd::made);
 std::string failed_message(Job const& job, std::string_view error);
 std::string say_message(std::string_view text);
+/// What is to be read of a job's findings: all but those that list the input's features.
+std::string findings_message(Job const& job, std::vector<Finding> const& findings);
 std::string cluster_message(Job const& job, std::optional<pipeline::ClusterArms> const& arms);
 /// \param members as pipeline::live_scene()
 std::string scene_message(Job const& job, std::string_view level, std::string const& members);

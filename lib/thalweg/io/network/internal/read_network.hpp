@@ -274,8 +274,8 @@ public:
 
     /// source: the file and layer for the message of a strict note.
     void add(std::string const& source, Finding finding);
-    void add(std::string const& source, char const* kind, std::int64_t feature, double amount, std::string text) {
-        add(source, {kind, feature, {}, amount, std::move(text)});
+    void add(std::string const& source, FindingKind kind, std::int64_t feature, double amount, std::string text) {
+        add(source, {kind, feature, nowhere, amount, std::move(text)});
     }
     /// The first thousand of each kind, and one more that counts the rest.
     std::vector<Finding> take();
@@ -283,7 +283,7 @@ public:
 private:
     bool strict_;
     std::vector<Finding> findings_;
-    std::map<std::string, std::size_t> count_;
+    std::map<FindingKind, std::size_t> count_;
 };
 
 /// Reads the arcs as they are drawn and linked in the file, and what the file says.

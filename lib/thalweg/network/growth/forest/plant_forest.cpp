@@ -119,7 +119,7 @@ std::vector<Cell> take_piece(Cell from, Mask& left) {
     return piece;
 }
 
-Finding finding(char const* kind, Grid const& grid, Cell c, double amount, std::string text) {
+Finding finding(FindingKind kind, Grid const& grid, Cell c, double amount, std::string text) {
     return {kind, 0, grid.centre(c), amount, fmt::format("{} ({}, {})", text, c.col, c.row)};
 }
 

@@ -5,6 +5,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/draw/distributions.hpp>
 #include <thalweg/draw/picture.hpp>
@@ -51,7 +52,7 @@ struct EnsembleView {
     MembersTable table;
     std::vector<draw::Distribution> indices; ///< of all members, by group
     std::vector<DrawnKey> parameters;        ///< keys that are numbers, or one of a few words
-    std::vector<std::string> notes;          ///< what is left out, as sentences
+    std::vector<Finding> findings;           ///< what is left out
 };
 
 /// A contact sheet and its note; no bytes: there is none.

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -31,7 +32,7 @@ struct PrintExport {
     std::int64_t vertices = 0;      ///< of the closed mesh
     std::int64_t triangles = 0;     ///< of the closed mesh
     std::vector<std::string> files; ///< names in the folder
-    std::vector<std::string> notes; ///< choices and what may be wrong with the print, as sentences
+    std::vector<Finding> findings;  ///< choices and what may be wrong with the print
 };
 
 /// Writes terrain.stl for 3D printers: a closed solid in millimetres, x east, y north, z up, its corner at the origin,

@@ -7,6 +7,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
@@ -22,7 +23,7 @@ struct ReadSceneParams {
 
 struct SceneRead {
     Scene scene;
-    std::vector<std::string> notes; ///< changes and choices, as sentences
+    std::vector<Finding> findings; ///< changes and choices
 };
 
 /// Reads everything that can be drawn. source: a folder written by make (dem.tif, network.gpkg, recipe.toml,

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/web_tiles.hpp>
@@ -29,7 +30,7 @@ struct WebExport {
     std::int64_t tiles = 0;         ///< of heights and colours
     std::int64_t holes = 0;         ///< cells without data
     std::vector<std::string> files; ///< relative names, sorted
-    std::vector<std::string> notes; ///< changes and choices, as sentences
+    std::vector<Finding> findings;  ///< changes and choices
 };
 
 /// Writes a scene for web maps: tiles of heights and colours (io::write_web_tiles), rivers.geojson (WGS 84; strahler,

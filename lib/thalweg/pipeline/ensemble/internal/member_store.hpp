@@ -56,6 +56,9 @@ public:
     MemberStore(MemberStore const&) = delete;
     MemberStore& operator=(MemberStore const&) = delete;
 
+    /// \return what was found when the folder was opened
+    std::vector<Finding> const& findings() const { return findings_; }
+
     /// \return with the recipe that the folder holds
     Ensemble const& ensemble() const { return ensemble_; }
 
@@ -87,7 +90,7 @@ private:
     bool is_there(std::int64_t number) const;
     std::pair<std::int64_t, std::int64_t> range_of(Share const& share) const;
     void start(std::vector<std::string> const& vary, Run const& run);
-    void lock(Role role, Share const& share, Run const& run);
+    void lock(Role role, Share const& share);
     void append(std::string line);
     std::string part(std::int64_t number) const;
     std::string shard_path(std::int64_t shard) const;
@@ -101,6 +104,7 @@ private:
     std::set<std::int64_t> without_row_; ///< members with a folder that no journal knows
     std::unique_ptr<io::OutputFolder> work_;
     std::vector<int> locks_; ///< open files
+    std::vector<Finding> findings_;
     std::mutex guard_;
     std::mutex packing_;
     int journal_ = -1; ///< open file

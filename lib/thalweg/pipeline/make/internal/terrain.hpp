@@ -12,6 +12,7 @@
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/skeleton/scatter.hpp>
 
 namespace thalweg::pipeline {
 
@@ -21,23 +22,14 @@ struct RaisedRivers {
     Valley valley;
     HeightsStatistics statistics;
     std::optional<flow::ContributingAreas> areas; ///< by the nearest river, where the heights follow from them
-    std::vector<Finding> notes = {};              ///< on rivers that meet in their cells
+    std::vector<Finding> findings = {};           ///< on rivers that meet in their cells
 };
 
 /// Assigns heights to rivers by the recipe, or those of their file.
 RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run);
 
-/// What a stage reports beside its result.
-struct Remarks {
-    std::vector<Finding> notes; ///< as Terrain, like the rest
-    std::vector<Check> checks;
-    std::vector<Finding> findings;
-};
-
-void append(Remarks& to, Remarks from);
-
-/// The check points_missing: random points that found no room, with a warning.
-Check points_missing(std::int64_t missing, std::int64_t wanted, Run const& run);
+/// The check points_missing: random points that found no room, with findings on room.
+Check points_missing(skeleton::Scattered const& points, SkeletonRecipe const& wanted, StageLog& stage_log);
 
 /// A surface without rivers (paper 001).
 struct SurfaceAlone {
@@ -71,7 +63,7 @@ struct EquilibriumResult {
     std::int64_t lakes = 0;
     HeightsStatistics heights;
     EquilibriumStatistics statistics;
-    Remarks remarks;
+    std::vector<Check> checks; ///< of what the recipe asks of the surface
 };
 
 /// Draws the surface around the planned rivers and cuts tips that would be perched. Heights that were taken because

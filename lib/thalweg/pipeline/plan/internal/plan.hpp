@@ -3,6 +3,7 @@
 #pragma once
 
 #include <chrono>
+#include <exception>
 #include <iterator>
 #include <string>
 #include <utility>
@@ -31,10 +32,14 @@ private:
     double cpu_begin_s_ = cpu_seconds();
 };
 
-/// Times the stages and logs a line for each.
+/// Times the stages, logs a line for each and collects what they find. When an error ends the work, what was found so
+/// far is reported.
 class StageLog {
 public:
     explicit StageLog(Run const& run) : run_(run) {}
+    ~StageLog();
+    StageLog(StageLog const&) = delete;
+    StageLog& operator=(StageLog const&) = delete;
 
     template <class Stage> auto stage(char const* name, Stage&& work) {
         run_.at(0.0, name);
@@ -52,9 +57,18 @@ public:
     /// Returns the times of the stages, in order, and clears them.
     Timings take() { return std::exchange(timings_s_, {}); }
 
+    void find(Finding finding) { findings_.push_back(std::move(finding)); }
+    void find(std::vector<Finding> const& findings) {
+        findings_.insert(findings_.end(), findings.begin(), findings.end());
+    }
+    /// Returns the findings, in order, and clears them.
+    std::vector<Finding> take_findings() { return std::exchange(findings_, {}); }
+
 private:
     Run const& run_;
+    int exceptions_ = std::uncaught_exceptions();
     Timings timings_s_;
+    std::vector<Finding> findings_;
 };
 
 // Predicates for the stages of a plan, common to make, which runs them, and the forecast, which lists them.

@@ -9,6 +9,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
@@ -38,29 +39,29 @@ Raster<float> read_field(io::Source const& source, Grid const& grid, std::string
 /// [m] A DEM in a CRS, on cells as large as its own; without cells for "". what: the key or option, for messages.
 /// \throws Error as io::read_dem and io::warp_to_grid
 Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
-                          std::optional<double> nodata, Run const& run);
+                          std::optional<double> nodata, StageLog& stage_log, Run const& run);
 
 /// Measures the DEM of surface.like at a cell size.
 /// \throws BadInput when it has too few cells with slopes
-LikeDem measure_like(Recipe const& recipe, double cell_m, Run const& run);
+LikeDem measure_like(Recipe const& recipe, double cell_m, StageLog& stage_log, Run const& run);
 
 /// A recipe on the cells of the DEM of output.against, as far as its [grid] leaves them open; rivers are clipped there.
 /// \throws BadInput when the DEM has no CRS and the recipe none either; as io::read_dem
 Recipe on_grid_of_against(Recipe recipe, Run const& run);
 
 /// [m] The DEM of output.against; without cells for "". crs: of a DEM that has none.
-Raster<float> read_against(Recipe const& recipe, std::string const& crs, Run const& run);
+Raster<float> read_against(Recipe const& recipe, std::string const& crs, StageLog& stage_log, Run const& run);
 
 /// The DEM of output.against on a grid, and its gaps there.
 struct AgainstOnGrid {
     Raster<float> dem;
     Mask land; ///< 0: a gap; without cells: there is none
 };
-AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, Run const& run);
+AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, StageLog& stage_log, Run const& run);
 
 // The lines of a recipe, and settings derived from them.
 
-/// The lines of network.lines.path.
+/// The lines of network.lines.path, with findings on their heights.
 RiverLines read_lines(Recipe const& recipe, Run const& run);
 
 /// The lines of skeleton.ridge_lines, in the grid's CRS. Where some vertices of a line have heights, the others get
@@ -73,17 +74,17 @@ struct OnLines {
     Recipe recipe;
     std::string why; ///< reason for the cell size, as the end of a sentence; "": it was given
 };
-OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, Run const& run);
+OnLines settle_on_lines(Recipe recipe, RiverLines const& lines, StageLog& stage_log, Run const& run);
 
 /// A recipe whose [grid] is settled by the DEM of surface.source as far as it leaves that open, and the DEM on that
 /// grid.
 struct OnRaster {
     Recipe recipe;
-    Raster<float> dem;
+    Raster<float> dem = {};
+    std::vector<Finding> findings = {};
 };
 
-/// Heights of a file without a coordinate system are taken to be in that of the grid. The log says where they are
-/// resampled.
+/// Heights of a file without a coordinate system are taken to be in that of the grid.
 /// \throws Error as io::read_dem and io::resample; BadInput when no cell of the grid has a height
 OnRaster settle_on_raster(Recipe recipe, Run const& run);
 

@@ -38,6 +38,6 @@ Recipe with_absolute_files(Recipe recipe);
 
 /// Says what the files of a recipe are converted from, and how far the grid leaves its UTM zone.
 /// \return a note for each: "converted", "stretched".
-std::vector<Finding> report_conversions(Recipe const& recipe, Grid const& grid, Run const& run);
+std::vector<Finding> conversions(Recipe const& recipe, Grid const& grid);
 
 } // namespace thalweg::pipeline

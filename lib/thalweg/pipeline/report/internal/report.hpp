@@ -23,8 +23,8 @@ draw::Picture comparison_against(Against const& against, Terrain const& terrain,
 /// Figures of a terrain beside a DEM as a JSON object.
 std::string figures_against(TerrainAgainst const& terrain);
 
-/// Findings as a JSON array.
-std::string findings_json(std::vector<Finding> const& findings);
+/// Whether a finding is about one of the input's features and no fault.
+bool is_repair(Finding const& finding);
 
 /// A certificate as a JSON object.
 std::string certificate_json(measure::Certificate const& certificate);
