@@ -172,7 +172,10 @@ class Full(Stage):
         self.assertEqual(self.full("page", "notebooks").returncode, 1)
         self.assertEqual([line.split()[0] + line.split()[-1] for line in self.lines()[1:]],
                          ["notebooksFAILED", "pagepassed", "samplespassed"])
-        self.assertIn(f" {head}+ ", self.lines()[1])  # tests/full.txt itself has changed
+        self.assertIn(f" {head} ", self.lines()[1])  # tests/full.txt itself has changed, and nothing else
+        self.program("repo/scripts/packages", "# changed")
+        self.full("samples")
+        self.assertIn(f" {head}+ ", self.lines()[-1])
 
     def test_a_cause_stays_while_the_part_is_red(self):
         (self.repo / "tests/full.txt").write_text("# head\nnotebooks    x y 1 min FAILED # its kernel\nsamples x y 1 min FAILED # z\n")

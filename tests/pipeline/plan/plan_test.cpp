@@ -170,6 +170,30 @@ TEST(Forecast, IsWhatARunDoes) {
     }
 }
 
+TEST(Forecast, NamesTheStagesOfEverySample) {
+    std::filesystem::path const samples = std::filesystem::path(THALWEG_SOURCE_DIR) / "samples";
+    int count = 0;
+    for (auto const& file : std::filesystem::directory_iterator(samples)) {
+        if (file.path().extension() == ".toml") {
+            Recipe recipe = read_recipe(test::bytes_of(file.path().string()), file.path().string());
+            recipe.folder = samples.string();
+            expect_as_forecast(recipe, file.path().filename().string());
+            ++count;
+        }
+    }
+    EXPECT_GE(count, 15);
+}
+
+TEST(Forecast, NamesTheComparisonWithADem) {
+    std::string const samples = THALWEG_SOURCE_DIR "/samples/";
+    Recipe const recipe = read_recipe("[grid]\ncell = 240\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"" +
+                                          samples + "bigtujunga_rivers.fgb\"\n[surface]\n[output]\nagainst = \"" +
+                                          samples + "bigtujunga_srtm1.tif\"\n",
+                                      "r.toml");
+    EXPECT_EQ(forecast(recipe).stages.back(), "compare");
+    expect_as_forecast(recipe, "against");
+}
+
 TEST(Forecast, OfSettingsThatAddStages) {
     for (std::vector<std::string> const& settings : std::vector<std::vector<std::string>>{
              {"network.fill_space=true", "output.accumulation=true"},
