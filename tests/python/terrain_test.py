@@ -110,7 +110,7 @@ class Recipes(unittest.TestCase):
 
     def test_forecast(self):
         found = thalweg.forecast(DILATED, seed=3)
-        self.assertEqual(set(found), {"stages", "grid", "cells", "memory_bytes", "seconds"})
+        self.assertEqual(set(found), {"stages", "grid", "cells", "memory_bytes", "seconds", "findings"})
         self.assertIn("grow", found["stages"])
         self.assertGreater(found["memory_bytes"], 0)
         self.assertEqual((found["grid"].width, found["cells"]), (96, 96 * 80))

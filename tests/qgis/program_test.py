@@ -2,6 +2,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Cancelling ends the program and leaves nothing; what is wrong with a program is said in words."""
+import json
 import os
 import re
 import signal
@@ -9,7 +10,7 @@ import subprocess
 import threading
 import time
 
-from support import COAST, PROGRAM, Case, main, start
+from support import COAST, PROGRAM, ROOT, Case, main, start
 
 application, plugin = start()
 
@@ -201,6 +202,22 @@ class Wrong(WithSetting):
         said.setProgressText = self.fail  # the dialog writes it to the log
         run("check", {"NETWORK": str(COAST)}, said)
         self.assertEqual(said.lines, ["read: 60 lines of a  b.gpkg, 0.1 s"])
+
+    def test_findings_are_those_of_the_report(self):
+        """Word for word, with what to do; a river file with a height of 0 has two warnings."""
+        text = (ROOT / "tests/zero_height.hpp").read_text("utf-8")
+        rivers = self.folder / "r.geojson"
+        rivers.write_text(re.search(r'R"\((.*)\)";', text, re.DOTALL)[1], "utf-8")
+        said = Said()
+        run("make", {"RIVERS": str(rivers), "CELL": 50, "OUTPUT": str(self.folder / "out")}, said)
+        with open(self.folder / "out/report.json", encoding="utf-8") as file:
+            findings = json.load(file)["findings"]
+        warnings = [". ".join((one["text"], one["remedy"])) for one in findings if one["severity"] == "warning"]
+        self.assertEqual([one["kind"] for one in findings if one["severity"] == "warning"][:2],
+                         ["placeholder_heights", "filled_heights"])
+        self.assertEqual([words.split("\nIn QGIS: ")[0] for words in said.warnings], warnings)
+        self.assertIn("grid: 88x49 cells of 50 m", said.lines)
+        self.assertFalse([line for line in said.lines if line.startswith("{")])
 
     def test_advice_for_the_shell_is_followed_by_what_to_do_in_qgis(self):
         for words, there in (("a.shp has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", "Layer CRS > Set Layer CRS"),
