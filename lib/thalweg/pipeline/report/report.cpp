@@ -12,6 +12,7 @@
 #include <toml++/toml.h>
 
 #include <thalweg/core/run/memory.hpp>
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
@@ -84,8 +85,9 @@ ordered_json finding_object(Finding const& f) {
         one["amount"] = f.amount;
     }
     one["unit"] = row.unit;
-    one["text"] = f.text;
-    for (auto const& [name, words] : {std::pair{"remedy", remedy_of(f)}, {"key", f.key}, {"layer", f.layer}}) {
+    one["text"] = without_passwords(f.text);
+    for (auto const& [name, words] :
+         {std::pair{"remedy", remedy_of(f)}, {"key", f.key}, {"layer", without_passwords(f.layer)}}) {
         if (!words.empty()) {
             one[name] = words;
         }
