@@ -142,8 +142,8 @@ void add_options_of_all(CLI::App& sub, Session& session) {
     sub.add_flag("-v,--verbose", session.verbose, "Print every note and repair, and the time of each stage.")
         ->excludes(quiet);
     sub.add_flag("--progress", session.progress,
-                 "Report progress on stderr as lines of JSON, for programs that run thalweg: {\"stage\": \"surface\", "
-                 "\"share\": 0.3125}.");
+                 "Report progress and findings on stderr as lines of JSON, for programs that run thalweg: {\"stage\": "
+                 "\"surface\", \"share\": 0.3125} and {\"finding\": {...}}.");
 }
 
 Commands add_commands(CLI::App& app, Session& session) {

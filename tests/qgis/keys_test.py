@@ -68,7 +68,7 @@ class WhatTheProgramTakes(Case):
                                        ("draw", "--what", "WHAT"),
                                        ("measure", "--what", "WHAT"), ("check", "--schema", "SCHEMAS")):
             module = __import__(f"thalweg_processing.{command if words != 'SCHEMAS' else 'network_input'}", fromlist=[words])
-            said = re.search(rf"{option}.*?(?=\n +-|\n\n)", program("help", command).stdout, re.DOTALL)[0]
+            said = re.search(rf"(?m:^ +{option}).*?(?=\n +-|\n\n)", program("help", command).stdout, re.DOTALL)[0]
             for word in getattr(module, words):
                 self.assertRegex(said, rf"\b{word}\b", f"{command} {option} {word}")
 
