@@ -251,7 +251,7 @@ class Values(unittest.TestCase):
             self.assertEqual(caught.filename, __file__)
             warned = [(str(one.message), one.message.finding["kind"]) for one in caught.warnings]
             self.assertEqual([kind for _, kind in warned][:2], ["placeholder_heights", "filled_heights"])
-            self.assertTrue(warned[0][0].startswith("1 vertices in r.geojson have 0 for a height"), warned)
+            self.assertTrue(warned[0][0].startswith("heights of 0 in r.geojson count as missing (vertices: 1; "), warned)
             found = [finding for finding in terrain.report["findings"] if finding["severity"] == "warning"]
             self.assertEqual([". ".join((finding["text"], finding["remedy"])) for finding in found], [words for words, _ in warned])
             with self.assertWarns(thalweg.TerrainWarning) as caught:

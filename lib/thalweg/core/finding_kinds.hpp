@@ -235,7 +235,7 @@ inline constexpr auto finding_rows = [] {
         {"node_column_mismatch", error, verbose, "", "A column of a node differs from what the network says.",
          "check --fix computes it."},
         {"null_geometry", error, verbose, "", "An arc has no line, or a line of one vertex.",
-         "check --fix removes it."},
+         "check --fix draws it straight between its nodes, or leaves it out."},
         {"overlap", error, verbose, "m", "Two arcs lie on one another.", "check --fix makes one of them."},
         {"repeated_vertex", error, verbose, "vertices", "Consecutive vertices are the same.",
          "check --fix removes them."},
@@ -251,7 +251,8 @@ inline constexpr auto finding_rows = [] {
         {"wrong_direction", error, verbose, "m", "An arc is drawn against the direction that its columns give.",
          "check --fix turns it."},
         {"z_rising", error, verbose, "m", "Heights of an arc rise downstream.", "check --fix lowers them."},
-        {"zero_length", error, verbose, "", "An arc has no length.", "check --fix removes it."},
+        {"zero_length", error, verbose, "", "An arc has no length.",
+         "check --fix draws it straight between its nodes, or leaves it out."},
         // Copies that check --fix writes.
         {"drawn", note, verbose, "m", "An arc without a line is drawn straight between its nodes.", ""},
         {"mended", note, verbose, "", "Faults of one kind are repaired in the copy.", ""},

@@ -53,8 +53,12 @@ TEST(Findings, AreTheSameForEveryReader) {
     json const report = report_of(place / "out");
     Texts const told = sentences(report["findings"]);
     ASSERT_GE(told.size(), 2U) << report["findings"].dump(1);
-    EXPECT_TRUE(test::has(told[0], "1 vertices in r.geojson have 0 for a height", "[placeholder_heights]")) << told[0];
-    EXPECT_TRUE(test::has(told[1], "1 of 3 lines in r.geojson lack heights", "[filled_heights]")) << told[1];
+    EXPECT_TRUE(
+        test::has(told[0], "heights of 0 in r.geojson count as missing (vertices: 1; ", "[placeholder_heights]"))
+        << told[0];
+    EXPECT_TRUE(test::has(told[1], "heights are missing in 1 of 3 lines of r.geojson (with some, which stay: 1)",
+                          "[filled_heights]"))
+        << told[1];
     EXPECT_EQ(lines_with(made.err, "warning: "), told);
     for (json const& finding : report["findings"]) {
         EXPECT_TRUE(finding.contains("unit") && finding.contains("amount")) << finding;

@@ -109,7 +109,7 @@ TEST(Rebuild, HeightsAtSomeVerticesStayAndRiversMayEndInASink) {
     Outcome const run = expect_run(place,
                                    "rebuild rivers.geojson --set grid.cell=30 --set network.inland=sink "
                                    "--set surface.mean_slope=15 --only dem,network -o out",
-                                   0, "3 of 4 lines in", "3 of them have some, which stay");
+                                   0, "missing in 3 of 4 lines of", "with some, which stay: 3");
     json const report = report_of(place / "out");
     expect_checks_hold(report);
     EXPECT_LT(report["given"]["heights"]["most_off_m"], 0.5) << report["given"].dump();

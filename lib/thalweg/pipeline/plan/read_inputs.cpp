@@ -278,25 +278,25 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
         checked.lines.findings.push_back(
             {.kind = "placeholder_heights",
              .amount = static_cast<double>(checked.vertices),
-             .text = fmt::format("{} vertices in {} have {} for a height, which is taken for none{}", checked.vertices,
-                                 checked.lines.name, checked.zeros ? "0" : "-9999 m or less",
-                                 checked.zeros ? ": a line has it between higher ones" : ""),
+             .text = fmt::format("heights of {} in {} count as missing (vertices: {}{})",
+                                 checked.zeros ? "0" : "-9999 m or less", checked.lines.name, checked.vertices,
+                                 checked.zeros ? "; a line has one between higher ones" : ""),
              .key = "network.lines.path",
              .layer = checked.lines.name});
     }
     lines = std::move(checked.lines);
     network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
     if (filled.filled > 0) {
-        std::string const partly =
-            filled.partly > 0 ? fmt::format(" {} of them have some, which stay.", filled.partly) : "";
+        std::string const partly = filled.partly > 0 ? fmt::format(" (with some, which stay: {})", filled.partly) : "";
         filled.lines.findings.push_back(
             {.kind = "filled_heights",
              .feature = filled.first,
              .amount = static_cast<double>(filled.filled),
-             .text = fmt::format("{} of {} lines in {} lack heights, the first is feature {}.{} They get heights from "
-                                 "their own vertices and the lines they meet, with network.slope beyond the last one "
-                                 "known",
-                                 filled.filled, count, filled.lines.name, filled.first, partly),
+             .text =
+                 fmt::format("heights are missing in {} of {} lines of {}{}, the first is feature {}. Lines get them "
+                             "from their own vertices and the lines they meet, with network.slope beyond the last "
+                             "one known",
+                             filled.filled, count, filled.lines.name, partly, filled.first),
              .key = "network.lines.path",
              .layer = filled.lines.name,
              .numbers = {{"lines", static_cast<double>(count)}, {"in_part", static_cast<double>(filled.partly)}}});
