@@ -29,6 +29,7 @@ void set_error(py::handle type, Error const& error) {
     PyErr_SetObject(type.ptr(), raised.ptr());
 }
 
+// NOLINTNEXTLINE(performance-unnecessary-value-param): pybind11 takes a function of this type
 void translate(std::exception_ptr fault) {
     try {
         if (fault) {

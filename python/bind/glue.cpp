@@ -379,17 +379,16 @@ Args::Args(std::string function, py::args positional, py::kwargs named)
 Args::~Args() {
     current = outer_;
     if (outer_ != nullptr) { // a record in its arguments: they live as long
-        for (py::handle const file : files_) {
-            outer_->files_.append(file);
-        }
+        auto const end = static_cast<py::ssize_t>(outer_->files_.size());
+        PyList_SetSlice(outer_->files_.ptr(), end, end, files_.ptr());
     }
 }
 
 py::handle Args::peek(std::size_t position, char const* name) const {
     if (position < positional_.size()) {
-        return py::handle(PyTuple_GetItem(positional_.ptr(), static_cast<py::ssize_t>(position)));
+        return {PyTuple_GetItem(positional_.ptr(), static_cast<py::ssize_t>(position))};
     }
-    return py::handle(PyDict_GetItemString(named_.ptr(), name));
+    return {PyDict_GetItemString(named_.ptr(), name)};
 }
 
 std::size_t Args::choose(std::vector<Form> const& forms) {
@@ -457,7 +456,7 @@ py::handle Args::required_value(char const* name) {
 
 py::handle Args::named(char const* name) {
     asked_.emplace_back(name);
-    return py::handle(PyDict_GetItemString(named_.ptr(), name));
+    return {PyDict_GetItemString(named_.ptr(), name)};
 }
 
 py::handle Args::required_by_name(char const* name) {

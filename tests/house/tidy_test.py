@@ -1,7 +1,7 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-"""Holds lib and tools to .clang-tidy. Files are read in the units of a unity build, where thirty share what they include.
-Usage: tidy_test.py CMAKE CLANG_TIDY [MODULE...]     of MODULEs (or tools) alone, where there are any"""
+"""Holds lib, tools and python to .clang-tidy. Files are read in the units of a unity build, where thirty share what they include.
+Usage: tidy_test.py CMAKE CLANG_TIDY [MODULE...]     of MODULEs (or tools, python) alone, where there are any"""
 import concurrent.futures
 import json
 import os
@@ -14,10 +14,14 @@ MADE = ROOT / "build" / "full" / "tidy"
 
 
 def units():
-    """What is compiled of lib and tools, in order."""
+    """What is compiled of lib, tools and python, in order, but for what is generated."""
     subprocess.run([CMAKE, "--preset", "tidy", "-B", MADE, "--log-level=WARNING"], cwd=ROOT, check=True, stdout=subprocess.DEVNULL)
     commands = json.loads((MADE / "compile_commands.json").read_text())
-    return sorted({command["file"] for command in commands if "/generated/" not in command["file"]})
+    generated = (f"{MADE}/generated/", f"{MADE}/python/")
+    files = sorted({command["file"] for command in commands if not command["file"].startswith(generated)})
+    if any(file.startswith(f"{ROOT}/python/") for file in files):  # they include what bind.py writes
+        subprocess.run([CMAKE, "--build", MADE, "--target", "thalweg_bindings"], check=True, stdout=subprocess.DEVNULL)
+    return files
 
 
 def findings(unit):

@@ -98,7 +98,7 @@ std::optional<std::array<std::int64_t, 2>> two_numbers(std::string_view text, ch
 /// Runs make --ensemble.
 int make_ensemble(MakeOptions& options, Session& session) {
     pipeline::EnsembleParams params = options.ensemble;
-    static_cast<pipeline::MakeParams&>(params) = options.params;
+    static_cast<pipeline::MakeParams&>(params) = static_cast<pipeline::MakeParams const&>(options.params);
     if (!options.seeds.empty()) {
         auto const seeds = two_numbers(options.seeds, '-');
         if (!seeds || (*seeds)[0] > (*seeds)[1]) {

@@ -71,22 +71,25 @@ public:
     /// \param owner keeps the memory alive
     /// \return the raster, not copied
     static Raster view_of(Grid frame, std::span<T const> values, std::shared_ptr<void const> owner) {
-        Raster shown;
-        shown.grid_ = std::move(frame);
-        shown.values_ = {const_cast<T*>(values.data()), values.size()};
-        shown.owner_ = std::move(owner);
-        return shown;
+        return {std::move(frame), {const_cast<T*>(values.data()), values.size()}, std::move(owner)};
     }
 
     Raster(Raster const& other) : grid_(other.grid_), own_(other.values_.begin(), other.values_.end()), values_(own_) {}
     Raster(Raster&& other) noexcept
         : grid_(std::exchange(other.grid_, {})), own_(std::exchange(other.own_, {})),
           values_(std::exchange(other.values_, {})), owner_(std::exchange(other.owner_, {})) {}
-    Raster& operator=(Raster other) noexcept {
-        grid_ = std::move(other.grid_);
-        own_ = std::move(other.own_);
-        values_ = other.values_;
-        owner_ = std::move(other.owner_);
+    Raster& operator=(Raster const& other) {
+        if (this != &other) {
+            *this = Raster(other);
+        }
+        return *this;
+    }
+    Raster& operator=(Raster&& other) noexcept {
+        Raster taken(std::move(other)); // other is empty afterwards, unless it is this raster
+        grid_ = std::move(taken.grid_);
+        own_ = std::move(taken.own_);
+        values_ = taken.values_;
+        owner_ = std::move(taken.owner_);
         return *this;
     }
     ~Raster() = default;
@@ -111,6 +114,9 @@ public:
     std::span<T const> values() const { return values_; }
 
 private:
+    Raster(Grid frame, std::span<T> values, std::shared_ptr<void const> owner)
+        : grid_(std::move(frame)), values_(values), owner_(std::move(owner)) {}
+
     Grid grid_;
     std::vector<T, LargePages<T>> own_;
     std::span<T> values_;               ///< own_, or memory of others

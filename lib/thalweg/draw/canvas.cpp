@@ -58,6 +58,7 @@ cairo_status_t encode_png(cairo_surface_t* sheet, std::string* bytes) {
     constexpr int level = 2;
     png_structp png = png_create_write_struct(PNG_LIBPNG_VER_STRING, nullptr, leave_png, nullptr);
     png_infop info = png == nullptr ? nullptr : png_create_info_struct(png);
+    // NOLINTNEXTLINE(cert-err52-cpp): how libpng reports errors
     if (info == nullptr || setjmp(png_jmpbuf(png)) != 0) {
         png_destroy_write_struct(&png, &info);
         return CAIRO_STATUS_NO_MEMORY;

@@ -105,10 +105,10 @@ Picture contact_sheet(std::vector<Thumbnail> const& thumbnails, ContactSheetPara
             draw_text(canvas, {margin, top + unit}, "no terrain", {unit, faint_ink});
         }
         for (std::size_t i = 0; i < thumbnails.size(); ++i) {
-            auto const column = static_cast<double>(i % columns);
-            auto const of_row = static_cast<double>(i / columns);
-            draw_thumbnail(canvas, {margin + column * (wide + gap), top + of_row * row, wide, high}, thumbnails[i],
-                           unit);
+            std::size_t const rows_above = i / columns;
+            double const left = margin + static_cast<double>(i % columns) * (wide + gap);
+            double const upper = top + static_cast<double>(rows_above) * row;
+            draw_thumbnail(canvas, {left, upper, wide, high}, thumbnails[i], unit);
         }
     });
 }

@@ -78,9 +78,12 @@ void each_bank(Banked banks, Raster<float> const& dem, Raster<float> const& vall
                 river[k] = valley[i + offsets[k]];
             }
         } else {
+            river.fill(no_bank);
             for (std::size_t k = 0; k < river.size(); ++k) {
                 Cell const n{at.col + d8_steps[k].col, at.row + d8_steps[k].row};
-                river[k] = grid.contains(n) ? valley[n] : no_bank;
+                if (grid.contains(n)) {
+                    river[k] = valley[n];
+                }
             }
         }
         double slope = 0.0; // [m/cell] the steepest to a lower river neighbour

@@ -47,7 +47,7 @@ Vec2 in_grid(Grid const& grid, Vec2 p) {
 }
 
 DrawnLine without_repeats(DrawnLine line) {
-    line.erase(std::ranges::unique(line).begin(), line.end());
+    line.erase(std::unique(line.begin(), line.end()), line.end());
     return line;
 }
 

@@ -60,7 +60,7 @@ io::Source file_of(Recipe const& recipe, std::string const& name) {
 
 DrawnLine line_in(std::vector<Vec3> const& vertices) {
     DrawnLine line = in_plan(vertices);
-    line.erase(std::ranges::unique(line).begin(), line.end());
+    line.erase(std::unique(line.begin(), line.end()), line.end());
     return line;
 }
 
@@ -227,7 +227,7 @@ Drawing drawing_of(Grid const& grid, StreamNetwork const& network, Mask const& l
     for (Arc const& arc : network.arcs()) {
         DrawnLine line;
         std::ranges::transform(arc.line, std::back_inserter(line), [](Vec2 p) { return rounded(p); });
-        line.erase(std::ranges::unique(line).begin(), line.end());
+        line.erase(std::unique(line.begin(), line.end()), line.end());
         bool const has_record = arc.feature > 0 && arc.feature <= static_cast<std::int64_t>(attributes.rows.size());
         if (line.size() > 1) {
             drawing.rivers.push_back({std::move(line), arc.type, 0, has_record ? arc.feature : 0});

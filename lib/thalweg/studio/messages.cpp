@@ -140,25 +140,25 @@ private:
              }},
             {"move",
              [](R const& r) -> DrawStep {
-                 return MoveVertex{r.part(), r.index(r.what_, "vertex"), r.place("to"), r.reach()};
+                 return MoveVertex{r.part(), index(r.what_, "vertex"), r.place("to"), r.reach()};
              }},
             {"insert",
              [](R const& r) -> DrawStep {
-                 return InsertVertex{r.part(), r.index(r.what_, "vertex"), r.place("at")};
+                 return InsertVertex{r.part(), index(r.what_, "vertex"), r.place("at")};
              }},
             {"remove",
              [](R const& r) -> DrawStep {
-                 return RemoveVertex{r.part(), r.index(r.what_, "vertex")};
+                 return RemoveVertex{r.part(), index(r.what_, "vertex")};
              }},
             {"cut",
              [](R const& r) -> DrawStep {
-                 return CutRiver{r.index(r.what_, "river"), r.place("at")};
+                 return CutRiver{index(r.what_, "river"), r.place("at")};
              }},
             {"join",
              [](R const& r) -> DrawStep {
-                 return JoinRiver{r.index(r.what_, "river"), r.text("end") == "source", r.place("at")};
+                 return JoinRiver{index(r.what_, "river"), r.text("end") == "source", r.place("at")};
              }},
-            {"reverse", [](R const& r) -> DrawStep { return ReverseRiver{r.index(r.what_, "river")}; }},
+            {"reverse", [](R const& r) -> DrawStep { return ReverseRiver{index(r.what_, "river")}; }},
             {"erase",
              [](R const& r) -> DrawStep {
                  return Erase{r.erased(), r.yes("alone")};
@@ -173,14 +173,14 @@ private:
              }},
             {"branching", [](R const& r) -> DrawStep { return SetSideStreams{r.yes("on")}; }},
             {"coast", [](R const& r) -> DrawStep { return DrawCoast{r.line()}; }},
-            {"swap", [](R const& r) -> DrawStep { return SwapSides{r.index(r.what_, "coast")}; }},
+            {"swap", [](R const& r) -> DrawStep { return SwapSides{index(r.what_, "coast")}; }},
             {"lake",
              [](R const& r) -> DrawStep {
                  return DrawLake{r.line(), r.metres_or_none("level")};
              }},
             {"level",
              [](R const& r) -> DrawStep {
-                 return SetLevel{r.index(r.what_, "lake"), r.metres_or_none("level")};
+                 return SetLevel{index(r.what_, "lake"), r.metres_or_none("level")};
              }},
             {"mask", [](R const& r) -> DrawStep { return DrawMask{r.line()}; }},
             {"pin",
@@ -189,7 +189,7 @@ private:
              }},
             {"height",
              [](R const& r) -> DrawStep {
-                 return SetHeight{r.index(r.what_, "pin"), r.height()};
+                 return SetHeight{index(r.what_, "pin"), r.height()};
              }},
             {"ridge",
              [](R const& r) -> DrawStep {
@@ -197,7 +197,7 @@ private:
              }},
             {"heights",
              [](R const& r) -> DrawStep {
-                 return SetRidgeHeights{r.index(r.what_, "ridge"), r.metres_or_none("from"), r.metres_or_none("to")};
+                 return SetRidgeHeights{index(r.what_, "ridge"), r.metres_or_none("from"), r.metres_or_none("to")};
              }},
             {"clear", [](R const&) -> DrawStep { return Clear{}; }}};
         return all;

@@ -47,7 +47,8 @@ std::string tar_entry(std::string const& name, std::string_view bytes) {
 }
 
 std::string tar_end() {
-    return std::string(2 * block, '\0');
+    std::string zeros(2 * block, '\0');
+    return zeros;
 }
 
 } // namespace thalweg::io

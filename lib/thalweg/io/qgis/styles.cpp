@@ -31,7 +31,7 @@ using Properties = std::vector<Property>;
 std::string options(Properties const& properties) {
     std::string out = "<Option type=\"Map\">";
     for (auto const& [name, value] : properties) {
-        out += fmt::format("<Option type=\"QString\" name=\"{}\" value=\"{}\"/>", name, xml_escaped(value));
+        out += fmt::format(R"(<Option type="QString" name="{}" value="{}"/>)", name, xml_escaped(value));
     }
     return out + "</Option>";
 }
@@ -64,10 +64,10 @@ struct Symbol {
 };
 
 std::string symbol_text(Symbol const& symbol, std::size_t name) {
-    std::string out = fmt::format("<symbol alpha=\"1\" type=\"{}\" clip_to_extent=\"1\" name=\"{}\" force_rhr=\"0\">",
-                                  symbol.type, name);
+    std::string out =
+        fmt::format(R"(<symbol alpha="1" type="{}" clip_to_extent="1" name="{}" force_rhr="0">)", symbol.type, name);
     for (SymbolLayer const& layer : symbol.layers) {
-        out += fmt::format("<layer class=\"{}\" locked=\"0\" enabled=\"1\" pass=\"0\">{}{}</layer>", layer.drawn_by,
+        out += fmt::format(R"(<layer class="{}" locked="0" enabled="1" pass="0">{}{}</layer>)", layer.drawn_by,
                            options(layer.properties), layer.expressions.empty() ? "" : by_feature(layer.expressions));
     }
     return out + "</symbol>";
@@ -99,15 +99,14 @@ std::string categorised(std::string const& field, std::vector<Category> const& c
     std::string list;
     std::vector<Symbol> symbols;
     for (Category const& category : categories) {
-        list += fmt::format("<category render=\"true\" symbol=\"{}\" value=\"{}\" label=\"{}\"/>", symbols.size(),
+        list += fmt::format(R"(<category render="true" symbol="{}" value="{}" label="{}"/>)", symbols.size(),
                             xml_escaped(category.value), xml_escaped(category.label));
         symbols.push_back(category.symbol);
     }
     std::string const order =
-        order_by.empty()
-            ? ""
-            : fmt::format("<orderby><orderByClause asc=\"1\" nullsFirst=\"1\">{}</orderByClause></orderby>",
-                          xml_escaped(order_by));
+        order_by.empty() ? ""
+                         : fmt::format(R"(<orderby><orderByClause asc="1" nullsFirst="1">{}</orderByClause></orderby>)",
+                                       xml_escaped(order_by));
     return fmt::format("<renderer-v2 type=\"categorizedSymbol\" attr=\"{}\" symbollevels=\"0\" enableorderby=\"{}\" "
                        "forceraster=\"0\"><categories>{}</categories>{}{}</renderer-v2>",
                        xml_escaped(field), order.empty() ? 0 : 1, list, symbols_text(symbols), order);
@@ -126,10 +125,10 @@ std::string by_rules(std::vector<KindRule> const& rules) {
     std::vector<Symbol> symbols;
     for (KindRule const& rule : rules) {
         std::string const scales =
-            rule.from_scale > 0.0 ? fmt::format(" scalemindenom=\"1\" scalemaxdenom=\"{}\"", rule.from_scale) : "";
-        list += fmt::format("<rule key=\"thalweg_{0}\" label=\"{1}\" symbol=\"{0}\" filter=\"{2}\"{3}/>",
-                            symbols.size(), xml_escaped(rule.label),
-                            xml_escaped(fmt::format("\"kind\" = '{}'", name_of(rule.kind))), scales);
+            rule.from_scale > 0.0 ? fmt::format(R"( scalemindenom="1" scalemaxdenom="{}")", rule.from_scale) : "";
+        list += fmt::format(R"(<rule key="thalweg_{0}" label="{1}" symbol="{0}" filter="{2}"{3}/>)", symbols.size(),
+                            xml_escaped(rule.label), xml_escaped(fmt::format("\"kind\" = '{}'", name_of(rule.kind))),
+                            scales);
         symbols.push_back(rule.symbol);
     }
     return fmt::format("<renderer-v2 type=\"RuleRenderer\" symbollevels=\"0\" enableorderby=\"0\" forceraster=\"0\">"
@@ -277,7 +276,7 @@ QgisStyle contour_style() {
         "repeatDistanceUnits=\"MM\"/><rendering drawLabels=\"1\" obstacle=\"0\" mergeLines=\"1\" "
         "minFeatureSize=\"30\" upsidedownLabels=\"0\" "
         "scaleVisibility=\"0\"/></settings></labeling>",
-        xml_escaped("if(\"is_index\" = 1, \"z\", NULL)"), colour(ink), colour(white));
+        xml_escaped(R"(if("is_index" = 1, "z", NULL))"), colour(ink), colour(white));
     return categorised("is_index",
                        {{"1", "Index contour", line(contour, 0.26)}, {"0", "Contour", line(contour, 0.1)}}) +
            labels;
@@ -288,7 +287,7 @@ QgisStyle catchment_style(bool is_whole) {
     Symbol symbol = area({180, 180, 180}, is_whole ? 0 : 90, is_whole ? outline : white, is_whole ? 0.5 : 0.15);
     if (!is_whole) { // hues a golden angle apart
         symbol.layers.front().expressions = {
-            {"fillColor", "color_hsla((\"basin_id\" * 137 + \"arc_id\" * 11) % 360, 45, 62, 90)"}};
+            {"fillColor", R"(color_hsla(("basin_id" * 137 + "arc_id" * 11) % 360, 45, 62, 90))"}};
     }
     return single(symbol);
 }
@@ -329,7 +328,7 @@ std::string legend(std::string const& unit) {
 std::string shader(Tints const& tints, std::string const& unit, std::string const& legend_text) {
     std::string items;
     for (auto const& [value, tint] : tints) {
-        items += fmt::format("<item value=\"{}\" color=\"{}\" alpha=\"255\" label=\"{:.6g} {}\"/>", value, tint, value,
+        items += fmt::format(R"(<item value="{}" color="{}" alpha="255" label="{:.6g} {}"/>)", value, tint, value,
                              xml_escaped(unit));
     }
     return fmt::format("<colorrampshader colorRampType=\"INTERPOLATED\" classificationMode=\"1\" clip=\"0\" "
@@ -353,7 +352,7 @@ std::string raster_pipe(std::string const& renderer, Tone light, int blend, char
 }
 
 constexpr char const* smooth =
-    " zoomedInResampler=\"bilinear\" zoomedOutResampler=\"bilinear\""; // by cells of a DEM a hillshade has steps
+    R"( zoomedInResampler="bilinear" zoomedOutResampler="bilinear")"; // by cells of a DEM a hillshade has steps
 constexpr char const* by_cells = "";
 constexpr int normal = 0;
 constexpr int multiply = 6;
@@ -436,7 +435,7 @@ Table styles_table(std::span<Table const> tables) {
         return Column{name, Kind::text, 0, [value](std::size_t row) { return Column::Value(std::string(value(row))); },
                       true};
     };
-    auto const always = [](std::string word) { return [word](std::size_t) { return word; }; };
+    auto const always = [](char const* word) { return [word](std::size_t) { return word; }; };
     Table out{styles_layer, Table::Shape::none, rows->size(), {}, {}};
     out.columns = {text("f_table_catalog", always("")),
                    text("f_table_schema", always("")),

@@ -97,7 +97,7 @@ void require_possible(Ensemble const& ensemble) {
 AskedEnsemble ensemble_asked(EnsembleParams const& params) {
     require_ranges(params);
     AskedEnsemble asked;
-    MakeParams make = params;
+    auto make = static_cast<MakeParams const&>(params);
     bool const only_table = take_table(make.set);
     Ensemble& ensemble = asked.ensemble;
     ensemble.recipe = recipe_asked(make);

@@ -86,7 +86,7 @@ std::string page_number(double value) {
 std::string svg_on_page(std::string const& svg, std::string const& label, std::string const& ids) {
     constexpr std::string_view style = "style=\"";
     constexpr std::array<std::string_view, 3> references = {" id=\"", "href=\"#", "url(#"};
-    std::string out = fmt::format("<svg role=\"img\" aria-label=\"{}\"", html_text(label));
+    std::string out = fmt::format(R"(<svg role="img" aria-label="{}")", html_text(label));
     std::size_t i = svg.find("<svg");
     i = i == std::string::npos ? svg.size() : i + 4;
     while (i < svg.size()) {

@@ -101,9 +101,9 @@ std::string member_folder(std::int64_t number) {
     return fmt::format("member_{:05}", number);
 }
 
-MemberStore::MemberStore(std::string const& folder, Ensemble const& ensemble, std::vector<std::string> const& vary,
+MemberStore::MemberStore(std::string const& folder, Ensemble ensemble, std::vector<std::string> const& vary,
                          MemberFiles const& files, Role role, Share const& share, Run const& run)
-    : folder_(folder), inner_((fs::path(folder) / ".ensemble").string()), ensemble_(ensemble), files_(files),
+    : folder_(folder), inner_((fs::path(folder) / ".ensemble").string()), ensemble_(std::move(ensemble)), files_(files),
       role_(role) {
     refuse_if<BadParameter>(folder.empty(), "pipeline.member_store: the name of the folder is empty");
     std::error_code error;
@@ -280,7 +280,7 @@ void MemberStore::append(std::string line) {
     }
 }
 
-std::string MemberStore::staged_part(MadeMember const& made, std::string const& work, Run const& run) const {
+std::string MemberStore::staged_part(MadeMember const& made, std::string const& work, Run const& run) {
     std::string const path = work + "/part";
     std::string const key = fmt::format("{:08}", made.row.member.number);
     std::string entries;

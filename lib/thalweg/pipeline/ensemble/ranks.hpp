@@ -12,6 +12,9 @@ namespace thalweg::pipeline {
 /// out the numbers of members.
 class Ranks {
 public:
+    Ranks() = default;
+    Ranks(Ranks const&) = delete;
+    Ranks& operator=(Ranks const&) = delete;
     virtual ~Ranks() = default;
 
     /// \return [0, count)

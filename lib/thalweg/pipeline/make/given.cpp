@@ -189,8 +189,8 @@ std::int64_t feature_at(std::vector<Stretch> const& stretches, double along_m) {
     return stretches.empty() ? 0 : stretches.back().feature;
 }
 
-/// Sums up differences by feature.
-void sum_up(std::map<std::int64_t, std::vector<double>> off_m, GivenHeights& given) {
+/// Sums up differences by feature, and sorts them.
+void sum_up(std::map<std::int64_t, std::vector<double>>& off_m, GivenHeights& given) {
     constexpr std::size_t most = 1000;
     std::vector<double> all;
     for (auto& [feature, some] : off_m) {
@@ -257,7 +257,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
         }
     }
     given.mean_m = given.missed > 0 ? sum_m / static_cast<double>(given.missed) : 0.0;
-    sum_up(std::move(off_by_feature), given);
+    sum_up(off_by_feature, given);
     return given;
 }
 

@@ -113,9 +113,9 @@ struct SmoothLevel {
 class Rebuilder {
 public:
     /// \param rivers, features heights in cells
-    Rebuilder(Channels const& rivers, std::vector<FeatureCell> const& features, EquilibriumFields const& fields,
+    Rebuilder(Channels const& rivers, std::vector<FeatureCell> features, EquilibriumFields const& fields,
               RebuildParams const& params, RiverSurvey const& survey, double smooth_deg, Run const& run)
-        : params_(params), run_(run), grid_(rivers.grid), features_(features),
+        : params_(params), run_(run), grid_(rivers.grid), features_(std::move(features)),
           spacing_(survey.spacing_m / rivers.grid.cell_m), target_deg_(smooth_deg),
           gentleness_(static_cast<float>(tangent_of(target_deg_) / usual_tangent)),
           least_(std::min(least_tangent, least_tangent * gentleness_)), link_(links_of_channels(rivers)) {
@@ -188,7 +188,7 @@ private:
     }
 
     /// Gives rivers their heights.
-    void hold_rivers(TerrainLevel& level) const {
+    static void hold_rivers(TerrainLevel& level) {
         start_rivers(level);
         for (std::size_t n = 0; n < level.rivers.cell.size(); ++n) {
             level.z[level.rivers.cell[n]] = level.rivers.asked[n];
@@ -218,7 +218,7 @@ private:
     }
 
     /// Copies the boost of a coarser level.
-    Cells<float> boost_from(TerrainLevel const& level, TerrainLevel const& coarser, Cells<float> const& boost) const {
+    static Cells<float> boost_from(TerrainLevel const& level, TerrainLevel const& coarser, Cells<float> const& boost) {
         Cells<float> out(level.z.size(), 0.0F);
         each_inner(level, [&](std::size_t i) {
             Cell const c = level.at(i);
@@ -271,7 +271,8 @@ private:
 
     /// Least heights: none.
     static Cells<float> no_floor(TerrainLevel const& level) {
-        return Cells<float>(level.z.size(), -std::numeric_limits<float>::infinity());
+        Cells<float> floor(level.z.size(), -std::numeric_limits<float>::infinity());
+        return floor;
     }
 
     void scale_uplift(TerrainLevel& level, Cells<float> const& uplift) const {
@@ -326,7 +327,7 @@ private:
             for (int round = 0; round < rounds; ++round) {
                 run_.at(share_done(number, round, rounds) * 0.5, "fill");
                 if (round > 0) { // with other nodes each time, whose chance is averaged
-                    jitter(level, params_.seed + 1000U * static_cast<unsigned>(round), run_);
+                    jitter(level, params_.seed + 1000 * static_cast<std::uint64_t>(round), run_);
                     set_steepest_receivers(level, run_);
                 }
                 accumulate_areas(level, run_);
@@ -397,7 +398,7 @@ private:
     }
 
     /// Land close to a river is not lower than it, unless the smooth terrain is.
-    Cells<float> floors(TerrainLevel const& level, Cells<float> const& smooth_z) const {
+    static Cells<float> floors(TerrainLevel const& level, Cells<float> const& smooth_z) {
         Cells<float> out = no_floor(level);
         auto const offsets = level.offsets();
         for (std::uint32_t const river : level.rivers.cell) {
@@ -541,7 +542,7 @@ BetweenRivers terrain_between(Channels const& rivers, EquilibriumFields const& f
     for (FeatureCell& feature : features) {
         feature.z = static_cast<float>((static_cast<double>(feature.z) - base_m) / cell_m);
     }
-    Rebuilder rebuilder(drawn, features, fields, params, survey, smooth_deg, run);
+    Rebuilder rebuilder(drawn, std::move(features), fields, params, survey, smooth_deg, run);
     TerrainLevel level = rebuilder.solve();
     HeightConversion const raise{cell_m, base_m,
                                  tangent_of(params.mean_slope_deg.value_or(rebuilder.smooth_deg() / of_smooth))};

@@ -50,7 +50,7 @@ public:
     /// \param vary as the user wrote it
     /// \throws BadInput when the folder holds something else or another ensemble, or another process works there
     /// \throws IoError when it cannot be written
-    MemberStore(std::string const& folder, Ensemble const& ensemble, std::vector<std::string> const& vary,
+    MemberStore(std::string const& folder, Ensemble ensemble, std::vector<std::string> const& vary,
                 MemberFiles const& files, Role role, Share const& share, Run const& run);
     ~MemberStore();
     MemberStore(MemberStore const&) = delete;
@@ -94,7 +94,7 @@ private:
     void append(std::string line);
     std::string part(std::int64_t number) const;
     std::string shard_path(std::int64_t shard) const;
-    std::string staged_part(MadeMember const& made, std::string const& work, Run const& run) const;
+    static std::string staged_part(MadeMember const& made, std::string const& work, Run const& run);
 
     std::string folder_;
     std::string inner_; ///< FOLDER/.ensemble
