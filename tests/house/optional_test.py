@@ -60,5 +60,7 @@ with tempfile.TemporaryDirectory() as place:
     assert said.returncode == 0, said.returncode
     assert "FOUND [FALSE] [] []" in said.stdout or "FOUND [] [] []" in said.stdout
     for library in ("MPI", "OpenCL", "OpenEXR"):
-        assert f"-- {library} is installed in part" in said.stdout, library
-        assert f"no {library} here. Install lib{library}-dev" in said.stdout, library
+        # Beside a real libopenmpi-dev CMake finds out by itself that this wrapper leads nowhere.
+        in_part, none = f"-- {library} is installed in part", f"-- No {library} (lib{library}-dev): no {library} here"
+        assert in_part in said.stdout or (library == "MPI" and none in said.stdout), library
+        assert in_part not in said.stdout or f"no {library} here. Install lib{library}-dev" in said.stdout, library

@@ -65,8 +65,8 @@ class Ranks(unittest.TestCase):
         cls.place.cleanup()
 
     @staticmethod
-    def run_whole(command, **options):
-        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, env=ENVIRONMENT, timeout=300, **options)
+    def run_whole(command, timeout=300, **options):
+        done = subprocess.run(command, stdout=subprocess.PIPE, stderr=subprocess.STDOUT, text=True, check=False, env=ENVIRONMENT, timeout=timeout, **options)
         if done.returncode:
             raise AssertionError(f"{' '.join(command)}: {done.returncode}\n{done.stdout}")
         return done.stdout
@@ -207,7 +207,7 @@ class Ranks(unittest.TestCase):
         folder = self.path / "pairs"
         began = time.monotonic()
         self.run_whole([str(THALWEG), "make", "--set", "grid.width=128", "--set", "grid.height=128", "--ensemble", "10000", "--shards", "1000",
-                        "-q", "-o", str(folder)])
+                        "-q", "-o", str(folder)], timeout=1800)
         print(f"10 000 members of 128x128 in shards: {10000 / (time.monotonic() - began):.0f} a second, load {os.getloadavg()[0]:.1f}")
         shards = sorted(folder.glob("*.tar"))
         self.assertEqual([p.name for p in shards], [f"shard-{i:06}.tar" for i in range(10)])

@@ -378,9 +378,9 @@ public:
         // Of two that meet at the nearest place the one with the greater distance from its straight line.
         double aside = 0.0;
         for (Stretch const& one : stretches_) {
-            Vec2 const gap{std::max({one.box.low.x - p.x, p.x - one.box.high.x, 0.0}),
-                           std::max({one.box.low.y - p.y, p.y - one.box.high.y, 0.0})};
-            for (std::size_t i = one.begin; dot(gap, gap) <= most_m * most_m && i < one.end; ++i) {
+            Vec2 const beside{std::max({one.box.low.x - p.x, p.x - one.box.high.x, 0.0}),
+                              std::max({one.box.low.y - p.y, p.y - one.box.high.y, 0.0})};
+            for (std::size_t i = one.begin; dot(beside, beside) <= most_m * most_m && i < one.end; ++i) {
                 Vec2 const a = lines_[one.line][i];
                 Vec2 const b = lines_[one.line][i + 1];
                 Vec2 const foot = geometry::foot_on(a, b, p).at;

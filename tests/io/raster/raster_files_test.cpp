@@ -17,7 +17,9 @@
 #include <rapidcheck.h>
 #include <support.hpp>
 
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/sources.hpp>
@@ -243,6 +245,31 @@ TEST(Contours, DegenerateInput) {
     EXPECT_TRUE(io::contours(raster(4, 4, [](Cell) { return 5.5; }), 1.0).empty());
     EXPECT_TRUE(io::contours(raster(4, 4, [](Cell) { return none; }), 1.0).empty());
     EXPECT_TRUE(io::contours(raster(1, 1, [](Cell) { return 5.5; }), 1.0).empty());
+}
+
+TEST(Contours, SimplifiedLinesCrossNeitherThemselvesNorOthers) {
+    std::size_t lines_in_all = 0;
+    for (std::uint64_t seed = 1; seed <= 4; ++seed) {
+        Raster<float> const dem = raster(60, 60, [&](Cell c) {
+            double const rough =
+                unit(random_word(seed, static_cast<std::uint64_t>(c.col), static_cast<std::uint64_t>(c.row)));
+            return 0.3 * static_cast<double>(c.col) + 3.0 * rough;
+        });
+        std::vector<std::vector<Vec2>> lines;
+        std::vector<geometry::EndNodes> ends;
+        for (io::ContourLine const& contour : io::contours(dem, 1.0)) {
+            std::size_t const node = 2 * ends.size();
+            ends.push_back({node, contour.line.front() == contour.line.back() ? node : node + 1});
+            lines.push_back(contour.line);
+        }
+        for (auto const& m : geometry::meetings(lines, ends)) {
+            bool const closes_ring = m.line == m.other && m.segment == 0 && m.at == lines[m.line].back();
+            EXPECT_TRUE(closes_ring) << m.line << " and " << m.other << " at " << m.at.x << ", " << m.at.y << " of "
+                                     << seed;
+        }
+        lines_in_all += lines.size();
+    }
+    EXPECT_GT(lines_in_all, 400U);
 }
 
 TEST(Contours, TheSmallestRingsStayRings) {

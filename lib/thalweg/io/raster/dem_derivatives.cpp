@@ -14,6 +14,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
@@ -71,6 +72,40 @@ void require_few_levels(Raster<float> const& dem, double interval_m) {
         high - low, most_levels);
 }
 
+/// Simplifies contours, except for those that would then cross themselves or others.
+std::vector<ContourLine> simplified(std::vector<ContourLine> lines, double tolerance_m, Run const& run) {
+    std::vector<std::vector<Vec2>> few;
+    std::vector<geometry::EndNodes> ends;
+    for (ContourLine const& line : lines) {
+        few.push_back(geometry::simplify(line.line, tolerance_m));
+        bool const is_closed = line.line.front() == line.line.back();
+        if (is_closed && few.back().size() <= 3) { // the smallest rings would be points
+            few.back() = line.line;
+        }
+        std::size_t const node = 2 * ends.size();
+        ends.push_back({node, is_closed ? node : node + 1});
+    }
+    for (bool again = true; again;) {
+        again = false;
+        for (geometry::Meeting const& meeting : geometry::meetings(few, ends, run)) {
+            bool const closes_ring = meeting.line == meeting.other && meeting.segment == 0 &&
+                                     meeting.other_segment + 2 == few[meeting.line].size() && !meeting.is_stretch() &&
+                                     meeting.at == few[meeting.line].back();
+            if (closes_ring) {
+                continue;
+            }
+            for (std::size_t const i : {meeting.line, meeting.other}) {
+                again = again || few[i].size() != lines[i].line.size();
+                few[i] = lines[i].line;
+            }
+        }
+    }
+    for (std::size_t i = 0; i < lines.size(); ++i) {
+        lines[i].line = std::move(few[i]);
+    }
+    return lines;
+}
+
 } // namespace
 
 std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
@@ -102,15 +137,13 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
         OGRLineString const& drawn_line = *feature->GetGeometryRef()->toLineString();
         ContourLine line{feature->GetFieldAsDouble(0), {}};
         for (OGRPoint const& p : drawn_line) {
-            line.line.push_back({p.getX(), p.getY()});
-        }
-        auto few = geometry::simplify(line.line, tolerance_cells * dem.grid().cell_m);
-        bool const is_closed = line.line.front() == line.line.back();
-        if (!is_closed || few.size() > 3) { // the smallest rings would be points
-            line.line = std::move(few);
+            if (Vec2 const at{p.getX(), p.getY()}; line.line.empty() || line.line.back() != at) {
+                line.line.push_back(at);
+            }
         }
         lines.push_back(std::move(line));
     }
+    lines = simplified(std::move(lines), tolerance_cells * dem.grid().cell_m, run);
     driver.check(what); // a failed allocation also ends the loop
     refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(),
                        "{}: contours are missing: free memory", what);
