@@ -62,6 +62,9 @@ DISTRIBUTION = re.compile(r"\b(?:std::)?(?:uniform_int|uniform_real|normal|berno
 PREFIX = re.compile(r'"([a-z]+)\.\w+: ')
 # Findings are values: Run::report and line_of() print them, and nothing reads their words.
 WARNING_AS_TEXT = re.compile(r"""["'`]warning: |(?:starts_with|startswith|startsWith)\(["'`]warning""")
+# What GDAL says of a band: OpenedHeights asks for all of it, so that every command reads a DEM alike.
+OTHER_DOOR = re.compile(r"GetMaskFlags|GetUnitType|(?<!GDAL_OF_VECTOR \| )GDAL_OF_RASTER(?! \| GDAL_OF_VECTOR)")
+DOORS = ("lib/thalweg/io/raster/opened_heights.cpp", "lib/thalweg/io/gdal/", "lib/thalweg/io/raster/web_tiles.cpp")
 # rapidcheck gives its verdict back; a test that does not look at it cannot fail.
 UNASKED = re.compile(r"^\s*rc::check\(")
 # A value of the pipeline that a function would change for its caller. Only the reader of recipes does so.
@@ -182,6 +185,8 @@ def check_source(name, lines):
             continue
         if found := WARNING_AS_TEXT.search(code):
             yield number, f"{found[0]}: a warning is a finding; return it as a value"
+        if (found := OTHER_DOOR.search(code)) and not name.startswith(DOORS):
+            yield number, f"{found[0]}: heights of rasters are read by OpenedHeights alone (io/raster/opened_heights.cpp)"
         if found := UNREPEATABLE.search(code):
             yield number, f"{found[0]}: not the same everywhere"
         if not begins(name, LIBM_FREE_OF):

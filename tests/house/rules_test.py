@@ -34,6 +34,8 @@ PLANTED = [
     ("tools/terminal/progress.cpp", '#include "help/help.hpp"', "dependencies point one way"),
     (NETWORK, 'run.say("warning: too short");', "a warning is a finding"),
     ("qgis/thalweg_processing/a.py", 'if line.startswith("warning"):', "read findings, not words"),
+    ("lib/thalweg/io/raster/polygons.cpp", "open_file(source, GDAL_OF_RASTER, what);", "OpenedHeights alone"),
+    ("lib/thalweg/io/raster/read_dem.cpp", "band.GetMaskFlags();", "OpenedHeights alone"),
     (NETWORK, "#include <random>", "not the same everywhere"),
     (NETWORK, "#include <execution>", "not the same everywhere"),
     (NETWORK, "std::shuffle(a, b, c);", "not the same everywhere"),

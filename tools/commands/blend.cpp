@@ -159,7 +159,7 @@ Command add_blend(CLI::App& app, Session& session) {
     app.add_option("--source-crs", options->params.source_crs,
                    "Read meshes that name no CRS in this projected CRS in metres.")
         ->type_name("EPSG:N");
-    add_nodata_option(app, params.nodata);
+    add_dem_options(app, params.reading);
     add_json_option(app, session);
     add_overwrite_option(app, options->params.existing);
     app.footer("Keeps the relief of the patch and matches the target's heights along its edge (Poisson blending), so "

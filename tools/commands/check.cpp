@@ -110,7 +110,7 @@ Command add_check(CLI::App& app, Session& session) {
            "other line. Default: a millionth of the network's extent.")
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
-    add_nodata_option(app, options->params.nodata);
+    add_dem_options(app, options->params.reading);
     add_json_option(app, session);
     add_overwrite_option(app, options->params.existing, "Replace existing --fix and --findings files.");
     app.footer("Every arc is checked: it runs from node to node and downhill, meets other arcs at its ends only, and "

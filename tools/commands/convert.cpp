@@ -98,7 +98,7 @@ Command add_convert(CLI::App& app, Session& session) {
     app.add_option("--table", params.table, "Name the database tables NAME or SCHEMA.NAME.")
         ->type_name("NAME")
         ->capture_default_str();
-    add_nodata_option(app, params.nodata);
+    add_dem_options(app, params.reading);
     add_json_option(app, session);
     add_overwrite_option(app, params.existing, "Replace existing files, or the tables and view in a database.");
     app.footer(

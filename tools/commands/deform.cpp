@@ -90,7 +90,7 @@ Command add_deform(CLI::App& app, Session& session) {
     app.add_option("--source-crs", options->params.source_crs,
                    "Read a mesh that names no CRS in this projected CRS in metres.")
         ->type_name("EPSG:N");
-    add_nodata_option(app, options->params.nodata);
+    add_dem_options(app, options->params.reading);
     add_json_option(app, session);
     add_overwrite_option(app, options->params.existing);
     app.footer("Keeps or scales the relief of the region and pulls it smoothly to the given heights (Poisson's "

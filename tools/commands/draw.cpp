@@ -53,7 +53,7 @@ Command add_draw(CLI::App& app, Session& session) {
                    "Multiply the wireframe's heights by this factor. Default: a suitable round number.")
         ->check(CLI::Range(0.001, 100000.0));
     add_overwrite_option(app, params->existing, "Replace pictures of the same names. Other files are kept.");
-    add_nodata_option(app, params->nodata);
+    add_dem_options(app, params->reading);
     add_json_option(app, session);
     app.footer("A folder is drawn from its dem.tif, network.gpkg and recipe. A raster gives a map, hypsometric curve, "
                "sections and wireframe, and with rivers their long profiles. A raster larger than 4000 cells a side is "

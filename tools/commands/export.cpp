@@ -114,7 +114,7 @@ Command add_export(CLI::App& app, Session& session) {
         "--base", params->base,
         "Make a solid this thick below its lowest height: of stl [m], default a tenth of the relief, at least a "
         "cell; of print3d [mm], default 3.");
-    add_nodata_option(app, params->nodata);
+    add_dem_options(app, params->reading);
     add_json_option(app, session);
     add_overwrite_option(app, params->existing, "Replace files of the same names.");
     app.footer(

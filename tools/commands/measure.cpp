@@ -67,7 +67,7 @@ Command add_measure(CLI::App& app, Session& session) {
              "Write these, separated by commas: d8 and dinf (contributing areas), directions (of both), "
              "catchments (one polygon per arc). Default: d8, dinf and, with rivers, catchments.");
     add_overwrite_option(app, options->params.existing, "Replace files of the same names. Other files are kept.");
-    add_nodata_option(app, options->params.nodata);
+    add_dem_options(app, options->params.reading);
     add_json_option(app, session);
     app.footer("Writes area_d8.tif and area_dinf.tif (contributing areas in m2, by D8 and D-infinity), "
                "direction_d8.tif (1 to 128 clockwise from east, 0 at outlets), direction_dinf.tif (radians "

@@ -60,11 +60,19 @@ void add_overwrite_option(CLI::App& app, io::Existing& existing, std::string con
         "--overwrite", [&existing] { existing = io::Existing::replace; }, meaning);
 }
 
-void add_nodata_option(CLI::App& app, std::optional<double>& nodata) {
-    app.add_option("--nodata", nodata,
+void add_dem_options(CLI::App& app, io::ReadDemParams& reading) {
+    app.add_option("--nodata", reading.nodata,
                    "Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every "
                    "value as a height. Default: refuse values that look like undeclared no-data.")
         ->type_name("V");
+    app.add_option("--band", reading.band,
+                   "Read heights from this band or variable of the DEM, by number or name. Default: the only one, or "
+                   "the one whose name means heights.")
+        ->type_name("BAND");
+    static std::map<std::string, io::HeightEncoding> const encodings{{"terrain-rgb", io::HeightEncoding::terrain_rgb},
+                                                                     {"terrarium", io::HeightEncoding::terrarium}};
+    app.add_option("--encoding", reading.encoding, "Decode the DEM's heights from the colours of a picture.")
+        ->transform(CLI::CheckedTransformer(encodings, CLI::ignore_case));
 }
 
 std::string is_seed(std::string const& word) {

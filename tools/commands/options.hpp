@@ -11,6 +11,7 @@
 
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 #include "commands/commands.hpp"
 
@@ -57,7 +58,7 @@ void add_overwrite_option(CLI::App& app, io::Existing& existing,
                           std::string const& meaning = "Replace an existing file.");
 
 /// The option of commands that read a DEM.
-void add_nodata_option(CLI::App& app, std::optional<double>& nodata);
+void add_dem_options(CLI::App& app, io::ReadDemParams& reading);
 
 /// Explains why a word is not a random seed that a recipe can hold; "": it is one.
 std::string is_seed(std::string const& word);

@@ -41,7 +41,7 @@ Command add_points(CLI::App& app, Session& session) {
         "--skeleton", [params] { params->of = pipeline::PointsOf::skeleton; },
         "Take only river and ridge cells of a folder written by make.");
     app.add_option("--format", params->format, "Write this format: " + formats + ". Default: by the file extension.");
-    add_nodata_option(app, params->nodata);
+    add_dem_options(app, params->reading);
     add_json_option(app, session);
     add_overwrite_option(app, params->existing);
     app.footer("Writes one point per cell, at its centre; cells without data are left out. LAS is version 1.2, point "

@@ -118,7 +118,7 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
 Command add_stats(CLI::App& app, Session& session) {
     auto const params = std::make_shared<pipeline::StatsParams>();
     app.add_option("DEM", params->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
-    add_nodata_option(app, params->nodata);
+    add_dem_options(app, params->reading);
     add_json_option(app, session);
     CLI::Option* const recipe =
         app.add_flag("--recipe", params->recipe, "Print a recipe of other terrain with the same statistics, for make.");

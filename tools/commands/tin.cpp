@@ -97,7 +97,7 @@ Command add_tin(CLI::App& app, Session& session) {
            "first of them. Default: mean.")
         ->check(CLI::IsMember({"mean", "error"}));
     app.add_option("--format", params->format, formats + ". Default: by the file extension.");
-    add_nodata_option(app, params->nodata);
+    add_dem_options(app, params->reading);
     add_json_option(app, session);
     add_overwrite_option(app, params->existing);
     return [params, &session] { return tin(*params, session); };

@@ -61,7 +61,7 @@ std::int64_t missing(Raster<float> const& dem) {
 /// What both readers of DEMs refuse in the same words.
 std::string refusal(std::string const& path, io::ReadDemParams const& params = {}) {
     std::string const words = error_of([&] { io::read_dem(path, params); });
-    std::string const other = error_of([&] { io::read_drawable(path, {.nodata = params.nodata}); });
+    std::string const other = error_of([&] { io::read_drawable(path, {.reading = params}); });
     auto const message = [](std::string const& text) { return text.substr(text.find(": ") + 2); };
     EXPECT_EQ(message(words), message(other)) << "one rule for all readers";
     return words;
@@ -110,7 +110,7 @@ TEST(UndeclaredNodata, TheLargestFloatIsRefusedWithTheRemedy) {
         EXPECT_THROW(io::read_dem(path), BadInput) << sign;
         EXPECT_THROW(io::read_drawable(path), BadInput) << sign;
         EXPECT_EQ(missing(io::read_dem(path, {.nodata = sign * 3.4e38})), 36);
-        EXPECT_EQ(missing(io::read_drawable(path, {.nodata = sign * 3.4e38}).dem), 36);
+        EXPECT_EQ(missing(io::read_drawable(path, {.reading = {.nodata = sign * 3.4e38}}).dem), 36);
     }
 }
 
@@ -130,7 +130,7 @@ TEST(UndeclaredNodata, ABlockFarFromAllElseIsRefused) {
     // Peaks, flats at the level of the terrain, the sea, and what is declared as terrain, are left alone.
     EXPECT_EQ(missing(io::read_dem(write(folder, hole(9000.0, 2)))), 0);
     EXPECT_EQ(missing(io::read_dem(write(folder, hole(20.0)))), 0);
-    EXPECT_EQ(missing(io::read_dem(write(folder, [](int c, int r) { return hole(0.0)(c, r) * 10.0; }))), 0);
+    EXPECT_EQ(missing(io::read_dem(write(folder, hole(0.0)))), 0);
     EXPECT_EQ(missing(io::read_dem(write(folder, hole(9000.0), {.nodata = -9999.0}))), 0);
     EXPECT_EQ(missing(io::read_dem(write(folder, hole(9000.0)), {.nodata = none})), 0);
     auto const two_levels = [](int c, int /*row*/) { return c < 20 ? 1.0 : 255.0; };
@@ -170,13 +170,14 @@ TEST(UndeclaredNodata, PicturesOfMeansKnowTheValue) {
     ScratchFolder const folder;
     std::string const path = write(folder, hole(-9999.0, 7), {.width = 80, .height = 60});
     EXPECT_THROW(io::read_drawable(path, {.most_side = 16}), BadInput);
-    Raster<float> const dem = io::read_drawable(path, {.most_side = 16, .nodata = -9999.0}).dem;
+    Raster<float> const dem = io::read_drawable(path, {.most_side = 16, .reading = {.nodata = -9999.0}}).dem;
     EXPECT_EQ(dem.width(), 16);
     for (float const z : dem.values()) {
         EXPECT_TRUE(std::isnan(z) || z > 90.0F) << z;
     }
     std::string const both = write(folder, hole(-9999.0), {.nodata = 105.0});
-    EXPECT_THROW(io::read_drawable(both, {.nodata = -9999.0}), BadInput); // two values
+    EXPECT_EQ(missing(io::read_drawable(both, {.reading = {.nodata = -9999.0}}).dem),
+              missing(io::read_dem(both, {.nodata = -9999.0})));
 }
 
 TEST(NearlySquareCells, AreTakenWhereTheyMakeATenthOfACellAtMost) {
@@ -216,11 +217,8 @@ TEST(ReadDem, WhatIsNotADemIsRefused) {
     EXPECT_THROW(io::read_dem(folder / "large.vrt"), BadInput); // before memory is asked for
     EXPECT_TRUE(has(refusal(constant(2e30)), "BadInput io.read_dem", "column 0, row 0"));
     EXPECT_EQ(io::read_dem(constant(9e29))[0], 9e29F);
-    for (std::vector<double> const& frame : std::vector<std::vector<double>>{{0.0, 2.0, 0.1, 0.0, 0.0, -2.0},
-                                                                             {0.0, 2.0, 0.0, 0.0, 0.0, -2.5},
-                                                                             {0.0, 2.0, 0.0, 0.0, 0.0, 2.0},
-                                                                             {0.0, -2.0, 0.0, 0.0, 0.0, -2.0},
-                                                                             {0.0, 2.0, 0.0, 0.0, 0.0, -2.01}}) {
+    for (std::vector<double> const& frame : std::vector<std::vector<double>>{
+             {0.0, 2.0, 0.1, 0.0, 0.0, -2.0}, {0.0, 2.0, 0.0, 0.0, 0.0, -2.5}, {0.0, 2.0, 0.0, 0.0, 0.0, -2.01}}) {
         EXPECT_TRUE(has(error_of([&] { io::read_dem(constant(1.0, {.frame = frame})); }), "BadInput io.read_dem"));
     }
     EXPECT_EQ(io::read_dem(constant(1.0, {.frame = {0.0, 2.0, 0.0, 0.0, 0.0, -2.000001}})).grid().cell_m, 2.0);
@@ -355,7 +353,7 @@ TEST(ReadDrawable, OddFramesBecomeNorthUpSquares) {
     EXPECT_TRUE(notes_say(read_drawable(make(folder, "turned.tif", made)), "turned north-up"));
     made.frame = {500000.0, 10.0, 0.0, 5000000.0, 0.0, 10.0};
     Drawable const south_up = read_drawable(make(folder, "south.tif", made));
-    EXPECT_TRUE(notes_say(south_up, "turned north-up"));
+    EXPECT_TRUE(notes_say(south_up, "from south to north"));
     EXPECT_EQ(south_up.dem.width(), 20);
 }
 
@@ -389,8 +387,6 @@ TEST(ReadDrawable, SaysWhatItHadToAssume) {
     EXPECT_TRUE(notes_say(read_drawable(make(folder, "crs.tif", made)), "no CRS"));
     made.frame.clear();
     EXPECT_TRUE(notes_say(read_drawable(make(folder, "place.tif", made)), "no position"));
-    made.bands = 3;
-    EXPECT_TRUE(notes_say(read_drawable(make(folder, "bands.tif", made)), "first of 3 bands"));
 }
 
 TEST(WarpToGrid, LeavesWhatFits) {

@@ -35,14 +35,19 @@ TEST(Commands, StatsOfADemInDegreesAreInMetres) {
     run.log = [&](std::string_view line) { log.emplace_back(line); };
     StatsResult const found = run_stats({.path = samples + "jacksboro_srtm3.tif", .laws = true, .relief = true}, run);
     ASSERT_EQ(log.size(), 1U);
-    EXPECT_TRUE(test::has(log[0], "jacksboro_srtm3.tif", found.grid.crs));
+    EXPECT_TRUE(test::has(log[0], "jacksboro_srtm3.tif", "UTM zone 16N"));
     EXPECT_EQ(found.grid.crs, "EPSG:32616");
     EXPECT_GT(found.statistics.std, 10.0);
     EXPECT_TRUE(found.laws && found.relief && !found.recipe);
     StatsResult const alike = run_stats({.path = samples + "jacksboro_srtm3.tif", .recipe = true});
     ASSERT_TRUE(alike.recipe);
     EXPECT_EQ(alike.recipe->recipe.grid.width, alike.grid.width);
-    EXPECT_NE(alike.grid.crs, found.grid.crs);
+    EXPECT_EQ(alike.grid, found.grid);
+    EXPECT_EQ(alike.recipe->recipe.grid.cell_m, found.grid.cell_m);
+    // Heights are those of the file's own cells.
+    EXPECT_EQ(found.statistics.cells, 403 * 344);
+    EXPECT_EQ(found.statistics.min.z, 236.0);
+    EXPECT_EQ(found.statistics.max.z, 1076.0);
 }
 
 TEST(Commands, GrowCountsWritesWordsAndDrawsRules) {

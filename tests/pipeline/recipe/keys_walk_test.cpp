@@ -114,7 +114,11 @@ std::vector<BaseRecipe> const bases = {
     {"RiversOnRaster",
      "[network]\nsource = \"lines\"\n[network.lines]\npath = \"heights.geojson\"\n" +
          surface("raster", "source = \"valley.asc\"\n"),
-     {"network.heights", "network.coast", "network.meander", "surface.drain", "grid.clip"}},
+     {"network.heights", "network.coast", "network.meander", "network.inland", "surface.drain", "grid.clip"}},
+    {"RiversThroughHills",
+     "[network]\nsource = \"lines\"\n[network.lines]\npath = \"crests.geojson\"\n" +
+         surface("raster", "source = \"hills.asc\"\n"),
+     {"surface.max_cut"}},
     {"Scatter",
      grid + "[skeleton]\nscatter = 50\n" + surface("tin") + statistics + "skeleton = \"points\"\n",
      {"skeleton.", "statistics.", "-statistics.skeleton"}},
@@ -167,6 +171,7 @@ std::map<std::string, Words> const values = {
     {"skeleton.spacing", {"4"}},
     {"surface.relief", {"300"}},
     {"surface.mask", {"mask.asc"}},
+    {"surface.max_cut", {"200"}},
     {"surface.source", {"other_hills.asc"}},
     {"surface.mean_slope", {"12"}},
     {"network.forest.outlet_spacing", {"25"}},
@@ -307,6 +312,11 @@ std::string digest(Made const& t) {
     }
     if (t.assessment.given_heights) {
         hash.add(t.assessment.given_heights->tolerance_m);
+    }
+    for (Finding const& finding : findings_of(t)) {
+        if (finding.kind == FindingKind("deep_cut")) { // surface.max_cut changes nothing else
+            add_text(hash, finding.text);
+        }
     }
     return std::to_string(hash.hash());
 }

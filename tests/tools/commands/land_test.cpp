@@ -60,6 +60,39 @@ TEST(Land, RiversDrainADem) {
     expect_run(place, "replay out --verify", 0);
 }
 
+TEST(Land, AStreamThatSinksStaysInItsDoline) {
+    Workplace const place;
+    // A closed basin of 30 m whose bottom lies in cell (30, 30), and a stream that ends there.
+    std::string grid = "ncols 60\nnrows 60\nxllcorner 500000\nyllcorner 4400000\ncellsize 5\n";
+    auto const height = [](int c, int r) {
+        return 470.0 + 0.05 * c + std::min(30.0, 1.5 * std::hypot(c - 30, r - 30));
+    };
+    for (int r = 0; r < 60; ++r) {
+        for (int c = 0; c < 60; ++c) {
+            grid += std::to_string(height(c, r)) + (c == 59 ? "\n" : " ");
+        }
+    }
+    place.write("dem.asc", grid);
+    place.write("stream.geojson", test::geojson(test::line("[500152.5,4400287.5],[500152.5,4400147.5]")));
+    std::string const make = "make stream.geojson --set surface.method=raster --set "
+                             "surface.source=dem.asc ";
+    expect_run(place, make + "-o carried", 0, "warning: rivers are cut into dem.asc by up to", "[deep_cut]");
+    auto const carried = report_of(place / "carried");
+    expect_run(place, make + "-o calm --set surface.max_cut=40", 0);
+    EXPECT_EQ(file_bytes(place / "carried/dem.tif"), file_bytes(place / "calm/dem.tif"));
+    Outcome const kept = expect_run(place, make + "-o sink --set network.inland=sink", 0);
+    EXPECT_EQ(kept.err.find("deep_cut"), std::string::npos);
+    expect_checks_hold(report_of(place / "sink"));
+    expect_run(place, "check sink -q", 0);
+    expect_run(place, "replay sink --verify", 0);
+    auto const bottom = [&](std::string const& folder) {
+        return static_cast<double>(thalweg::io::read_dem((place / folder / "dem.tif").string())[thalweg::Cell{30, 30}]);
+    };
+    EXPECT_NEAR(bottom("sink"), height(30, 30), 1e-3);
+    EXPECT_GT(std::fabs(bottom("carried") - height(30, 30)), 1.0) << "the way out is cut, and what it leaves is filled";
+    EXPECT_TRUE(carried["findings"].dump().find("deep_cut") != std::string::npos);
+}
+
 TEST(Land, WhatIsNoDemIsRefused) {
     Workplace const place;
     place.write("rivers.geojson", test::geojson(test::line("[500000,5000000],[500300,5000000]")));

@@ -62,13 +62,24 @@ OGRSpatialReference read_reference(std::string const& text) {
     return reference;
 }
 
-OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg) {
+OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg, OGRSpatialReference const* globe) {
     OGRSpatialReference centred;
     centred.SetProjCS(fmt::format("Equal area around {:.0f}, {:.0f}", longitude_deg, latitude_deg).c_str());
-    centred.SetWellKnownGeogCS("WGS84");
+    if (globe != nullptr) {
+        centred.CopyGeogCSFrom(globe);
+    } else {
+        centred.SetWellKnownGeogCS("WGS84");
+    }
     centred.SetLAEA(latitude_deg, longitude_deg, 0.0, 0.0);
     centred.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
     return centred;
+}
+
+bool is_on_earth(OGRSpatialReference const& reference) {
+    constexpr double least_m = 6.3e6;
+    constexpr double most_m = 6.4e6;
+    double const radius_m = reference.GetSemiMajor();
+    return radius_m > least_m && radius_m < most_m;
 }
 
 std::string name_of(OGRSpatialReference const& reference) {

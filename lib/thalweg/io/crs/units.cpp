@@ -85,16 +85,6 @@ bool has_vertical_unit(OGRSpatialReference const* reference) {
     return reference != nullptr && reference->IsEmpty() == 0 && reference->IsCompound() != 0;
 }
 
-double height_unit_of(GDALDataset& dataset) {
-    if (dataset.GetRasterCount() < 1) {
-        return 1.0;
-    }
-    if (auto const unit = unit_named(dataset.GetRasterBand(1)->GetUnitType())) {
-        return *unit;
-    }
-    return vertical_unit(dataset.GetSpatialRef());
-}
-
 double height_unit_of(OGRLayer& layer, std::string const& source_crs) {
     int const field = layer.GetLayerDefn()->GetFieldIndex("z_unit");
     if (field < 0 || layer.GetLayerDefn()->GetFieldDefn(field)->GetType() != OFTString) {

@@ -16,6 +16,11 @@ namespace thalweg::io {
 /// \return true: it connects
 bool names_connection(std::string const& path);
 
+/// Finds the file in GDAL's name of one of its variables or layers.
+/// \param path such as NETCDF:"heights.nc":elevation
+/// \return the existing file; "" for any other name
+std::string file_of_part(std::string const& path);
+
 /// Who names a source, which decides what may be opened.
 enum class Access : std::uint8_t {
     user,  ///< The user: any format that GDAL reads from the disk, and a connection only to what the path itself names,

@@ -320,10 +320,36 @@ bool is_recipe_file(std::string const& path) {
     }
 }
 
+Dataset open_part(Dataset const& file, std::string const& name) {
+    std::array<char const*, 2> const drivers{file->GetDriver()->GetDescription(), nullptr};
+    return {GDALDataset::Open(name.c_str(), GDAL_OF_RASTER | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers.data()),
+            file.get_deleter()};
+}
+
+std::string file_of_part(std::string const& path) {
+    std::size_t const first = path.find(':');
+    std::size_t const last = path.rfind(':');
+    if (first == std::string::npos || last <= first + 1 || names_connection(path)) {
+        return "";
+    }
+    std::string file = path.substr(first + 1, last - first - 1);
+    std::erase(file, '"');
+    std::error_code ignored;
+    return fs::is_regular_file(file, ignored) ? file : "";
+}
+
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what) {
     // GDAL takes addresses and connection strings for file names.
     if (std::error_code ignored; !fs::exists(source.path, ignored)) {
-        throw BadInput(what + " does not exist");
+        std::string const file = file_of_part(source.path);
+        if (file.empty()) {
+            throw BadInput(what + " does not exist");
+        }
+        Dataset part = open_part(open_file({file, source.access}, kinds, what), source.path);
+        if (part == nullptr) {
+            throw BadInput(fmt::format("{} cannot be read: {}", what, CPLGetLastErrorMsg()));
+        }
+        return part;
     }
     CPLErrorReset();
     Dataset dataset = open_unchanged(source, kinds);

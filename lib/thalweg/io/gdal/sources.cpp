@@ -29,6 +29,7 @@
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
+#include <thalweg/io/raster/internal/opened_heights.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -156,10 +157,7 @@ OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string con
 Units units_of(GDALDataset& data, std::string const& wanted, std::string const& path, std::string const& source_crs) {
     Units units;
     if (data.GetRasterCount() > 0) {
-        units.crs = crs_of_layer(data.GetSpatialRef(), "");
-        units.height_m = height_unit_of(data);
-        units.names_height = unit_named(data.GetRasterBand(1)->GetUnitType()).has_value();
-        units.has_heights = true;
+        units.crs = crs_of_layer(data.GetSpatialRef(), ""); // its heights: findings of read_dem_file()
         units.box = placed_box(data);
     } else if (OGRLayer* const layer = layer_of(data, wanted, path)) {
         units.crs = crs_of_layer(layer->GetSpatialRef(), source_crs);
@@ -198,7 +196,7 @@ std::vector<std::string> conversions_of(Source const& source, std::string const&
     std::string const name = std::filesystem::path(source.path).filename().string();
     std::vector<std::string> said;
     bool in_feet = false;
-    if (units.crs.IsEmpty() == 0) {
+    if (units.crs.IsEmpty() == 0 && units.crs.IsLocal() == 0) {
         OGRSpatialReference plan(units.crs);
         plan.StripVertical();
         in_feet = plan.IsProjected() != 0 && std::fabs(plan.GetLinearUnits() - 1.0) > 1e-9;
@@ -263,14 +261,20 @@ std::string stem_of(std::string const& source, std::string const& layer) {
 std::string plain_copy(std::string const& source, std::string const& layer, std::string const& folder, Run const& run) {
     Driver const driver;
     CPLConfigOptionSetter const date(date_option, fixed_date, false);
-    Dataset const data = open_unchanged(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
+    unsigned const kinds = GDAL_OF_RASTER | GDAL_OF_VECTOR;
+    std::string const file = file_of_part(source);
+    Dataset data = file.empty() ? open_unchanged(source, kinds) : open_file(source, kinds, "io.plain_copy: " + source);
     if (!data) {
         throw BadInput(fmt::format("io.plain_copy: {} cannot be read: {}", source, driver.take()));
     }
+    if (data->GetRasterCount() == 0 && data->GetLayerCount() == 0) {
+        data = variable_of_heights(data, "io.plain_copy: " + source);
+    }
     MemoryFile const raster;
     bool const is_raster = data->GetRasterCount() > 0 && data->GetLayerCount() == 0;
-    std::string const path =
-        (std::filesystem::path(folder) / (stem_of(source, layer) + (is_raster ? ".tif" : ".gpkg"))).string();
+    std::string const path = (std::filesystem::path(folder) /
+                              (stem_of(file.empty() ? source : file, layer) + (is_raster ? ".tif" : ".gpkg")))
+                                 .string();
     GdalProgress gdal_progress(run, "copy");
     Dataset copy =
         is_raster ? copy_raster(*data, raster.path(), gdal_progress) : copy_layers(*data, layer, path, gdal_progress);

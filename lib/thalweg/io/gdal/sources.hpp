@@ -46,8 +46,8 @@ std::vector<std::string> dataset_files(Source const& source);
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param source_crs of a layer that has no CRS; "": none
 /// \return what of a file changes when it is read into a grid's CRS in metres, each as a sentence: coordinates of
-/// another CRS are reprojected, heights in another unit are converted, heights of a CRS in feet that have no unit of
-/// their own count as metres.
+/// another CRS are reprojected; heights of lines and points in another unit are converted, those of a CRS in feet that
+/// have no unit of their own count as metres.
 std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs = {});
 

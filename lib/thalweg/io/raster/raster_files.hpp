@@ -21,31 +21,46 @@ enum class CellValues : std::uint8_t {
     numbers  ///< of a mask, of classes, factors
 };
 
+/// How a picture's colours stand for heights.
+enum class HeightEncoding : std::uint8_t {
+    none,        ///< they do not
+    terrain_rgb, ///< -10000 m + 0.1 m (65536 red + 256 green + blue)
+    terrarium    ///< 256 m red + 1 m green + 1/256 m blue - 32768 m
+};
+
 /// Options of read_dem().
 struct ReadDemParams {
     /// A stored value that is no-data, besides those that the file declares; NaN: none. If set, undeclared no-data is
     /// not searched.
     std::optional<double> nodata = {};
     CellValues values = CellValues::heights;
+    /// The band or variable with the heights, by number from 1 or by name; "": the only one, or the only one whose name
+    /// means heights.
+    std::string band = {};
+    HeightEncoding encoding = HeightEncoding::none;
+
+    friend bool operator==(ReadDemParams const&, ReadDemParams const&) = default;
 };
 
 /// A DEM as it was read.
 struct DemFile {
     Raster<float> dem;
-    std::vector<Finding> findings; ///< named_nodata, nan_cells
+    std::vector<Finding> findings; ///< what was done, and doubts
 };
 
-/// Reads the only band of any GDAL raster file, scale and offset applied, in metres by the unit that the band or the
-/// vertical part of its CRS names (metres where none is named); no-data and masked cells become NaN, and so do cells
-/// that are NaN themselves, with a finding. crs may be geographic or "" here; cell_m is in its unit. A raster without
-/// position has cells of 1 and its south-west corner at 0.
-/// \param source the file
-/// \return the raster, with findings
-/// \throws BadInput no such file, not a raster, more than one band, cells not square (their sides differ by more than
-/// 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated or south-up, larger than memory, no
-/// heights at all, a height beyond 1e30 (a damaged tile), values that no terrain has and the file does not declare as
-/// no-data: -9999, -32767, -32768, -99999; where it declares none and the cells are heights, also the lowest or highest
-/// value when it is not 0, fills 3 x 3 cells and lies farther from the next one than the others are apart
+/// Reads the heights of any GDAL raster file in metres: scale and offset are applied, then the unit that the band or
+/// the vertical part of its CRS names (metres where none is named); depths that grow downwards change their sign; the
+/// heights' datum stays, and the CRS of the result is the horizontal part. No-data, masked and transparent cells become
+/// NaN, and so do cells that are NaN themselves, with a finding. Rows from south to north, or columns from east to
+/// west, are read the other way. crs may be geographic or "" here; cell_m is in its unit. A raster without position has
+/// cells of 1 and its south-west corner at 0; one in a site's own system has metres and no CRS. \param source the file,
+/// or GDAL's name of one of its variables \return the raster, with findings \throws BadInput no such file, not a
+/// raster, several bands or variables of which none is clearly that of heights, a picture in colours, cells not square
+/// (their sides differ by more than 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated, larger
+/// than memory, longitudes and latitudes without a CRS, no heights at all, a height beyond 1e30 (a damaged tile),
+/// values that no terrain has and the file does not declare as no-data: -9999, -32767, -32768, -99999; where it
+/// declares none and the cells are heights, also the lowest or highest value when it fills 3 x 3 cells and lies farther
+/// from the next one than the others are apart (of 0: more than 300 m)
 DemFile read_dem_file(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
 /// \param source the file
@@ -61,9 +76,8 @@ Raster<float> read_dem(Source const& source, Run const& run = {});
 Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
 /// \param source the file
-/// \return whether read_dem takes a raster's cells as squares; true also of one that has no place, is rotated or is
-/// south-up
-/// \throws BadInput no such file or not a raster
+/// \return whether read_dem takes a raster's cells as squares along the axes; true also of one without a place
+/// \throws BadInput like read_dem_file, except for what only heights show
 bool has_square_cells(Source const& source);
 
 /// Reads a mask: the cells of any raster file whose value is neither 0 nor no-data.

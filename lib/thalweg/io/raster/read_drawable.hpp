@@ -4,12 +4,13 @@
 
 #include <cstdint>
 #include <optional>
-#include <string>
 #include <vector>
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::io {
 
@@ -21,28 +22,39 @@ enum class MetresOf : std::uint8_t {
 
 /// Options of read_drawable().
 struct ReadDrawableParams {
-    std::int64_t most_side = 4000;          ///< [16, 30000] cells
+    std::int64_t most_side = 4000;          ///< [16, 1000000] cells
     MetresOf metres = MetresOf::the_ground; ///< what counts as metres
-    std::optional<double> nodata = {};      ///< as in ReadDemParams
+    ReadDemParams reading = {};
+    bool summarises = false; ///< gives Drawable::own
 };
 
-/// A DEM that can be drawn, with findings on its conversion.
+/// The heights of a file's own cells, in degrees each weighted by its area on the ellipsoid.
+struct OwnHeights {
+    std::int64_t cells = 0; ///< cells with data
+    std::int64_t nodata = 0;
+    double mean = 0.0; ///< [m]
+    double std = 0.0;  ///< [m] population standard deviation
+    double min = 0.0;  ///< [m]
+    double max = 0.0;  ///< [m]
+    // NaN on a plain.
+    double skew = 0.0;     ///< [-] population
+    double kurtosis = 0.0; ///< [-] population excess kurtosis
+};
+
+/// A DEM in metres, with findings on its conversion.
 struct Drawable {
     Raster<float> dem;
     std::vector<Finding> findings;
+    std::optional<OwnHeights> own; ///< if asked for, and dem has other cells than the file
 };
 
-/// Reads any raster of heights for pictures, even if read_dem would reject it: one larger than most_side cells a side
-/// is reduced to means of k x k cells (incomplete blocks at the east and south are dropped); one in a CRS that is
-/// geographic or not in metres, or whose lengths are wrong by more than 1 % (Web Mercator), is warped (bilinear) to the
-/// UTM zone of its centre, or, if wider than 12 degrees or near a pole, to an equal-area projection centred on it;
-/// cells that are not square, rotated or south-up become north-up squares; of several bands the first is used; without
-/// a CRS coordinates count as metres.
-/// \param path of the file
-/// \return with one finding per change; NaN: no-data and masked cells; scale and offset are applied
-/// \throws BadInput for a missing file, one that is not a raster, complex numbers, no heights at all, a height beyond
-/// 1e30, undeclared no-data as in read_dem, a position without a projection, or params.nodata if the file declares
-/// another value
-Drawable read_drawable(std::string const& path, ReadDrawableParams const& params = {}, Run const& run = {});
+/// Reads any raster of heights as squares in metres, even if read_dem would refuse it: one larger than most_side cells
+/// a side is reduced to means of k x k cells (incomplete blocks at the east and south are dropped); one in a CRS that
+/// is geographic or not in metres, or whose lengths are wrong by more than 1 % (Web Mercator), is warped (bilinear) to
+/// the UTM zone of its centre, or, if wider than 12 degrees, near a pole or not on the Earth, to an equal-area
+/// projection centred on it; cells that are not square or rotated become north-up squares; without a CRS coordinates
+/// count as metres. Values are those of read_dem_file. \param file the file \return with one finding per change; NaN:
+/// no data \throws BadInput as read_dem_file, but for the shape of cells; for a position without a projection
+Drawable read_drawable(Source const& file, ReadDrawableParams const& params = {}, Run const& run = {});
 
 } // namespace thalweg::io

@@ -52,7 +52,7 @@ BlendedDem blend_dems(BlendParams const& params, Run const& run) {
                             "by gdal_edit.py -a_srs");
     BlendIntoParams const& patch = params.patch;
     io::OutputFile file(params.output, params.existing);
-    io::DemFile const read = io::read_dem_file(patch.target, {.nodata = patch.nodata}, run);
+    io::DemFile const read = io::read_dem_file(patch.target, patch.reading, run);
     Raster<float> const& target = read.dem;
     BlendedDem made = blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
     made.findings.insert(made.findings.begin(), read.findings.begin(), read.findings.end());
@@ -96,7 +96,7 @@ void check_mesh_params(BlendIntoParams const& params) {
           std::pair{"--keep", !params.keep.empty()}, std::pair{"--feather", params.feather_cells != 0.0},
           std::pair{"--mixed", params.relief == blend::Relief::mixed},
           std::pair{"--fill-holes", params.holes == blend::Holes::fill},
-          std::pair{"--nodata", params.nodata.has_value()}}) {
+          std::pair{"--nodata, --band or --encoding", params.reading != io::ReadDemParams{}}}) {
         refuse_if<BadParameter>(given, "pipeline.run_blend: {} is for DEMs: a mesh is pasted whole, inside its outline",
                                 name);
     }

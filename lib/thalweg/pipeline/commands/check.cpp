@@ -71,12 +71,11 @@ Mask cells_in(std::string const& raster, Grid const& grid) {
 measure::Certificate certify_files(NetworkFile const& network, CheckParams const& params, RiverRasters const& rasters,
                                    Run const& run) {
     std::string const& dem = params.dem;
-    Raster<float> const land =
-        io::read_stored_dem(dem, {.nodata = params.nodata}, run); // the unit does not change the flow
+    Raster<float> const land = io::read_stored_dem(dem, params.reading, run); // the unit does not change the flow
     if (!io::same_crs(network.crs, land.grid().crs, "the network", dem)) {
         std::string const lines = network.crs.substr(0, 60);
         throw BadInput(fmt::format("pipeline.run_check: the network is in {}, {} in {}; reproject one of them "
-                                   "(ogr2ogr -t_srs, gdalwarp -t_srs {} {} OUT.tif)",
+                                   "(ogr2ogr -t_srs, gdalwarp -novshift -t_srs {} {} OUT.tif)",
                                    lines, dem, land.grid().crs.substr(0, 60), lines, dem));
     }
     FileReaches const found = reaches_of_file(network, land.grid());
@@ -283,7 +282,7 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
     if (fix) {
         StageLog stage_log(run);
         Raster<float> const dem =
-            read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.nodata, stage_log, run);
+            read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.reading, stage_log, run);
         append(checked.notes, stage_log.take_findings());
         RepairedNetwork const mended =
             repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr}, run);

@@ -11,6 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 
 namespace thalweg::pipeline {
@@ -24,7 +25,7 @@ struct CheckParams {
     std::string findings = {};       ///< NAME.gpkg: the findings as points; "": none
     io::Existing existing = io::Existing::refuse; ///< fix and findings
     double near_m = 0.0;                          ///< [m] >= 0: as measure::TopologyParams
-    std::optional<double> nodata = {};            ///< of the DEM, as in io::ReadDemParams
+    io::ReadDemParams reading = {};               ///< how the DEM is read
 };
 
 /// What run_check() returns.

@@ -46,12 +46,13 @@ bool is_known(std::vector<double> const& areas) {
 
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, std::vector<Finding>& findings,
                        Run const& run) {
-    io::DemFile read = io::read_dem_file(params.dem, {.nodata = params.nodata}, run);
+    io::DemFile read = io::read_dem_file(params.dem, params.reading, run);
     append(findings, read.findings);
     Raster<float> dem = std::move(read.dem);
-    refuse_if<BadInput>(!io::same_crs(dem.grid().crs, crs, "pipeline.run_convert: " + params.dem, params.path),
-                        "pipeline.run_convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -t_srs {:.60})",
-                        params.dem, dem.grid().crs, params.path, crs, crs);
+    refuse_if<BadInput>(
+        !io::same_crs(dem.grid().crs, crs, "pipeline.run_convert: " + params.dem, params.path),
+        "pipeline.run_convert: {} is in {:.60}, {} in {:.60}: warp it (gdalwarp -novshift -t_srs {:.60})", params.dem,
+        dem.grid().crs, params.path, crs, crs);
     return dem;
 }
 

@@ -11,6 +11,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/network/schema.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -21,13 +22,13 @@ struct ConvertParams {
     io::Existing existing = io::Existing::refuse;
     io::ReadNetworkParams read = {};
     io::Schema schema = io::Schema::native;
-    std::string format = {};           ///< a name of io::network_formats(); "": by the output's extension
-    int max_upstream = 0;              ///< [2, ...] arcs that may end at one node; 0: any number
-    double split_distance_m = 0.0;     ///< [m] shift of confluences; 0: median segment length
-    std::string dem = {};              ///< source of heights and areas if the file has none; frame of the mask
-    double cell_m = 0.0;               ///< [m] cell size of the mask without a DEM
-    std::string table = "network";     ///< in a database, NAME or SCHEMA.NAME
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    std::string format = {};        ///< a name of io::network_formats(); "": by the output's extension
+    int max_upstream = 0;           ///< [2, ...] arcs that may end at one node; 0: any number
+    double split_distance_m = 0.0;  ///< [m] shift of confluences; 0: median segment length
+    std::string dem = {};           ///< source of heights and areas if the file has none; frame of the mask
+    double cell_m = 0.0;            ///< [m] cell size of the mask without a DEM
+    std::string table = "network";  ///< in a database, NAME or SCHEMA.NAME
+    io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 
 /// The result of a conversion.

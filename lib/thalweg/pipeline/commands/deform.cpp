@@ -31,7 +31,7 @@ DeformedDem deform_dem(DeformParams const& params, Run const& run) {
     io::OutputFile file(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
                             "pipeline.run_deform: nothing to do: give a scale or heights to pull to");
-    io::DemFile const read = io::read_dem_file(params.target, {.nodata = params.nodata}, run);
+    io::DemFile const read = io::read_dem_file(params.target, params.reading, run);
     run.report(read.findings);
     Raster<float> const& target = read.dem;
     Grid const& grid = target.grid();
@@ -106,8 +106,8 @@ std::string crs_of_mask(DeformParams const& params, std::vector<Finding>& findin
 }
 
 DeformedTin deform_mesh(DeformParams const& params, Run const& run) {
-    refuse_if<BadParameter>(params.nodata.has_value(),
-                            "pipeline.run_deform: --nodata is for DEMs: a mesh has no cells");
+    refuse_if<BadParameter>(params.reading != io::ReadDemParams{},
+                            "pipeline.run_deform: --nodata, --band and --encoding are for DEMs: a mesh has no cells");
     Vec3 const axis = params.axis.value_or(Vec3{0.0, 0.0, 1.0});
     refuse_if<BadParameter>(axis == Vec3{}, "pipeline.run_deform: --axis 0,0,0 has no direction");
     io::TinFormat const format = io::tin_format("", params.output);

@@ -14,6 +14,7 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -31,8 +32,8 @@ struct DeformParams {
     std::optional<Vec3> axis = {};
     /// [m] positions in the region, and the heights to which they are moved; of a mesh its vertex nearest to each
     std::vector<Vec3> handles = {};
-    std::string source_crs = {};       ///< of a mesh without a CRS, projected, in metres; "": the mask's
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    std::string source_crs = {};    ///< of a mesh without a CRS, projected, in metres; "": the mask's
+    io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 
 /// A deformed mesh.

@@ -187,7 +187,7 @@ DrawResult run_draw(DrawParams const& params, Run const& run) {
     if (order.ensemble) {
         return draw_ensemble(params, {order.folder, order.single, order.formats, order.page}, run);
     }
-    SceneRead read = read_scene({.source = params.source, .network = params.network, .nodata = params.nodata}, run);
+    SceneRead read = read_scene({.source = params.source, .network = params.network, .reading = params.reading}, run);
     if (!params.title.empty()) {
         read.scene.title = params.title;
     }

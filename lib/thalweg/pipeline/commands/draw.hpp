@@ -9,6 +9,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 
 namespace thalweg::pipeline {
@@ -26,10 +27,10 @@ struct DrawParams {
     std::vector<std::string> what;
     /// png, svg, pdf; empty: the extension of the output, else png, of an ensemble svg
     std::vector<std::string> formats;
-    std::string network;               ///< file of river lines over a DEM; "": none
-    std::string title;                 ///< "": the scene's own
-    Look look;                         ///< its format is not used
-    std::optional<double> nodata = {}; ///< of a raster, as in io::ReadDemParams
+    std::string network;            ///< file of river lines over a DEM; "": none
+    std::string title;              ///< "": the scene's own
+    Look look;                      ///< its format is not used
+    io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 
 /// What run_draw() returns.

@@ -394,8 +394,8 @@ std::string words_of_key(MembersTable const& table, std::size_t key) {
 }
 
 DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, Run const& run) {
-    refuse_if<BadParameter>(!params.network.empty() || params.nodata || params.look.azimuth_deg ||
-                                params.look.elevation_deg || params.look.exaggeration,
+    refuse_if<BadParameter>(!params.network.empty() || params.reading != io::ReadDemParams{} ||
+                                params.look.azimuth_deg || params.look.elevation_deg || params.look.exaggeration,
                             "pipeline.run_draw: an ensemble has no network, no-data value or viewing direction: leave "
                             "out --network, --nodata, --azimuth, --elevation and --exaggeration");
     fs::path const source(params.source);

@@ -275,7 +275,7 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
     ExportFiles files(params, made.format);
     constexpr std::int64_t longest_side = 30000;
     SceneRead read =
-        read_scene({.source = params.source, .network = {}, .nodata = params.nodata, .most_side = longest_side}, run);
+        read_scene({.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     made.findings = std::move(read.findings);
     ExportSize const size = size_of(params, made.format, read.scene.dem->grid(), made.findings);

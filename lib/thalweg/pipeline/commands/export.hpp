@@ -11,6 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -54,7 +55,7 @@ struct ExportParams {
     /// set; of print3d [mm], 3 if not set
     std::optional<double> base = {};
     std::optional<double> print_mm = {}; ///< [mm] of print3d: its longer side; 150 if not set
-    std::optional<double> nodata = {};   ///< of the DEM, as in io::ReadDemParams
+    io::ReadDemParams reading = {};      ///< how the DEM is read
     /// [1, 64] tiles of a row and of a column, set together, of unreal, unity and godot; 1 if not set
     std::optional<std::int64_t> tiles_across = {};
     std::optional<std::int64_t> tiles_down = {};

@@ -786,7 +786,7 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     io::OutputFolder out(params.output, params.existing, before);
     constexpr std::int64_t longest_side = 30000;
     SceneRead read =
-        read_scene({.source = params.source, .network = {}, .nodata = params.nodata, .most_side = longest_side}, run);
+        read_scene({.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     ExportResult made;
     made.findings = std::move(read.findings);

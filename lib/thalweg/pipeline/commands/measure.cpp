@@ -198,7 +198,7 @@ MeasureResult run_measure(MeasureParams const& params, Run const& run) {
     Measured const source = source_of(params);
     auto const wanted = wanted_of(params, source);
     Writer out(params.output, wanted, params.existing);
-    io::DemFile const read = io::read_dem_file(source.dem, {.nodata = params.nodata}, run);
+    io::DemFile const read = io::read_dem_file(source.dem, params.reading, run);
     Raster<float> const& dem = read.dem;
     require_metres(dem.grid(), source.dem, "pipeline.run_measure");
     NetworkFile network;

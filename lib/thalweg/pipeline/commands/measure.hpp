@@ -12,6 +12,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -22,8 +23,8 @@ struct MeasureParams {
     io::Existing existing = io::Existing::refuse; ///< replace: files of the same name are replaced, nothing else
     std::string network;                          ///< "": the folder's own, if any
     io::ReadNetworkParams read;                   ///< how the network is read; it is reprojected to the DEM's CRS
-    std::vector<std::string> what;     ///< names of measures; empty: d8, dinf and, with a network, catchments
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    std::vector<std::string> what;  ///< names of measures; empty: d8, dinf and, with a network, catchments
+    io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 
 /// Arcs and cells that the catchments leave out.

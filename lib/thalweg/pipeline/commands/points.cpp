@@ -59,8 +59,7 @@ PointsResult run_points(PointsParams const& params, Run const& run) {
                             "pipeline.run_points: --skeleton needs a folder written by make; {} is not one",
                             params.path);
     fs::path const folder(params.path);
-    io::DemFile read =
-        io::read_dem_file(is_folder ? (folder / "dem.tif").string() : params.path, {.nodata = params.nodata}, run);
+    io::DemFile read = io::read_dem_file(is_folder ? (folder / "dem.tif").string() : params.path, params.reading, run);
     run.report(read.findings);
     Raster<float> land = std::move(read.dem);
     require_metres(land.grid(), params.path, "pipeline.run_points");

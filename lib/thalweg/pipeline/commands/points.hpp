@@ -10,6 +10,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -26,8 +27,8 @@ struct PointsParams {
     io::Existing existing = io::Existing::refuse;
     std::string format = {}; ///< a name of io::point_formats(); "": by the output's extension
     PointsOf of = PointsOf::land;
-    std::int64_t every = 1;            ///< as in io::WritePointsParams
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    std::int64_t every = 1;         ///< as in io::WritePointsParams
+    io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 
 /// The points written.

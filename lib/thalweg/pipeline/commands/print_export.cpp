@@ -38,7 +38,7 @@ Raster<float> without_holes(Scene const& scene) {
         holes > 0,
         "pipeline.write_print: {} of {} cells have no data: a solid has no holes; fill them first "
         "(gdal_fillnodata.py), or, along the rim of a DEM that came into metres from degrees or another "
-        "CRS, cut a rectangle (gdalwarp -t_srs -te)",
+        "CRS, cut a rectangle (gdalwarp -novshift -t_srs -te)",
         holes, dem.cells());
     return dem;
 }

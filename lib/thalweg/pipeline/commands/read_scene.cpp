@@ -179,7 +179,7 @@ SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
     }
     if (fs::exists(dem)) {
         io::Drawable read = io::read_drawable(
-            dem, {.most_side = params.most_side, .metres = io::MetresOf::any_crs, .nodata = params.nodata},
+            dem, {.most_side = params.most_side, .metres = io::MetresOf::any_crs, .reading = params.reading},
             run); // the choice of its maker
         scene.dem = std::move(read.dem);
         out.findings = std::move(read.findings);
@@ -219,7 +219,7 @@ SceneRead read_scene(ReadSceneParams const& params, Run const& run) {
          fs::exists(fs::path(source) / "network.gpkg") || fs::path(source).extension().empty())) {
         out = read_folder(params, run);
     } else {
-        io::Drawable read = io::read_drawable(source, {.most_side = params.most_side, .nodata = params.nodata}, run);
+        io::Drawable read = io::read_drawable(source, {.most_side = params.most_side, .reading = params.reading}, run);
         out.scene.dem = std::move(read.dem);
         out.findings = std::move(read.findings);
         out.scene.title = fs::path(source).stem().string();

@@ -9,6 +9,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
@@ -18,11 +19,11 @@ namespace thalweg::pipeline {
 
 /// Options of run_stats().
 struct StatsParams {
-    std::string path = {};             ///< any raster of heights
-    std::optional<double> nodata = {}; ///< as in io::ReadDemParams
-    bool laws = false;                 ///< of the streams extracted from the DEM
+    std::string path = {};          ///< any raster of heights
+    io::ReadDemParams reading = {}; ///< how the DEM is read
+    bool laws = false;              ///< of the streams extracted from the DEM
     bool relief = false;
-    bool recipe = false; ///< of other terrain with the same statistics; the DEM then keeps its own cells
+    bool recipe = false;                                        ///< of other terrain with the same statistics
     std::int64_t support_cells = DemLawsParams{}.support_cells; ///< of the laws, as in DemLawsParams
 };
 
@@ -36,12 +37,10 @@ struct StatsResult {
     std::vector<Finding> findings = {}; ///< how the DEM was read
 };
 
-/// Runs `thalweg stats`: reads a DEM and computes its statistics. A DEM in degrees, or in metres whose lengths are
-/// wrong by more than 1 % (Web Mercator), is warped to the UTM zone of its middle, on cells of the same size as its
-/// own; one whose cells are not square to squares; findings say so.
-/// \param params file and options
-/// \return the statistics, and what else is set
-/// \throws BadInput as io::read_dem, the statistics and recipe_of_dem, and for a geographic DEM in no UTM zone
+/// Runs `thalweg stats`: reads a DEM and computes its statistics. One that is not on squares in metres is warped to
+/// such as io::read_drawable does, and findings say so; count, mean, deviation, extremes, skewness and kurtosis remain
+/// those of the file's own cells (of degrees weighted by their area). \param params file and options \return the
+/// statistics, and what else is set \throws BadInput as io::read_drawable, the statistics and recipe_of_dem
 StatsResult run_stats(StatsParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -46,12 +46,10 @@ Breaklines read_lines(std::string const& path, std::string const& crs, std::stri
 
 TinResult of_dem(std::string const& path, TinParams const& params, Run const& run) {
     double const error_m = params.error_m.value_or(geometry::TinOfDemParams{}.error_m);
-    io::DemFile const read = io::read_dem_file(path, {.nodata = params.nodata}, run);
+    io::DemFile const read = io::read_dem_file(path, params.reading, run);
     run.report(read.findings);
     Raster<float> const& dem = read.dem;
-    if (io::is_distorted(dem.grid())) {
-        require_metres(dem.grid(), path, "pipeline.run_tin");
-    }
+    require_metres(dem.grid(), path, "pipeline.run_tin");
     auto simplified = geometry::tin_of_dem(dem, {error_m}, run);
     TinResult made;
     made.tin = std::move(simplified.tin);
@@ -93,7 +91,8 @@ TinResult tin_of(TinParams const& params, Run const& run) {
         return of_dem(content.path, params, run);
     }
     for (auto const& [option, given] :
-         {std::pair{"--error", params.error_m.has_value()}, std::pair{"--nodata", params.nodata.has_value()}}) {
+         {std::pair{"--error", params.error_m.has_value()},
+          std::pair{"--nodata, --band or --encoding", params.reading != io::ReadDemParams{}}}) {
         if (given) {
             throw BadParameter(fmt::format("pipeline.run_tin: {} applies to a DEM only; {} holds {}", option,
                                            content.path, content.kind == Kind::points ? "points" : "lines"));

@@ -12,6 +12,7 @@
 #include <thalweg/core/tin.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -27,8 +28,8 @@ struct TinParams {
     std::string source_crs = {};        ///< of points and lines whose file has no CRS; "": none
     /// for points; averaged if not set
     std::optional<io::DuplicatePoints> duplicates = {};
-    std::string columns = {};          ///< of text with points, as io::ReadPointsParams; "": none
-    std::optional<double> nodata = {}; ///< of the DEM, as in io::ReadDemParams
+    std::string columns = {};       ///< of text with points, as io::ReadPointsParams; "": none
+    io::ReadDemParams reading = {}; ///< how the DEM is read
 };
 
 /// A TIN and the statistics of its construction.

@@ -56,12 +56,12 @@ Grid frame_for(Grid const& source, Grid const& target, BlendIntoParams const& pa
     }
     if (is_distorted) {
         throw BadInput(fmt::format("{} does not overlap {}, whose CRS {:.60} has metres of another length there: warp "
-                                   "the target first (gdalwarp -t_srs {:.60})",
+                                   "the target first (gdalwarp -novshift -t_srs {:.60})",
                                    whose, target_words, target.crs, io::ground_cell(target).crs));
     }
     refuse_if<BadInput>(io::ground_cell(target).unit != io::GridUnit::metres,
                         "{} does not overlap {}, whose cells are not in metres, so its size there is unknown: warp the "
-                        "target (gdalwarp -t_srs)",
+                        "target (gdalwarp -novshift -t_srs)",
                         whose, target_words);
     as.is_elsewhere = true;
     Grid frame = source;
@@ -71,7 +71,7 @@ Grid frame_for(Grid const& source, Grid const& target, BlendIntoParams const& pa
 }
 
 PastedSource read_source(BlendIntoParams const& params, Grid const& grid, Run const& run) {
-    io::DemFile read = io::read_dem_file(params.source, {.nodata = params.nodata}, run);
+    io::DemFile read = io::read_dem_file(params.source, params.reading, run);
     Raster<float> dem = std::move(read.dem);
     PastedSource source;
     source.findings = std::move(read.findings);
@@ -118,7 +118,7 @@ BlendedDem blend_into(Raster<float> const& target, Mask keep, BlendIntoParams co
     Grid const& grid = target.grid();
     refuse_if<BadInput>(params.rotate_deg != 0.0 && io::ground_cell(grid).unit == io::GridUnit::degrees,
                         "pipeline.blend_into: {} is in degrees, so its cells are not square and a patch cannot be "
-                        "rotated: warp it (gdalwarp -t_srs)",
+                        "rotated: warp it (gdalwarp -novshift -t_srs)",
                         params.target);
     PastedSource const source = read_source(params, grid, run);
     blend::PlacePatchParams placing;

@@ -11,6 +11,7 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 
 namespace thalweg::pipeline {
 
@@ -28,7 +29,7 @@ struct BlendIntoParams {
     double feather_cells = 0.0;                     ///< [cells] as in blend::PasteParams
     blend::Relief relief = blend::Relief::source;
     blend::Holes holes = blend::Holes::leave;
-    std::optional<double> nodata = {}; ///< of both DEMs, as in io::ReadDemParams
+    io::ReadDemParams reading = {}; ///< how both DEMs are read
 };
 
 /// How the position of a patch was chosen.

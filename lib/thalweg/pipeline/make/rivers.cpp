@@ -8,10 +8,12 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 
@@ -82,20 +84,51 @@ Valley bed_of(Channels const& channels, Raster<float> const& dem, std::string co
     return valley;
 }
 
+/// A valley in which each sink lies below the land around it.
+Valley with_sinks_lowest(Valley valley, std::vector<CellIndex> const& sinks, Raster<float> const& dem) {
+    Grid const& grid = dem.grid();
+    for (CellIndex const sink : sinks) {
+        for (Cell const step : d8_steps) {
+            Cell const c{grid.at(sink).col + step.col, grid.at(sink).row + step.row};
+            if (grid.contains(c) && std::isnan(valley.z[c]) && !(dem[c] > valley.z[sink])) {
+                valley.z[sink] = std::nextafterf(dem[c], -std::numeric_limits<float>::infinity());
+            }
+        }
+    }
+    return valley;
+}
+
 /// Rivers in the cells of the DEM that is the terrain.
 RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run const& run) {
     network::ChannelsOfArcs drawn = network::channels(planform.network, planform.grid, {}, run);
     RaisedRivers laid;
     laid.valley = bed_of(drawn.channels, plan.raster, plan.recipe.surface->source);
+    if (plan.recipe.network->inland == InlandEnds::sink) {
+        std::vector<NodeId> const sinks = inland_ends(planform.network, plan.raster);
+        laid.valley =
+            with_sinks_lowest(std::move(laid.valley), cells_of(sinks, planform.network, planform.grid), plan.raster);
+    }
     Raster<float> cut = plan.raster;
+    CellIndex deepest = 0;
     for (CellIndex const cell : drawn.channels.cell) {
         double const by_m = static_cast<double>(cut[cell]) - static_cast<double>(laid.valley.z[cell]);
         laid.statistics.lowered_cells += by_m > 0.0 ? 1 : 0;
+        deepest = by_m > laid.statistics.max_lowered_m ? cell : deepest;
         laid.statistics.max_lowered_m = std::max(laid.statistics.max_lowered_m, by_m);
         cut[cell] = laid.valley.z[cell];
     }
     laid.network = network::elevate_from_dem(planform.network, drawn.channels, cut);
     laid.findings = std::move(drawn.notes);
+    if (laid.statistics.max_lowered_m > plan.recipe.surface->max_cut_m) {
+        Vec2 const at = planform.grid.centre(planform.grid.at(deepest));
+        laid.findings.push_back(
+            {.kind = "deep_cut",
+             .where = at,
+             .amount = laid.statistics.max_lowered_m,
+             .text = fmt::format("rivers are cut into {} by up to {:.1f} m, at ({:.0f}, {:.0f})",
+                                 plan.recipe.surface->source, laid.statistics.max_lowered_m, at.x, at.y),
+             .key = "surface.max_cut"});
+    }
     return laid;
 }
 

@@ -9,6 +9,7 @@
 
 #include <fmt/format.h>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/kept.hpp>
@@ -444,15 +445,39 @@ struct Conditioned {
     std::optional<ConditioningChanges> statistics;
 };
 
-Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley const& valley, StageLog& stage_log,
-                        Run const& run) {
+/// Cells in which rivers end inland, where the recipe keeps these ends.
+std::vector<CellIndex> sinks_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network) {
+    bool const sinks = plan.recipe.network && plan.recipe.network->inland == InlandEnds::sink;
+    return sinks ? cells_of(inland_ends(network, dem), network, dem.grid()) : std::vector<CellIndex>{};
+}
+
+/// Water leaves the land in sinks: while it is conditioned they are holes in it.
+Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network,
+                        StageLog& stage_log, Run const& run) {
     if (!conditions_dem(plan.recipe)) {
         return {std::move(dem), std::nullopt};
     }
-    Valley const none{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
-    flow::ConditionedDem result = stage_log.stage("carve", [&] {
-        return flow::condition(std::move(dem), plan.recipe.network ? valley : none, {*plan.recipe.surface->drain}, run);
-    });
+    constexpr float hole = std::numeric_limits<float>::quiet_NaN();
+    if (!plan.recipe.network) {
+        valley.z = Raster<float>(dem.grid(), hole);
+    }
+    std::vector<CellIndex> const sinks = sinks_of(plan, dem, network);
+    std::vector<float> heights;
+    for (CellIndex const sink : sinks) {
+        heights.push_back(std::exchange(dem[sink], hole));
+        valley.z[sink] = hole;
+    }
+    flow::ConditionedDem result = stage_log.stage(
+        "carve", [&] { return flow::condition(std::move(dem), valley, {*plan.recipe.surface->drain}, run); });
+    Grid const grid = result.dem.grid();
+    for (std::size_t i = 0; i < sinks.size(); ++i) {
+        float lowest = std::numeric_limits<float>::infinity();
+        for (Cell const step : d8_steps) {
+            Cell const c{grid.at(sinks[i]).col + step.col, grid.at(sinks[i]).row + step.row};
+            lowest = grid.contains(c) ? std::fmin(lowest, result.dem[c]) : lowest;
+        }
+        result.dem[sinks[i]] = std::min(heights[i], std::nextafterf(lowest, -std::numeric_limits<float>::infinity()));
+    }
     stage_log.say(fmt::format("banks raised {:.0f} m3; depressions filled {:.0f} m3, cut {:.0f} m3",
                               result.banks.raised_m3, result.depressions.raised_m3, result.depressions.cut_m3));
     return {std::move(result.dem), ConditioningChanges{result.banks, result.depressions}};
@@ -460,12 +485,8 @@ Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley const& valle
 
 flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network,
                             StageLog& stage_log, Run const& run) {
-    bool const sinks = plan.recipe.network && plan.recipe.network->inland == InlandEnds::sink;
     run.at(0.0, fmt::format("drain {} cells", dem.cells()).c_str());
-    return stage_log.stage("drain", [&] {
-        return flow::route(
-            dem, sinks ? cells_of(inland_ends(network, dem), network, dem.grid()) : std::vector<std::int64_t>{}, run);
-    });
+    return stage_log.stage("drain", [&] { return flow::route(dem, sinks_of(plan, dem, network), run); });
 }
 
 /// Rivers that have heights of their own, where the recipe asks for no surface.
@@ -528,7 +549,8 @@ Terrain terrain_with_surface(Plan const& plan, Planform const& planform, Run con
     }
     Patched patched = with_patches(plan, std::move(drawn.surface.dem), std::move(drawn.valley),
                                    drawn.rivers.network.planform, stage_log, run);
-    Conditioned drained = conditioned(plan, std::move(patched.dem), patched.valley, stage_log, run);
+    Conditioned drained =
+        conditioned(plan, std::move(patched.dem), patched.valley, drawn.rivers.network.planform, stage_log, run);
     show(drained.dem, true, run);
     flow::FlowField drainage = drainage_of(plan, drained.dem, drawn.rivers.network.planform, stage_log, run);
     WithSideValleys made = with_side_valleys(plan, std::move(drawn.rivers), std::move(patched.valley), drawn.channels,

@@ -117,11 +117,11 @@ Raster<float> read_field(io::Source const& source, Grid const& grid, std::string
 }
 
 Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
-                          std::optional<double> nodata, StageLog& stage_log, Run const& run) {
+                          io::ReadDemParams const& reading, StageLog& stage_log, Run const& run) {
     if (source.path.empty()) {
         return {};
     }
-    io::DemFile const read = io::read_dem_file(source, {.nodata = nodata}, run);
+    io::DemFile const read = io::read_dem_file(source, reading, run);
     stage_log.find(read.findings);
     Raster<float> const& dem = read.dem;
     Grid lattice;
@@ -444,12 +444,12 @@ void require_metres(Grid const& grid, std::string const& path, char const* who) 
     io::GridUnit const unit = ground.unit;
     if (unit == io::GridUnit::distorted) {
         throw BadInput(fmt::format("{}: the coordinates of {} are in {:.60}, whose metres are {:.3g} m on the ground "
-                                   "there: reproject it first (gdalwarp -t_srs {:.60} {} OUT.tif)",
+                                   "there: reproject it first (gdalwarp -novshift -t_srs {:.60} {} OUT.tif)",
                                    who, path, grid.crs, ground.side_m / grid.cell_m, ground.crs, path));
     }
     if (unit == io::GridUnit::degrees || unit == io::GridUnit::other) {
         throw BadInput(fmt::format("{}: the coordinates of {} are {}: reproject it to a CRS in metres first "
-                                   "(gdalwarp -t_srs)",
+                                   "(gdalwarp -novshift -t_srs)",
                                    who, path, unit == io::GridUnit::degrees ? "geographic" : "not in metres"));
     }
 }

@@ -139,7 +139,8 @@ void check_equilibrium(Recipe const& recipe, Faults& faults) {
         add_if(n.heights == Heights::fixed, faults,
                R"(network.heights = "fixed" needs surface.method = "equilibrium")");
         add_if(n.heights == Heights::ends, faults, R"(network.heights = "ends" needs surface.method = "equilibrium")");
-        add_if(n.inland == InlandEnds::sink, faults, R"(network.inland = "sink" needs surface.method = "equilibrium")");
+        add_if(n.inland == InlandEnds::sink && !on_raster(recipe), faults,
+               R"(network.inland = "sink" needs surface.method = "equilibrium" or "raster")");
         add_if(n.inland == InlandEnds::coast, faults,
                R"(network.inland = "coast" needs surface.method = "equilibrium")");
         add_if(

@@ -176,6 +176,7 @@ struct SurfaceRecipe {
     std::optional<double> tolerance;                     ///< (0, 0.1] of a solution; none: that of each method
     skeleton::RegressParams regress;
     std::optional<flow::Conditioning> drain; ///< none: carve where there are rivers, else flow::Conditioning::none
+    double max_cut_m = 10.0;                 ///< [m] >= 0 by which rivers may be cut into a DEM without a warning
 };
 
 /// What ridges lie midway between: points along the rivers, or the rivers themselves.

@@ -222,7 +222,8 @@ UserFiles::UserFiles(Recipe& recipe, Run const& run) {
 std::string UserFiles::copied(Recipe const& recipe, std::string const& name, std::string const& layer, Run const& run) {
     std::string const path = file_in(recipe, name).path;
     std::error_code ignored;
-    bool const is_missing = !io::names_connection(path) && !fs::exists(path, ignored) && !path.starts_with("/vsi");
+    bool const is_missing = !io::names_connection(path) && !fs::exists(path, ignored) && !path.starts_with("/vsi") &&
+                            io::file_of_part(path).empty();
     if (name.empty() || is_missing || is_plain(path)) {
         return name; // what is missing is reported by the stage that needs it
     }

@@ -186,7 +186,7 @@ std::span<Row const> recipe_rows() {
             "coast, else 0",
             [](Recipe& r, Item) -> Field { return &r.network->meander; }),
         key("network.inland", word, "", {"carry", "sink", "coast"},
-            R"(by_equilibrium and network.source = "dla" or "tokunaga" or "lines")",
+            R"([network] and surface.method = "equilibrium" or "raster" and network.source = "dla" or "tokunaga" or "lines")",
             "rivers that end inside the grid: extend them to its border or the sea, keep them as sinks, or take their "
             "ends for mouths on a coast and make what lies before them the sea",
             [](Recipe& r, Item) -> Field { return choice(r.network->inland); }),
@@ -496,6 +496,9 @@ std::span<Row const> recipe_rows() {
             "hydrological conditioning: confine channels, then breach or fill depressions; auto: carve where there are "
             "rivers, else none",
             [](Recipe& r, Item) -> Field { return choice(r.surface->drain); }),
+        key("surface.max_cut", number, "m", {0, 1e4}, R"([network] and surface.method = "raster")",
+            "a warning tells where a river is cut deeper into the DEM than this",
+            [](Recipe& r, Item) -> Field { return &r.surface->max_cut_m; }),
         key("surface.tolerance", number, "", {1e-12, 0.1},
             R"((by_dilation and surface.base = "harmonic") or (by_diffusion and surface.diffusion = "steady"))",
             "relative residual at which the harmonic base or the steady state is solved; left out: 1e-8, or 1e-10 of "

@@ -14,8 +14,13 @@ namespace thalweg::io {
 /// \throws BadInput when it is not a CRS
 OGRSpatialReference read_reference(std::string const& text);
 
-/// Lambert's azimuthal equal-area projection (WGS 84) centred on a position.
-OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg);
+/// Lambert's azimuthal equal-area projection centred on a position.
+/// \param globe its longitudes and latitudes; null: WGS 84
+OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg,
+                                      OGRSpatialReference const* globe = nullptr);
+
+/// Whether a CRS is one of the Earth, by the size of its ellipsoid.
+bool is_on_earth(OGRSpatialReference const& reference);
 
 /// "EPSG:n" if it has a code, else WKT.
 std::string name_of(OGRSpatialReference const& reference);

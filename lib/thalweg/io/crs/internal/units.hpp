@@ -6,7 +6,6 @@
 #include <string>
 #include <string_view>
 
-class GDALDataset;
 class OGRLayer;
 class OGRSpatialReference;
 
@@ -19,9 +18,6 @@ std::optional<double> unit_named(std::string_view name);
 
 /// "metres", "feet", "US survey feet", or "units of 0.9144 m".
 std::string words_for_unit(double metres);
-
-/// The unit of a raster's heights [m]: from the unit of its first band, else from the vertical part of its CRS, else 1.
-double height_unit_of(GDALDataset& dataset);
 
 /// The unit of heights of a layer's lines or points [m]: from the field z_unit of a network that thalweg wrote, else
 /// from the vertical part of its CRS, else 1.

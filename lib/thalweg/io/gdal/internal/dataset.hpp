@@ -31,9 +31,13 @@ inline constexpr float nodata_height = -9999.0F;
 /// \throws BadInput when it may not be opened; IoError like UnchangedFile
 Dataset open_unchanged(Source const& source, unsigned kinds);
 
-/// Opens an existing file likewise.
+/// Opens an existing file likewise, or a part of one: DRIVER:"FILE":NAME.
 /// \throws BadInput when there is none or no driver reads it
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
+
+/// Opens a part of an open file by GDAL's name of it, with the same driver and under the same restrictions; null when
+/// it cannot be read.
+Dataset open_part(Dataset const& file, std::string const& name);
 
 /// A file that GDAL writes in memory: on a full disk GDAL may report no error (3.10). Needs a Driver that outlives it.
 class MemoryFile {

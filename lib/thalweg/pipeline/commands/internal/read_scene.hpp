@@ -9,6 +9,7 @@
 
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 
@@ -17,7 +18,7 @@ namespace thalweg::pipeline {
 struct ReadSceneParams {
     std::string source;                                          ///< a folder written by make, or a DEM
     std::string network;                                         ///< as DrawParams
-    std::optional<double> nodata;                                ///< as DrawParams
+    io::ReadDemParams reading = {};                              ///< as DrawParams
     std::int64_t most_side = io::ReadDrawableParams{}.most_side; ///< as io::ReadDrawableParams
 };
 

@@ -39,7 +39,7 @@ Raster<float> read_field(io::Source const& source, Grid const& grid, std::string
 /// [m] A DEM in a CRS, on cells as large as its own; without cells for "". what: the key or option, for messages.
 /// \throws Error as io::read_dem and io::warp_to_grid
 Raster<float> read_dem_in(io::Source const& source, std::string const& crs, std::string const& what,
-                          std::optional<double> nodata, StageLog& stage_log, Run const& run);
+                          io::ReadDemParams const& reading, StageLog& stage_log, Run const& run);
 
 /// Measures the DEM of surface.like at a cell size.
 /// \throws BadInput when it has too few cells with slopes
