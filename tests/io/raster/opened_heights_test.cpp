@@ -10,6 +10,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 
@@ -98,6 +99,7 @@ TEST(OpenedHeights, TheUnitOfTheBandComesBeforeTheVerticalCrs) {
     expect_heights(with_unit("m", "EPSG:26913+6360"), slope);
     expect_heights(with_unit("ft", "EPSG:26913"), [](int c, int r) { return slope(c, r) * 0.3048; });
     expect_heights(with_unit("cm", "EPSG:26913+6360"), [](int c, int r) { return slope(c, r) * 0.01; });
+    EXPECT_TRUE(io::read_dem_file(with_unit("unspecified", "EPSG:26913")).findings.empty());
     std::string const odd = with_unit("parsecs", "EPSG:26913");
     expect_heights(odd, slope);
     EXPECT_NE(found(io::read_dem_file(odd).findings, "unknown_unit"), nullptr);
@@ -225,6 +227,13 @@ TEST(OpenedHeights, DepthsChangeTheirSign) {
     expect_heights(changed(folder, {}, tell("standard_name", "sea_floor_depth_below_geoid")), depth);
     expect_heights(changed(folder, {}, in_crs("EPSG:32632+5715")), depth); // MSL depth
     expect_heights(changed(folder, {}, tell("positive", "up")), slope);
+    // A band of elevations under an axis that points down, as in BAG files.
+    expect_heights(changed(folder, {},
+                           [](GDALDataset& data) {
+                               in_crs("EPSG:32632+5715")(data);
+                               data.GetRasterBand(1)->SetDescription("elevation");
+                           }),
+                   slope);
     expect_heights(changed(folder, {}, tell("standard_name", "surface_altitude")), slope);
 }
 
@@ -248,6 +257,15 @@ TEST(OpenedHeights, ABlockOfZerosIsRefusedWhereNoCoastIsSoSteep) {
     std::string const feet = changed(folder, {}, in_crs("EPSG:26913+6360"),
                                      [](int c, int r) { return c < 8 ? 0.0 : 900.0 + 0.2 * c + 0.1 * r; });
     EXPECT_NE(found(io::read_dem_file(feet).findings, "zero_heights"), nullptr);
+}
+
+TEST(OpenedHeights, AHeaderTellsWhichFileHasTheData) {
+    ScratchFolder const folder;
+    GDALDatasetUniquePtr const dem(GDALDataset::Open(written(folder / "dem.tif", {}, slope).c_str(), GDAL_OF_RASTER));
+    GDALDatasetUniquePtr const saga(GetGDALDriverManager()->GetDriverByName("SAGA")->CreateCopy(
+        (folder / "saga.sdat").c_str(), dem.get(), 0, nullptr, nullptr, nullptr));
+    EXPECT_TRUE(has(error_of([&] { io::read_dem(folder / "saga.sgrd"); }), "BadInput io.read_dem", "name that file",
+                    "saga.sdat"));
 }
 
 TEST(OpenedHeights, ASiteHasMetresWithoutAPlace) {
@@ -305,6 +323,10 @@ TEST(OpenedHeights, OtherBodiesKeepTheirMetres) {
     io::Drawable const degrees = io::read_drawable(
         changed(folder, {.frame = {20.0, 0.01, 0.0, 10.0, 0.0, -0.01}}, in_crs("+proj=longlat +R=3396190 +no_defs")));
     EXPECT_NEAR(degrees.dem.grid().cell_m, 3396190.0 * 0.01 * 3.14159265 / 180.0, 6.0);
+    Grid const own = io::read_dem(folder / "dem.tif").grid();
+    std::string const metric = io::metric_crs(own, "mars");
+    EXPECT_TRUE(has(metric, "Equal area around 20, 10", "3396190"));
+    EXPECT_TRUE(io::overlap_on_earth(own, own, "a", "b"));
 }
 
 TEST(OpenedHeights, OwnHeightsOfDegreesAreWeightedByArea) {

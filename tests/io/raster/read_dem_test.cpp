@@ -114,6 +114,15 @@ TEST(UndeclaredNodata, TheLargestFloatIsRefusedWithTheRemedy) {
     }
 }
 
+TEST(UndeclaredNodata, TheSmallestFloatIsRefusedButNotTheSea) {
+    ScratchFolder const folder;
+    auto const tiny = static_cast<double>(std::numeric_limits<float>::min());
+    std::string const path = write(folder, hole(tiny), {.nodata = -9999.0}); // what GDAL writes as HF2
+    EXPECT_TRUE(has(refusal(path), "BadInput io.read_dem", "36 cells of 1.17549e-38"));
+    EXPECT_EQ(missing(io::read_dem(path, {.nodata = tiny})), 36);
+    EXPECT_EQ(missing(io::read_dem(write(folder, hole(0.0)))), 0);
+}
+
 TEST(UndeclaredNodata, TheDeepSeaIsTerrain) {
     ScratchFolder const folder;
     auto const trench = [](int c, int r) { return -9980.0 - c - r; };

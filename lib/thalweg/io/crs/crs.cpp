@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <initializer_list>
+#include <memory>
 #include <string_view>
 #include <utility>
 
@@ -293,11 +294,19 @@ bool is_distorted(Grid const& grid) {
 
 namespace {
 
+/// Longitudes and latitudes of the body that a CRS belongs to: of the Earth WGS 84.
+OGRSpatialReference globe_of(OGRSpatialReference const& reference) {
+    std::unique_ptr<OGRSpatialReference> const own(is_on_earth(reference) ? nullptr : reference.CloneGeogCS());
+    OGRSpatialReference globe = own ? *own : read_reference("EPSG:4326");
+    globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return globe;
+}
+
 // East may exceed 180, but not west + 360.
 DegreeBox box_of(Grid const& grid, std::string const& what) {
     Driver const driver;
     OGRSpatialReference const from = read_reference(grid.crs);
-    OGRSpatialReference const globe = read_reference("EPSG:4326");
+    OGRSpatialReference const globe = globe_of(from);
     std::unique_ptr<OGRCoordinateTransformation> const turn(OGRCreateCoordinateTransformation(&from, &globe));
     DegreeBox box;
     constexpr int points_a_side = 21;
@@ -341,7 +350,14 @@ std::string metric_crs(Grid const& grid, std::string const& what) {
         return ground.unit == GridUnit::distorted ? ground.crs : grid.crs;
     }
     DegreeBox const box = box_of(grid, what);
-    return utm_zone(0.5 * (box.west + box.east), 0.5 * (box.south + box.north));
+    double const longitude = 0.5 * (box.west + box.east);
+    double const latitude = 0.5 * (box.south + box.north);
+    OGRSpatialReference const own = read_reference(grid.crs);
+    if (is_on_earth(own)) {
+        return utm_zone(longitude, latitude);
+    }
+    OGRSpatialReference const globe = globe_of(own);
+    return name_of(equal_area_around(std::round(longitude), std::round(latitude), &globe));
 }
 
 } // namespace thalweg::io

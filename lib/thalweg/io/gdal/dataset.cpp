@@ -338,6 +338,28 @@ std::string file_of_part(std::string const& path) {
     return fs::is_regular_file(file, ignored) ? file : "";
 }
 
+namespace {
+
+// The file that GDAL reads beside a header of the same stem, such as NAME.sdat beside NAME.sgrd; "": none, or several.
+std::string data_beside(fs::path const& header) {
+    std::string found;
+    std::error_code ignored;
+    fs::path const folder = header.has_parent_path() ? header.parent_path() : fs::path(".");
+    for (fs::directory_entry const& entry : fs::directory_iterator(folder, ignored)) {
+        fs::path const& file = entry.path();
+        if (file.stem() == header.stem() && file.filename() != header.filename() && entry.is_regular_file(ignored) &&
+            GDALIdentifyDriver(file.c_str(), nullptr) != nullptr) {
+            if (!found.empty()) {
+                return "";
+            }
+            found = file.filename().string();
+        }
+    }
+    return found;
+}
+
+} // namespace
+
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what) {
     // GDAL takes addresses and connection strings for file names.
     if (std::error_code ignored; !fs::exists(source.path, ignored)) {
@@ -354,8 +376,12 @@ Dataset open_file(Source const& source, unsigned kinds, std::string const& what)
     CPLErrorReset();
     Dataset dataset = open_unchanged(source, kinds);
     if (dataset == nullptr) {
-        std::string const words = CPLGetLastErrorMsg();
-        throw BadInput(fmt::format("{} cannot be read: {}", what, words.empty() ? "its format is not known" : words));
+        std::string words = CPLGetLastErrorMsg();
+        words = words.empty() ? "its format is not known" : words;
+        words.erase(words.find_last_not_of('.') + 1);
+        std::string const other = data_beside(source.path);
+        throw BadInput(fmt::format("{} cannot be read: {}{}", what, words,
+                                   other.empty() ? "" : fmt::format("; its data are in {}: name that file", other)));
     }
     return dataset;
 }

@@ -62,7 +62,8 @@ FileContent content_of(Source const& source) {
     }
     Driver const driver;
     Dataset const data = open_file({content.path, source.access}, GDAL_OF_RASTER | GDAL_OF_VECTOR, what);
-    if (data->GetRasterCount() > 0) {
+    bool const has_variables = data->GetLayerCount() == 0 && data->GetMetadata("SUBDATASETS") != nullptr;
+    if (data->GetRasterCount() > 0 || has_variables) {
         return content;
     }
     bool has_points = false;

@@ -92,6 +92,12 @@ int number_in(std::string const& text) {
     return is_number ? std::stoi(text) : 0;
 }
 
+/// Whether the name of a unit stands for none, as formats write it that must have one.
+bool says_nothing(std::string const& unit) {
+    static constexpr std::array<std::string_view, 6> words{"", "1", "none", "unknown", "unspecified", "undefined"};
+    return std::ranges::find(words, std::string_view(simple_name(unit))) != words.end();
+}
+
 /// Whether heights of a band grow downwards: depths.
 bool points_down(GDALDataset& data, GDALRasterBand& band) {
     std::string const positive = text_of(band.GetMetadataItem("positive"));
@@ -101,6 +107,11 @@ bool points_down(GDALDataset& data, GDALRasterBand& band) {
     std::string const standard = text_of(band.GetMetadataItem("standard_name"));
     if (standard == "depth" || standard.starts_with("sea_floor_depth")) {
         return true;
+    }
+    // BAG files hold elevations, although GDAL 3.6 gives them a vertical axis that points down.
+    if (std::string const name = simple_name(band_name(band));
+        names_heights(name) && name != "depth" && name != "bathymetry") {
+        return false;
     }
     OGRSpatialReference const* const reference = data.GetSpatialRef();
     OGRAxisOrientation way = OAO_Other;
@@ -334,8 +345,9 @@ void OpenedHeights::take_unit() {
     }
     if (wanted_ == HeightsIn::metres) {
         OGRSpatialReference const* const own = bands_->data().GetSpatialRef();
-        std::string const word = text_of(band.GetUnitType());
+        std::string word = text_of(band.GetUnitType());
         auto const named = unit_named(word);
+        word = says_nothing(word) ? "" : word;
         unit = named ? *named : has_vertical_unit(own) ? own->GetTargetLinearUnits("VERT_CS") : 1.0;
         bool const is_named = named || has_vertical_unit(own);
         if (!word.empty() && !named) {

@@ -58,9 +58,9 @@ struct DemFile {
 /// raster, several bands or variables of which none is clearly that of heights, a picture in colours, cells not square
 /// (their sides differ by more than 0.1 %, or over the raster by a tenth of a cell; says which sizes), rotated, larger
 /// than memory, longitudes and latitudes without a CRS, no heights at all, a height beyond 1e30 (a damaged tile),
-/// values that no terrain has and the file does not declare as no-data: -9999, -32767, -32768, -99999; where it
-/// declares none and the cells are heights, also the lowest or highest value when it fills 3 x 3 cells and lies farther
-/// from the next one than the others are apart (of 0: more than 300 m)
+/// values that no terrain has and the file does not declare as no-data: -9999, -32767, -32768, -99999, 1.18e-38; where
+/// it declares none and the cells are heights, also the lowest or highest value when it fills 3 x 3 cells and lies
+/// farther from the next one than the others are apart (of 0: more than 300 m)
 DemFile read_dem_file(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
 /// \param source the file

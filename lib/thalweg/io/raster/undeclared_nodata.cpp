@@ -12,7 +12,9 @@
 namespace thalweg::io {
 namespace {
 
-constexpr std::array<double, 4> no_terrain{-9999.0, -32767.0, -32768.0, -99999.0};
+// The last, the smallest normal float, is what GDAL's HF2 driver writes for no-data.
+constexpr std::array<double, 5> no_terrain{-9999.0, -32767.0, -32768.0, -99999.0,
+                                           static_cast<double>(std::numeric_limits<float>::min())};
 constexpr double deepest_sea = -12000.0;
 constexpr std::int32_t block_side = 3;
 constexpr double steepest_coast_m = 300.0; // over one cell, along all of a coast
@@ -79,7 +81,8 @@ void UndeclaredNodata::note_sentinel(std::int64_t col, double z) {
             s.first = s.count == 0 ? std::array{col, row_} : s.first;
             ++s.count;
         }
-        s.is_depth = s.is_depth || (!is_sentinel && s.value > deepest_sea && z < s.value && z > deepest_sea);
+        s.is_depth =
+            s.is_depth || (!is_sentinel && s.value < 0.0 && s.value > deepest_sea && z < s.value && z > deepest_sea);
     }
 }
 
@@ -88,7 +91,7 @@ void UndeclaredNodata::add_row(std::span<double const> stored) {
     if (searches_) {
         for (std::size_t col = 0; col < stored.size(); ++col) {
             double const z = stored[col];
-            if (z < deep) {
+            if (z < deep || z == no_terrain.back()) {
                 note_sentinel(static_cast<std::int64_t>(col), z);
             }
             if (searches_blocks_) { // NaN is skipped by both

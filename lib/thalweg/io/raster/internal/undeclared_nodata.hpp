@@ -70,7 +70,7 @@ private:
     std::int64_t row_ = 0;
     Extreme low_;
     Extreme high_;
-    std::array<Sentinel, 4> sentinels_;
+    std::array<Sentinel, 5> sentinels_;
 };
 
 } // namespace thalweg::io
