@@ -187,6 +187,18 @@ TEST(QgisStyles, EveryLayerOfAGeoPackageHasOne) {
     EXPECT_THROW(io::styles_of(folder / "none.gpkg"), IoError);
 }
 
+TEST(QgisStyles, FindingsOfNoPlaceHaveNoPoint) {
+    ScratchFolder const folder;
+    io::write_findings({{"cycle", 3, {1.0, 2.0}, 0.5, "a cycle"}, {.kind = "no_crs", .text = "of all"}}, "EPSG:32631",
+                       folder / "found.gpkg");
+    auto const data = opened(folder / "found.gpkg");
+    std::vector<bool> empty;
+    for (auto const& feature : *data->GetLayer(0)) {
+        empty.push_back(feature->GetGeometryRef()->IsEmpty() != 0);
+    }
+    EXPECT_EQ(empty, (std::vector<bool>{false, true}));
+}
+
 TEST(QgisStyles, RiversOfEachSchemaAreDrawnByItsOwnFields) {
     SampleNetwork const sample = y_shape();
     ScratchFolder const folder;

@@ -158,6 +158,9 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
         refuse_if<BadInput>(needs_heights ? !is_finite(p) : !is_finite(in_plan(p)),
                             "{}: {} {} has a vertex ({}, {}, {})", what, table.name, row + 1, p.x, p.y, p.z);
     }
+    if (table.shape == Shape::point && positions.empty()) {
+        return std::make_unique<OGRPoint>(); // empty
+    }
     if (table.shape == Shape::point) {
         return std::make_unique<OGRPoint>(positions.at(0).x, positions.at(0).y, positions.at(0).z);
     }

@@ -37,7 +37,7 @@ struct Table {
     std::size_t rows = 0;
     std::vector<Column> columns;
     std::function<std::vector<Vec3>(std::size_t row)>
-        shape_at; ///< one position for a point; a closed ring for a polygon
+        shape_at; ///< one position for a point, or none; a closed ring for a polygon
     std::function<std::vector<Polygon>(std::size_t row)> parts_at =
         {};                 ///< of a multi_polygon, in plan: outer ring first; asked instead of shape_at
     std::string style = {}; ///< by which QGIS draws it (QgisStyle), a default of the GeoPackage; "": none

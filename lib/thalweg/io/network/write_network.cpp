@@ -280,7 +280,8 @@ void write_findings(std::vector<Finding> const& findings, std::string const& crs
     auto const finite = [](double value) { return std::isfinite(value) ? value : 0.0; };
     Table table{"findings", Table::Shape::point, findings.size(), {}, {}};
     table.shape_at = [=](std::size_t row) {
-        return std::vector<Vec3>{{finite(at(row).where.x), finite(at(row).where.y), 0.0}};
+        Vec2 const where = at(row).where; // what is said of all has no place
+        return is_finite(where) ? std::vector<Vec3>{{where.x, where.y, 0.0}} : std::vector<Vec3>{};
     };
     table.columns = {
         {"kind", Column::Kind::text, 0, [=](std::size_t row) { return std::string(at(row).kind); }},
