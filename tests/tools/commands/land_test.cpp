@@ -93,6 +93,22 @@ TEST(Land, AStreamThatSinksStaysInItsDoline) {
     EXPECT_TRUE(carried["findings"].dump().find("deep_cut") != std::string::npos);
 }
 
+TEST(Land, ADemWithoutACrsTakesThatOfTheRivers) {
+    Workplace const place;
+    std::string grid = "ncols 40\nnrows 40\nxllcorner 500000\nyllcorner 4400000\ncellsize 10\n";
+    for (int i = 0; i < 1600; ++i) {
+        grid += std::to_string(300 + i / 40 + (i % 40 > 20 ? i % 40 - 20 : 20 - i % 40)) + (i % 40 == 39 ? "\n" : " ");
+    }
+    place.write("dem.asc", grid);
+    std::string river = test::geojson(test::line("[500205,4400005],[500205,4400395]"));
+    std::size_t const at = river.find("32631");
+    ASSERT_NE(at, std::string::npos);
+    place.write("river.geojson", river.replace(at, 5, "32633"));
+    expect_run(place, "make river.geojson --set surface.method=raster --set surface.source=dem.asc -o out", 0,
+               "count as metres in EPSG:32633");
+    EXPECT_EQ(thalweg::io::read_dem((place / "out/dem.tif").string()).grid().crs, "EPSG:32633");
+}
+
 TEST(Land, WhatIsNoDemIsRefused) {
     Workplace const place;
     place.write("rivers.geojson", test::geojson(test::line("[500000,5000000],[500300,5000000]")));

@@ -58,6 +58,10 @@ std::string raster_made_from(Recipe const& recipe) {
     SurfaceRecipe& surface = decisive.surface.emplace();
     surface.method = recipe.surface->method;
     surface.source = recipe.surface->source;
+    if (recipe.grid.crs.empty() && recipe.network && recipe.network->source == Source::lines) {
+        decisive.network.emplace().source = Source::lines; // a DEM without a CRS takes theirs
+        decisive.network->lines = recipe.network->lines;
+    }
     decisive.folder = recipe.folder;
     return state_in_words(decisive);
 }

@@ -404,6 +404,17 @@ Recipe on_grid_of_against(Recipe recipe, Run const& run) {
     return recipe;
 }
 
+namespace {
+
+/// The CRS of a DEM that names none: that of the rivers beside it, if they have one.
+std::string crs_of_rivers(Recipe const& recipe, Run const& run) {
+    bool const has_lines = recipe.network && recipe.network->source == Source::lines;
+    std::string const crs = has_lines ? read_lines(recipe, run.quiet()).crs : "";
+    return crs.empty() ? "EPSG:32631" : crs;
+}
+
+} // namespace
+
 OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     std::string const what = fmt::format("surface.source = \"{}\"", recipe.surface->source);
     io::DemFile read = io::read_dem_file(file_in(recipe, recipe.surface->source), {}, run);
@@ -412,7 +423,7 @@ OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     GridRecipe& wanted = recipe.grid;
     bool const is_nowhere = given.grid().crs.empty();
     if (wanted.crs.empty()) {
-        wanted.crs = is_nowhere ? "EPSG:32631" : io::metric_crs(given.grid(), what);
+        wanted.crs = is_nowhere ? crs_of_rivers(recipe, run) : io::metric_crs(given.grid(), what);
     }
     wanted.crs = io::projected_crs(wanted.crs);
     if (is_nowhere) {
