@@ -161,7 +161,6 @@ struct OpenedHeights::Bands {
     GDALRasterBand* alpha = nullptr;
     bool is_declared = false; ///< the file says which cells have data
     std::int64_t transparent = 0;
-    bool downward = false;
 
     GDALDataset& data() const { return variable ? *variable : *file; }
 };
@@ -365,8 +364,7 @@ void OpenedHeights::take_unit() {
                   .amount = 1.0,
                   .text = "heights are treated as metres: no vertical CRS or unit says otherwise"});
         }
-        bands_->downward = points_down(bands_->data(), band);
-        if (bands_->downward) {
+        if (points_down(bands_->data(), band)) {
             unit = -unit;
             find({.kind = "depths", .text = "its numbers grow downwards: heights are their negatives"});
         }

@@ -67,7 +67,6 @@ public:
     void read(std::function<void(int, std::span<float const>)> const& take, Run const& run);
 
     /// What was done, complete after read().
-    std::vector<Finding> const& findings() const { return findings_; }
     std::vector<Finding> take_findings() { return std::move(findings_); }
 
 private:
