@@ -93,6 +93,81 @@ TEST(Land, AStreamThatSinksStaysInItsDoline) {
     EXPECT_TRUE(carried["findings"].dump().find("deep_cut") != std::string::npos);
 }
 
+/// A valley of 80 x 60 cells of 10 m that falls to the east, and in it the floor of a lake, 12 m deep around cell
+/// (40, 30).
+void write_lake_floor(Workplace const& place) {
+    std::string grid = "ncols 80\nnrows 60\nxllcorner 500000\nyllcorner 4400000\ncellsize 10\n";
+    for (int r = 0; r < 60; ++r) {
+        for (int c = 0; c < 80; ++c) {
+            double const depth = std::max(0.0, 12.0 - std::hypot(c - 40, r - 30));
+            grid += std::to_string(300.0 - 0.25 * c + 0.5 * std::abs(r - 30) - depth) + (c == 79 ? "\n" : " ");
+        }
+    }
+    place.write("dem.asc", grid);
+    place.write("river.geojson", test::geojson(test::line("[500005,4400295],[500795,4400295]")));
+    place.write("ends.geojson", test::geojson(test::line("[500005,4400295],[500405,4400295]")));
+}
+
+void write_lake(Workplace const& place, std::string const& properties) {
+    place.write("lake.geojson",
+                "{\"type\":\"FeatureCollection\",\"crs\":{\"type\":\"name\",\"properties\":{\"name\":"
+                "\"urn:ogc:def:crs:EPSG::32631\"}},\"features\":[{\"type\":\"Feature\",\"properties\":{" +
+                    properties +
+                    "},\"geometry\":{\"type\":\"Polygon\",\"coordinates\":[[[500330,4400220],[500330,4400370],"
+                    "[500480,4400370],[500480,4400220],[500330,4400220]]]}}]}");
+}
+
+/// The height of all cells of the lake but that where its water sinks and those beside the river that leaves it.
+float level_of_lake(Workplace const& place, std::string const& folder) {
+    auto const dem = thalweg::io::read_dem((place / folder / "dem.tif").string());
+    float const level = dem[thalweg::Cell{36, 28}];
+    std::int64_t others = 0;
+    for (std::int64_t r = 23; r < 38; ++r) {
+        for (std::int64_t c = 33; c < 48; ++c) {
+            others += dem[thalweg::Cell{c, r}] == level ? 0 : 1;
+        }
+    }
+    EXPECT_LE(others, 2) << folder;
+    EXPECT_TRUE(fs::exists(place / folder / "lakes.tif")) << folder;
+    return level;
+}
+
+TEST(Land, LakesLieLevelOnADem) {
+    Workplace const place;
+    write_lake_floor(place);
+    std::string const make =
+        "make river.geojson --set surface.method=raster --set surface.source=dem.asc --set surface.lakes=lake.geojson ";
+    write_lake(place, "");
+    Outcome const by_outlet = expect_run(place, make + "-o outlet", 0);
+    EXPECT_EQ(by_outlet.err.find("warning"), std::string::npos) << by_outlet.err;
+    EXPECT_NEAR(level_of_lake(place, "outlet"), 300.0 - 0.25 * 47 - 5.0, 1e-3) << "of the cell where water leaves it";
+    write_lake(place, "\"level\":295.5");
+    expect_run(place, make + "-o level", 0);
+    EXPECT_EQ(level_of_lake(place, "level"), 295.5F);
+    for (std::string const folder : {"outlet", "level"}) {
+        expect_checks_hold(report_of(place / folder));
+        EXPECT_EQ(report_of(place / folder)["dem"]["pit_cells"], 0);
+        expect_run(place, "check " + folder + " -q", 0);
+        expect_run(place, "replay " + folder + " --verify", 0);
+    }
+    write_lake(place, "\"level\":968"); // in feet
+    expect_run(place, make + "-o feet", 0, "dammed by lakes above dem.asc by up to", "[high_lake]");
+}
+
+TEST(Land, ALakeWithoutAnOutletKeepsItsWater) {
+    Workplace const place;
+    write_lake_floor(place);
+    write_lake(place, "\"level\":284");
+    expect_run(place,
+               "make ends.geojson --set surface.method=raster --set surface.source=dem.asc --set network.inland=sink "
+               "--set surface.lakes=lake.geojson -o out",
+               0);
+    EXPECT_EQ(level_of_lake(place, "out"), 284.0F);
+    expect_checks_hold(report_of(place / "out"));
+    expect_run(place, "check out -q", 0);
+    expect_run(place, "replay out --verify", 0);
+}
+
 TEST(Land, ADemWithoutACrsTakesThatOfTheRivers) {
     Workplace const place;
     std::string grid = "ncols 40\nnrows 40\nxllcorner 500000\nyllcorner 4400000\ncellsize 10\n";

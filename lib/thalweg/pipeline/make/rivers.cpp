@@ -13,6 +13,7 @@
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
+#include <thalweg/pipeline/make/internal/lakes.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -59,50 +60,87 @@ Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types) {
 
 namespace {
 
-/// The heights of a DEM in the cells of rivers, cut until each cell lies below those upstream.
+constexpr float no_limit = std::numeric_limits<float>::infinity();
+
+/// The height of a DEM in a cell of a river.
+float height_below_river(Raster<float> const& dem, CellIndex cell, std::string const& source) {
+    if (std::isnan(dem[cell])) {
+        Vec2 const at = dem.grid().centre(dem.grid().at(cell));
+        throw BadInput(
+            fmt::format("surface.source = \"{}\" has no height at ({:.1f}, {:.1f}), where a river runs: "
+                        "set grid.clip = true, which cuts rivers where the DEM has no data, or fill the hole "
+                        "(gdal_fillnodata.py)",
+                        source, at.x, at.y));
+    }
+    return dem[cell];
+}
+
+/// The heights of a DEM in the cells of rivers, cut until each cell lies below those upstream. A lake is as high as its
+/// outlet; where that has a level, rivers that enter the lake below it are raised.
 Valley bed_of(Channels const& channels, Raster<float> const& dem, std::string const& source) {
-    constexpr float none = std::numeric_limits<float>::infinity();
-    Valley valley{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
-    std::vector<float> most(channels.cell.size(), none);
+    std::vector<float> z(channels.cell.size());
+    std::vector<float> most(channels.cell.size(), no_limit);
+    auto const is_level = [&](std::size_t i) { return !channels.level.empty() && channels.level[i] != 0; };
     for (std::size_t i = channels.cell.size(); i-- > 0;) { // donors before their receivers
-        CellIndex const cell = channels.cell[i];
-        if (std::isnan(dem[cell])) {
-            Vec2 const at = dem.grid().centre(dem.grid().at(cell));
-            throw BadInput(
-                fmt::format("surface.source = \"{}\" has no height at ({:.1f}, {:.1f}), where a river runs: "
-                            "set grid.clip = true, which cuts rivers where the DEM has no data, or fill the hole "
-                            "(gdal_fillnodata.py)",
-                            source, at.x, at.y));
+        if (is_level(i)) {
+            z[i] = most[i]; // its own heights may be those of its floor
+        } else if (!channels.lake_z.empty() && !std::isnan(channels.lake_z[i])) {
+            z[i] = channels.lake_z[i];
+        } else {
+            z[i] = std::min(height_below_river(dem, channels.cell[i], source), most[i]);
         }
-        float const z = std::min(dem[cell], most[i]);
-        valley.z[cell] = z;
         if (channels.receiver[i] >= 0) {
             float& below = most[channels.receiver[i]];
-            below = std::min(below, std::nextafterf(z, -none));
+            below = std::min(below, is_level(i) ? z[i] : std::nextafterf(z[i], -no_limit));
         }
+    }
+    Valley valley{Raster<float>(dem.grid(), std::numeric_limits<float>::quiet_NaN())};
+    for (std::size_t i = 0; i < channels.cell.size(); ++i) {
+        if (ChannelId const to = channels.receiver[i]; to >= 0) {
+            z[i] = is_level(i) ? z[to] : std::max(z[i], std::nextafterf(z[to], no_limit));
+        }
+        valley.z[channels.cell[i]] = z[i];
     }
     return valley;
 }
 
-/// A valley in which each sink lies below the land around it.
+/// A valley in which each sink lies below what is around it.
 Valley with_sinks_lowest(Valley valley, std::vector<CellIndex> const& sinks, Raster<float> const& dem) {
     Grid const& grid = dem.grid();
     for (CellIndex const sink : sinks) {
         for (Cell const step : d8_steps) {
             Cell const c{grid.at(sink).col + step.col, grid.at(sink).row + step.row};
-            if (grid.contains(c) && std::isnan(valley.z[c]) && !(dem[c] > valley.z[sink])) {
-                valley.z[sink] = std::nextafterf(dem[c], -std::numeric_limits<float>::infinity());
+            float const beside = !grid.contains(c) ? no_limit : std::isnan(valley.z[c]) ? dem[c] : valley.z[c];
+            if (!(beside > valley.z[sink])) {
+                valley.z[sink] = std::nextafterf(beside, -no_limit);
             }
         }
     }
     return valley;
 }
 
+/// A warning of the cell in which rivers lie farthest below the DEM or, beside a lake with a level, above it.
+std::vector<Finding> far_from_dem(FindingKind kind, Plan const& plan, CellIndex cell, double by_m) {
+    if (!(by_m > plan.recipe.surface->max_cut_m)) {
+        return {};
+    }
+    bool const is_cut = kind == FindingKind("deep_cut");
+    Vec2 const at = plan.raster.grid().centre(plan.raster.grid().at(cell));
+    return {{.kind = kind,
+             .where = at,
+             .amount = by_m,
+             .text = fmt::format("rivers are {} {} by up to {:.1f} m, at ({:.0f}, {:.0f})",
+                                 is_cut ? "cut into" : "dammed by lakes above", plan.recipe.surface->source, by_m, at.x,
+                                 at.y),
+             .key = is_cut ? "surface.max_cut" : "surface.lakes"}};
+}
+
 /// Rivers in the cells of the DEM that is the terrain.
 RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run const& run) {
-    network::ChannelsOfArcs drawn = network::channels(planform.network, planform.grid, {}, run);
+    WithLakes drawn = with_lakes(plan, planform, network::channels(planform.network, planform.grid, {}, run), run);
+    Channels& channels = drawn.rivers.channels;
     RaisedRivers laid;
-    laid.valley = bed_of(drawn.channels, plan.raster, plan.recipe.surface->source);
+    laid.valley = bed_of(channels, plan.raster, plan.recipe.surface->source);
     if (plan.recipe.network->inland == InlandEnds::sink) {
         std::vector<NodeId> const sinks = inland_ends(planform.network, plan.raster);
         laid.valley =
@@ -110,24 +148,27 @@ RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run cons
     }
     Raster<float> cut = plan.raster;
     CellIndex deepest = 0;
-    for (CellIndex const cell : drawn.channels.cell) {
+    CellIndex most_raised = 0;
+    double raised_m = 0.0;
+    for (std::size_t i = 0; i < channels.cell.size(); ++i) {
+        CellIndex const cell = channels.cell[i];
         double const by_m = static_cast<double>(cut[cell]) - static_cast<double>(laid.valley.z[cell]);
         laid.statistics.lowered_cells += by_m > 0.0 ? 1 : 0;
         deepest = by_m > laid.statistics.max_lowered_m ? cell : deepest;
         laid.statistics.max_lowered_m = std::max(laid.statistics.max_lowered_m, by_m);
+        bool const is_floor = !channels.level.empty() && channels.level[i] != 0;
+        most_raised = !is_floor && -by_m > raised_m ? cell : most_raised;
+        raised_m = is_floor ? raised_m : std::max(raised_m, -by_m);
         cut[cell] = laid.valley.z[cell];
     }
-    laid.network = network::elevate_from_dem(planform.network, drawn.channels, cut);
-    laid.findings = std::move(drawn.notes);
-    if (laid.statistics.max_lowered_m > plan.recipe.surface->max_cut_m) {
-        Vec2 const at = planform.grid.centre(planform.grid.at(deepest));
-        laid.findings.push_back(
-            {.kind = "deep_cut",
-             .where = at,
-             .amount = laid.statistics.max_lowered_m,
-             .text = fmt::format("rivers are cut into {} by up to {:.1f} m, at ({:.0f}, {:.0f})",
-                                 plan.recipe.surface->source, laid.statistics.max_lowered_m, at.x, at.y),
-             .key = "surface.max_cut"});
+    laid.network = network::elevate_from_dem(planform.network, channels, cut);
+    laid.findings = std::move(drawn.rivers.notes);
+    append(laid.findings, drawn.notes);
+    append(laid.findings, far_from_dem("deep_cut", plan, deepest, laid.statistics.max_lowered_m));
+    append(laid.findings, far_from_dem("high_lake", plan, most_raised, raised_m));
+    if (!drawn.lakes.empty()) {
+        laid.lakes = std::ssize(drawn.lakes);
+        laid.channels = std::move(channels);
     }
     return laid;
 }

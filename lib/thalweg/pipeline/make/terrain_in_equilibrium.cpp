@@ -7,20 +7,18 @@
 
 #include <fmt/format.h>
 
-#include <thalweg/blend/mask_polygons.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
-#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/texture/texture.hpp>
 #include <thalweg/network/channels/channels.hpp>
-#include <thalweg/network/channels/lakes.hpp>
 #include <thalweg/network/channels/side_valleys.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/features.hpp>
+#include <thalweg/pipeline/make/internal/lakes.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -255,80 +253,6 @@ Check valley_check(Raster<float> const& dem, Channels const& channels, bool has_
     return {"land_below_rivers", share, most_sunken, share <= most_sunken};
 }
 
-/// One note for all lakes of a file that cover no cell, or a warning where levels are lost.
-std::vector<Finding> unseen_lakes(Polygons const& polygons, Raster<std::int32_t> const& labels) {
-    std::vector<std::uint8_t> seen(polygons.polygons.size() + 1);
-    for (std::int32_t const label : labels.values()) {
-        seen[static_cast<std::size_t>(label)] = 1;
-    }
-    auto const first = std::find(seen.begin() + 1, seen.end(), 0);
-    if (first == seen.end()) {
-        return {};
-    }
-    auto const count = std::count(first, seen.end(), 0);
-    Polygon const& one = polygons.polygons[static_cast<std::size_t>(first - seen.begin() - 1)];
-    std::string text =
-        fmt::format("{} of the {} lakes of {} lie off the grid, between the centres of its cells or under others",
-                    count, polygons.polygons.size(), polygons.name);
-    std::vector<std::string> lost;
-    for (std::size_t i = 0; i < polygons.polygons.size(); ++i) {
-        Polygon const& lake = polygons.polygons[i];
-        if (seen[i + 1] == 0 && !std::isnan(lake.value)) {
-            lost.push_back(fmt::format("feature {} with {:.6g} m", lake.feature, lake.value));
-        }
-    }
-    if (!lost.empty()) {
-        text += fmt::format("; {} of them have levels, the first is {}", lost.size(), lost.front());
-    }
-    return {{.kind = lost.empty() ? FindingKind("lake_left_out") : "lakes_unseen",
-             .feature = one.feature,
-             .where = one.rings.front().front(),
-             .amount = static_cast<double>(count),
-             .text = std::move(text),
-             .key = "surface.lakes"}};
-}
-
-/// By cell: number of its lake; 0: none; without cells: no lakes are requested.
-struct Lakes {
-    Raster<std::int32_t> labels;
-    std::vector<Finding> notes = {};
-    std::vector<double> level = {}; ///< [m] by number from 1; NaN: it follows from the terrain; empty: all do
-
-    double level_of(std::int64_t number) const {
-        return level.empty() ? std::nan("") : level[static_cast<std::size_t>(number - 1)];
-    }
-};
-
-/// The lakes of a file.
-Polygons lake_polygons(Plan const& plan, Grid const& grid, Run const& run) {
-    constexpr double most_m = 1e5;
-    std::string const& path = plan.recipe.surface->equilibrium.lakes;
-    Polygons polygons = io::read_polygons_valued(file_in(plan.recipe, path), grid.crs, "level", run);
-    for (Polygon const& lake : polygons.polygons) {
-        refuse_if<BadInput>(std::fabs(lake.value) > most_m,
-                            "surface.lakes = \"{}\": feature {} has the level {} m, which is not from {} to {} m", path,
-                            lake.feature, lake.value, -most_m, most_m);
-    }
-    return polygons;
-}
-
-Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfArcs const& rivers, Run const& run) {
-    EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
-    if (wanted.lake_share > 0.0) {
-        flow::ContributingAreas const areas = flow::areas_nearest(planform.network, planform.grid, run);
-        return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = plan.recipe.seed},
-                                      run)};
-    }
-    if (wanted.lakes.empty()) {
-        return {};
-    }
-    Polygons const polygons = lake_polygons(plan, planform.grid, run);
-    Lakes lakes{blend::number_polygons(polygons, planform.grid)};
-    lakes.notes = unseen_lakes(polygons, lakes.labels);
-    std::ranges::transform(polygons.polygons, std::back_inserter(lakes.level), &Polygon::value);
-    return lakes;
-}
-
 /// A terrain in equilibrium, and its solver's parameters.
 struct Solved {
     surface::EquilibriumTerrain land;
@@ -528,53 +452,6 @@ void warn_of_heights(Raster<float> const& dem, bool rebuilt, StageLog& stage_log
     }
 }
 
-/// Channels with the requested lakes.
-struct WithLakes {
-    network::ChannelsOfArcs rivers;
-    std::vector<network::Lake> lakes = {};
-    std::vector<Finding> notes = {};
-    bool by_levels = false; ///< some have levels
-};
-
-/// One warning for all lakes that have not the levels asked.
-std::vector<Finding> off_levels(std::vector<Finding> const& lakes) {
-    if (lakes.empty()) {
-        return {};
-    }
-    Finding const& first = lakes.front();
-    std::string const more =
-        lakes.size() > 1 ? fmt::format(". Others that miss their levels: {}", lakes.size() - 1) : "";
-    return {{.kind = "lakes_off_levels",
-             .feature = first.feature,
-             .where = first.where,
-             .text = first.text + more,
-             .key = "surface.lakes",
-             .numbers = {{"lakes", static_cast<double>(lakes.size())}}}};
-}
-
-/// Gives lakes their levels, and their notes; warns of lakes with levels that are left out.
-void set_levels(Lakes const& wanted, network::Flooded& flooded) {
-    Channels& channels = flooded.drawn.channels;
-    for (network::Lake const& lake : flooded.lakes) {
-        if (double const level = wanted.level_of(lake.label); !std::isnan(level)) {
-            channels.lake_z.resize(channels.cell.size(), none);
-            channels.lake_z[lake.outlet] = static_cast<float>(level);
-        }
-    }
-    std::vector<Finding> lost;
-    for (Finding& note : flooded.notes) {
-        double const level = wanted.level_of(note.feature);
-        if (std::isnan(level)) {
-            continue;
-        }
-        note.text += fmt::format("; level asked for: {:.6g} m", level);
-        if (note.kind == FindingKind("lake_left_out")) {
-            lost.push_back(note);
-        }
-    }
-    append(flooded.notes, off_levels(lost));
-}
-
 /// What keeps the level of a lake up: the next lake with a level downstream, or the end of the river.
 std::string hindrance(WithLakes const& flooded, network::Lake const& lake, Raster<float> const& dem) {
     Channels const& channels = flooded.rivers.channels;
@@ -611,18 +488,6 @@ std::vector<Finding> missed_levels(WithLakes const& flooded, Raster<float> const
     }
     append(notes, off_levels(notes));
     return notes;
-}
-
-WithLakes with_lakes(Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers, Run const& run) {
-    Lakes lakes = lakes_of(plan, planform, rivers, run);
-    if (lakes.labels.cells() == 0) {
-        return {std::move(rivers)};
-    }
-    network::Flooded flooded = network::flood_lakes(rivers, lakes.labels, run);
-    set_levels(lakes, flooded);
-    append(lakes.notes, flooded.notes);
-    bool const by_levels = !flooded.drawn.channels.lake_z.empty();
-    return {std::move(flooded.drawn), std::move(flooded.lakes), std::move(lakes.notes), by_levels};
 }
 
 Valley valley_of(Channels const& channels, Raster<float> const& dem) {

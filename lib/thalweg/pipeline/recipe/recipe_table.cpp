@@ -476,9 +476,9 @@ std::span<Row const> recipe_rows() {
             "raster over the grid, values above 0, or polygons with a field erodibility (1 elsewhere); only ratios "
             "count",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.erodibility; }),
-        key("surface.lakes", file, "", {}, "by_equilibrium",
+        key("surface.lakes", file, "", {}, R"((by_equilibrium) or ([network] and surface.method = "raster"))",
             "polygons of lakes; a numeric field level [m] gives a lake's height, without a value it follows from the "
-            "terrain",
+            "terrain at its outlet",
             [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.lakes; }),
         key("surface.lake_share", number, "", {0, 1}, "by_equilibrium",
             "share of the reaches with enough water that run through a lake",

@@ -22,7 +22,9 @@ struct RaisedRivers {
     Valley valley;
     HeightsStatistics statistics;
     std::optional<flow::ContributingAreas> areas; ///< by the nearest river, where the heights follow from them
-    std::vector<Finding> findings = {};           ///< on rivers that meet in their cells
+    std::vector<Finding> findings = {};           ///< on rivers that meet in their cells, on lakes
+    std::int64_t lakes = 0;
+    Channels channels = {}; ///< with the lakes; empty without
 };
 
 /// Assigns heights to rivers by the recipe, or those of their file.
