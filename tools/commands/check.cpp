@@ -107,7 +107,7 @@ Command add_check(CLI::App& app, Session& session) {
     app.add_option(
            "--near", options->params.near_m,
            "Report line ends closer than this to a line that they do not meet [m]; --fix joins those that meet no "
-           "other line. Default: a millionth of the network's extent.")
+           "other line. Default: a millionth of the network's extent; --fix: by the cell that make would take.")
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
     add_dem_options(app, options->params.reading);

@@ -194,8 +194,9 @@ inline constexpr auto finding_rows = [] {
          "Leave it out, or change what contradicts it."},
         {"texture_missed", warning, always, "1",
          "The texture of the DEM of surface.like cannot be reached by surface.roughness alone.", ""},
-        {"unjoined_ends", warning, always, "rivers", "Rivers end close to another one without meeting it.",
-         "Set network.lines.snap if they should meet, a smaller grid.cell if not."},
+        {"unjoined_ends", warning, always, "rivers",
+         "Rivers end close to another one, or to where one begins, without meeting it.",
+         "Set network.lines.snap if they should meet, or draw what is missing."},
         {"walled_rivers", warning, always, "cells", "River cells stand on walls above the terrain.",
          "network.heights = \"graded\" lets rivers sink into the terrain."},
         // What the finished terrain says of its input.

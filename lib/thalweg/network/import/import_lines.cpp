@@ -157,21 +157,27 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
 
 constexpr double slip_in_near = 20.0; // longer overshoots are not drawing errors
 
+/// [m] What lines step back by, or run beside themselves, without meaning it.
+struct Slips {
+    double near_m;
+    double most_m;
+};
+
 /// An arc under construction; spikes are removed, because nothing else meets it between its ends.
 class Course {
 public:
-    Course(double near_m, std::int64_t id_shift, import_steps::Left& left)
-        : near_m_(near_m), id_shift_(id_shift), left_(left) {}
+    Course(Slips const& slips, std::int64_t id_shift, import_steps::Left& left)
+        : slips_(slips), id_shift_(id_shift), left_(left) {}
 
     /// Adds the vertex at which a segment of a feature begins.
     void add(Vec2 at, double z, std::int64_t feature) {
-        while (line_.size() > 1 && geometry::is_spike(line_[line_.size() - 2], line_.back(), at, near_m_)) {
+        while (line_.size() > 1 && geometry::is_spike(line_[line_.size() - 2], line_.back(), at, slips_.near_m)) {
             Vec2 const tip = line_.back();
             Vec2 const before = line_[line_.size() - 2];
             bool const comes_back = distance(tip, at) <= distance(tip, before); // otherwise it has already turned back
             Vec2 const base = comes_back ? at : before;
             double const back_m = distance(tip, base);
-            if (back_m > slip_in_near * near_m_) {
+            if (back_m > slips_.most_m) {
                 break;
             }
             std::int64_t& of_before = features_[features_.size() - 2]; // of the segment that leads to the tip
@@ -215,7 +221,7 @@ public:
     }
 
 private:
-    double near_m_;
+    Slips slips_;
     std::int64_t id_shift_;
     import_steps::Left& left_;
     std::vector<Vec2> line_;
@@ -228,7 +234,7 @@ std::int64_t longest_of(std::vector<Stretch> const& stretches) {
     return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
 }
 
-void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join, double near_m,
+void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& node_z, bool join, Slips const& slips,
               import_steps::Left& left) {
     auto const inner = join ? vanishing(flow, imported.repairs) : std::vector<char>(flow.leaves.size(), 0);
     auto const heads = [&] {
@@ -252,7 +258,7 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
     };
     for (std::size_t const head : heads) {
         Arc arc;
-        Course course(near_m, flow.line(head).id_shift, left);
+        Course course(slips, flow.line(head).id_shift, left);
         std::size_t n = head;
         do {
             arc.type = flow.line(n).type;
@@ -282,6 +288,8 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
 Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
     refuse_if<BadParameter>(!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m),
                             "network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m);
+    refuse_if<BadParameter>(!(params.cell_m >= 0.0) || !std::isfinite(params.cell_m),
+                            "network.import_lines: cell_m = {}, it is a distance [m] >= 0", params.cell_m);
     refuse_unusable(file);
     auto lines = file.lines;
     Imported imported;
@@ -310,6 +318,9 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     refuse_if<BadInput>(lines.empty(),
                         "network.import_lines: every river in {} is shorter than the snapping distance {} m", file.name,
                         snap_m);
+    if (params.cell_m > 0.0) {
+        import_steps::close_gaps(lines, file, params, left, run);
+    }
     run.at(0.2, "adopt");
     import_steps::split(lines, run);
     run.at(0.7, "adopt");
@@ -336,8 +347,8 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
         throw BadInput(
             fmt::format("network.import_lines: the lines of {} are closed rings: no river runs anywhere", file.name));
     }
-    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join, near_m,
-             left);
+    add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
+             {near_m, std::max(slip_in_near * near_m, params.cell_m)}, left);
     run.at(1.0, "adopt");
     return imported;
 }

@@ -15,6 +15,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
+#include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
@@ -402,6 +403,8 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
     if (lines.rivers.lines.empty()) {
         return give_up("no arc is left that has a line");
     }
+    bool const may_have_gaps = params.near_m <= 0.0 && file.schema != "native"; // whose arcs say where rivers end
+    double const cell_m = may_have_gaps ? network::choose_cell(lines.rivers, {}, run).cell_m : 0.0;
     network::Imported imported;
     try {
         imported = network::import_lines(
@@ -410,6 +413,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
              .orientation = file.schema == "native" ? network::Orientation::least_turned : network::Orientation::links,
              .join = false,
              .snapped = network::SnappedEnds::open,
+             .cell_m = cell_m,
              .dem = params.dem},
             run);
     } catch (BadInput const& cannot) {

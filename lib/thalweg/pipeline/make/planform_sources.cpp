@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <optional>
 
 #include <fmt/format.h>
 
@@ -11,6 +12,7 @@
 #include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
@@ -268,41 +270,83 @@ std::vector<Finding> left_out(RiverLines const& lines) {
     return findings;
 }
 
-/// Warns where rivers end close to others, away from their mouths: they were probably meant to meet.
-void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, StageLog& stage_log) {
-    constexpr std::int64_t near_cells = 2;
-    constexpr std::int64_t mouth_cells = 5;
-    Raster<std::int64_t> basin(grid, 0);
-    for (std::size_t a = 0; a < network.arc_count(); ++a) {
-        for (Cell const c : cells_along(network.arc(a).line, grid, "a river")) {
-            basin[c] = network.basin(network.to(a));
+/// [m] 0 outside the grid
+double distance_to_border(Vec2 p, Grid const& grid) {
+    double const east = grid.west + static_cast<double>(grid.width) * grid.cell_m;
+    double const south = grid.north - static_cast<double>(grid.height) * grid.cell_m;
+    return std::max(0.0, std::min({p.x - grid.west, east - p.x, p.y - south, grid.north - p.y}));
+}
+
+/// An outlet inside the grid that lies nearer to a river of another basin than to the border.
+struct GapBelow {
+    NodeId outlet = 0;
+    double gap_m = 0.0;
+};
+
+/// The gaps below outlets: of at most 2 cells to another river, of at most 20 to one that begins there; away from the
+/// mouths of those rivers, because at a sea or a lake they end side by side.
+std::vector<GapBelow> gaps_below(StreamNetwork const& network, Grid const& grid, bool has_sea, Run const& run) {
+    double const small_m = 2.0 * grid.cell_m;
+    double const most_m = has_sea ? small_m : 20.0 * grid.cell_m;
+    double const mouths_m = 5.0 * grid.cell_m;
+    std::vector<std::vector<Vec2>> lines;
+    for (Arc const& arc : network.arcs()) {
+        lines.push_back(arc.line);
+    }
+    std::vector<NodeId> const outlets = network.outlets();
+    std::vector<Vec2> at;
+    for (NodeId const outlet : outlets) {
+        at.push_back(network.node(outlet).at);
+    }
+    auto const near = geometry::segments_near(at, lines, most_m, run);
+    std::vector<GapBelow> gaps;
+    for (std::size_t k = 0; k < outlets.size(); ++k) {
+        double const border_m = distance_to_border(at[k], grid);
+        std::optional<GapBelow> gap;
+        for (geometry::NearSegment const& s : near[k]) {
+            std::int64_t const basin = network.basin(network.to(s.line));
+            Vec2 const mouth = network.node(outlets[static_cast<std::size_t>(basin - 1)]).at;
+            auto const& line = lines[s.line];
+            double const gap_m = distance(at[k], geometry::foot_on(line[s.segment], line[s.segment + 1], at[k]).at);
+            bool const begins = network.in(network.from(s.line)).empty() && distance(line.front(), at[k]) == gap_m;
+            if (basin != network.basin(outlets[k]) && gap_m < border_m && (gap_m <= small_m || begins) &&
+                distance(mouth, at[k]) > mouths_m + gap_m && (!gap || gap_m < gap->gap_m)) {
+                gap = GapBelow{outlets[k], gap_m};
+            }
+        }
+        if (gap) {
+            gaps.push_back(*gap);
         }
     }
-    auto const end_of = [&](NodeId outlet) { return cells_along({network.node(outlet).at}, grid).front(); };
-    std::int64_t gaps = 0;
-    for (NodeId const outlet : network.outlets()) {
-        bool is_near = false;
-        cells_around(grid, end_of(outlet), near_cells, [&](Cell c) {
-            if (basin[c] != 0 && basin[c] != network.basin(outlet)) {
-                Cell const mouth = end_of(network.outlets()[static_cast<std::size_t>(basin[c] - 1)]);
-                is_near = is_near || squared_cells(mouth, end_of(outlet)) > mouth_cells * mouth_cells;
-            }
-        });
-        gaps += is_near ? 1 : 0;
+    return gaps;
+}
+
+/// Warns where rivers end nearer to others than to the border, away from their mouths: they were probably meant to
+/// meet.
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, bool has_sea, StageLog& stage_log, Run const& run) {
+    constexpr double small_cells = 3.0; // a larger snapping distance would move too much
+    std::vector<GapBelow> const gaps = gaps_below(network, grid, has_sea, run);
+    if (gaps.empty()) {
+        return;
     }
-    if (gaps > 0) {
-        // Centres two cells apart diagonally are nearly three sides apart.
-        double const reach_m = static_cast<double>(near_cells + 1) * grid.cell_m;
-        stage_log.find(
-            {.kind = "unjoined_ends",
-             .amount = static_cast<double>(gaps),
-             .text = fmt::format("{} within {} cells of another river without meeting it",
-                                 gaps == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps), near_cells),
-             .remedy = snapped_m < reach_m
-                           ? fmt::format("If they should meet: --set network.lines.snap={}", reach_m)
-                           : fmt::format("Finer cells keep them apart: --set grid.cell={}", grid.cell_m / 2.0),
-             .key = snapped_m < reach_m ? "network.lines.snap" : "grid.cell"});
-    }
+    auto const [least, most] = std::ranges::minmax_element(gaps, {}, &GapBelow::gap_m);
+    Vec2 const at = network.node(least->outlet).at;
+    std::string const so_far = gaps.size() == 1 ? fmt::format("{:.3g} m", least->gap_m)
+                                                : fmt::format("{:.3g} to {:.3g} m", least->gap_m, most->gap_m);
+    double const enough_m = std::ceil(most->gap_m);
+    bool const is_small = enough_m <= small_cells * grid.cell_m;
+    stage_log.find(
+        {.kind = "unjoined_ends",
+         .where = at,
+         .amount = static_cast<double>(gaps.size()),
+         .text = fmt::format("{} {} from another river without meeting it, the nearest at ({:.0f}, {:.0f})",
+                             gaps.size() == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps.size()), so_far,
+                             at.x, at.y),
+         .remedy = is_small ? fmt::format("If they should meet: --set network.lines.snap={}", enough_m)
+                            : "If they should meet, draw what is missing between them; if their water sinks there: "
+                              "--set network.inland=sink",
+         .key = is_small ? "network.lines.snap" : "network.inland",
+         .numbers = {{"least", least->gap_m, "m"}, {"most", most->gap_m, "m"}}});
 }
 
 /// The land bounded by a file's coastlines; without cells: there are none.
@@ -413,6 +457,7 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
+                                       .cell_m = wanted.snap_m > 0.0 ? 0.0 : plan.grid->cell_m,
                                        .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr};
     network::Imported imported =
         stage_log.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
@@ -429,7 +474,7 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     stage_log.find(direction_findings(imported.directions, params.dem != nullptr ? "" : "--set network.lines.dem=FILE",
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
-    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, stage_log);
+    warn_of_gaps(imported.network, rivers.grid, has_coastlines(plan), stage_log, run);
     rivers.land = land_of_coastlines(plan, stage_log, run);
     rivers.file_heights = heights_of_file(plan, imported, stage_log);
     rivers.network = std::move(imported.network);

@@ -311,7 +311,8 @@ std::span<Row const> recipe_rows() {
             "field with the id of the line downstream; \"\": a known one (docs/river_files.md)",
             [](Recipe& r, Item) -> Field { return &r.network->lines.down_field; }),
         key("network.lines.snap", number, "m", {0, 1e6}, R"(network.source = "lines")",
-            "line ends closer than this are joined; 0: 1e-6 of the extent",
+            "line ends closer than this are joined; 0: open ends within half a cell, or two where it is clear to what "
+            "(docs/rivers_you_have.md)",
             [](Recipe& r, Item) -> Field { return &r.network->lines.snap_m; }),
         key("network.lines.orientation", word, "",
             {{"auto", network::Orientation::automatic},

@@ -76,6 +76,10 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
 /// Joins ends to other lines within snap_m, and drops lines that collapse to a point.
 void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run);
 
+/// Joins open ends of lines to other connected parts of the network as ImportParams::cell_m says.
+void close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
+                Run const& run);
+
 /// Inserts a vertex wherever lines meet, until they meet at common vertices only.
 /// \throws BadInput naming the position if splitting does not converge
 void split(std::vector<RiverLine>& lines, Run const& run);
