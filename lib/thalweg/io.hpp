@@ -10,7 +10,6 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/lattice_files.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/mesh/tin.hpp>
@@ -27,3 +26,4 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/io/raster/web_tiles.hpp>
+#include <thalweg/io/sources/sources.hpp>

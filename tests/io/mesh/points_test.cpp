@@ -14,7 +14,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/io/gdal/sources.hpp>
+#include <thalweg/io/sources/sources.hpp>
 
 #include "full_disk.hpp"
 #include "point_files.hpp"

@@ -16,10 +16,10 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/write_network.hpp>
+#include <thalweg/io/sources/sources.hpp>
 
 #include "sample_networks.hpp"
 #include "scratch_folder.hpp"

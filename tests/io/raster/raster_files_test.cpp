@@ -22,8 +22,8 @@
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/sources/sources.hpp>
 
 #include "full_disk.hpp"
 #include "tiff.hpp"

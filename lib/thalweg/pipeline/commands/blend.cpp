@@ -11,10 +11,10 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>

@@ -9,10 +9,10 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/sources/sources.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {

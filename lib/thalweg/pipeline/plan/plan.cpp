@@ -15,10 +15,10 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/growth/forest/coast.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>

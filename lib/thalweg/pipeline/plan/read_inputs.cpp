@@ -14,10 +14,10 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/sources/sources.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/texture/texture.hpp>
 #include <thalweg/network/import/choose_cell.hpp>

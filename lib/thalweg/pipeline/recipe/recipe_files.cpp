@@ -12,8 +12,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
-#include <thalweg/io/gdal/sources.hpp>
 #include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/sources/sources.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 namespace thalweg::pipeline {
