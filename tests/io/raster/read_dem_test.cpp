@@ -197,12 +197,10 @@ TEST(NearlySquareCells, AreTakenWhereTheyMakeATenthOfACellAtMost) {
     };
     std::string const near = write(folder, slope, high(30.0007, {}));
     EXPECT_EQ(io::read_dem(near).grid(), (Grid{40, 30, 30.0, 500000.0, 5000000.0, "EPSG:32632"}));
-    EXPECT_TRUE(io::has_square_cells(near));
     EXPECT_TRUE(io::read_drawable(near).findings.empty());
     // A tenth of a cell over 120 columns; and cells that are visibly not square, however few.
     for (Tiff const& wanted : {high(30.026, {.width = 120}), high(30.1, {.width = 4, .height = 4})}) {
         std::string const far = write(folder, slope, wanted);
-        EXPECT_FALSE(io::has_square_cells(far));
         EXPECT_TRUE(has(error_of([&] { io::read_dem(far); }), "BadInput io.read_dem", "30"));
         EXPECT_EQ(io::read_drawable(far).findings.size(), 1U);
     }

@@ -75,11 +75,6 @@ Raster<float> read_dem(Source const& source, Run const& run = {});
 /// \return the same, with heights in the file's unit: two that differ there differ here.
 Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
-/// \param source the file
-/// \return whether read_dem takes a raster's cells as squares along the axes; true also of one without a place
-/// \throws BadInput like read_dem_file, except for what only heights show
-bool has_square_cells(Source const& source);
-
 /// Reads a mask: the cells of any raster file whose value is neither 0 nor no-data.
 /// \pre a file whose cells are those of a grid.
 /// \param source the file

@@ -70,11 +70,6 @@ Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params,
     return read(source, HeightsIn::stored, params, run).dem;
 }
 
-bool has_square_cells(Source const& source) {
-    OpenedHeights const opened(source, {}, HeightsIn::metres, "io.read_dem: " + source.path);
-    return opened.is_grid();
-}
-
 Mask read_mask(Source const& source, Grid const& grid, Run const& run) {
     Raster<float> const values = read_dem(source, {.values = CellValues::numbers}, run);
     std::string const what = "io.read_mask: " + source.path;
