@@ -12,11 +12,11 @@ class OGRSpatialReference;
 /// Units of length in files.
 namespace thalweg::io {
 
-/// The length of a unit [m] by any of its usual names ("m", "metre", "ft", "US survey foot", "cm", ...); nothing:
+/// The length of a unit [m] by any of its usual names ("m", "metres", "ft", "US survey foot", "fathom", ...); nothing:
 /// unknown.
 std::optional<double> unit_named(std::string_view name);
 
-/// "metres", "feet", "US survey feet", or "units of 0.9144 m".
+/// "metres", "kilometres", "feet", "US survey feet", "fathoms", or "units of 0.9144 m".
 std::string words_for_unit(double metres);
 
 /// The unit of heights of a layer's lines or points [m]: from the field z_unit of a network that thalweg wrote, else
