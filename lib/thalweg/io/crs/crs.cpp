@@ -76,6 +76,36 @@ OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg,
     return centred;
 }
 
+namespace {
+
+/// Longitudes and latitudes of the body that a CRS belongs to: of the Earth WGS 84.
+OGRSpatialReference globe_of(OGRSpatialReference const& reference) {
+    std::unique_ptr<OGRSpatialReference> const own(is_on_earth(reference) ? nullptr : reference.CloneGeogCS());
+    OGRSpatialReference globe = own ? *own : read_reference("EPSG:4326");
+    globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
+    return globe;
+}
+
+} // namespace
+
+std::string metric_crs_around(OGRSpatialReference const& own, Vec2 middle_deg, double wide_deg) {
+    constexpr double widest_zone_deg = 12.0;
+    if (is_on_earth(own) && wide_deg <= widest_zone_deg && middle_deg.y >= -80.0 && middle_deg.y < 84.0) {
+        return utm_zone(middle_deg.x, middle_deg.y);
+    }
+    OGRSpatialReference const globe = globe_of(own);
+    return name_of(
+        equal_area_around(std::round(middle_deg.x), std::round(middle_deg.y), is_on_earth(own) ? nullptr : &globe));
+}
+
+void require_half_a_globe(double west_deg, double east_deg, std::string const& what) {
+    refuse_if<BadInput>(east_deg - west_deg > 180.0,
+                        "{} reaches over {:.0f} degrees of longitude, from {:.4g} to {:.4g}: no projection in metres "
+                        "serves all of it. Cut a part out (gdal_translate -projwin, ogr2ogr -clipsrc), or name a CRS "
+                        "(--crs) where the command has that option",
+                        what, east_deg - west_deg, west_deg, east_deg);
+}
+
 bool is_on_earth(OGRSpatialReference const& reference) {
     constexpr double least_m = 6.3e6;
     constexpr double most_m = 6.4e6;
@@ -294,14 +324,6 @@ bool is_distorted(Grid const& grid) {
 
 namespace {
 
-/// Longitudes and latitudes of the body that a CRS belongs to: of the Earth WGS 84.
-OGRSpatialReference globe_of(OGRSpatialReference const& reference) {
-    std::unique_ptr<OGRSpatialReference> const own(is_on_earth(reference) ? nullptr : reference.CloneGeogCS());
-    OGRSpatialReference globe = own ? *own : read_reference("EPSG:4326");
-    globe.SetAxisMappingStrategy(OAMS_TRADITIONAL_GIS_ORDER);
-    return globe;
-}
-
 // East may exceed 180, but not west + 360.
 DegreeBox box_of(Grid const& grid, std::string const& what) {
     Driver const driver;
@@ -317,6 +339,9 @@ DegreeBox box_of(Grid const& grid, std::string const& what) {
     }
     if (box.east < box.west) {
         box.east += 360.0; // across the antimeridian
+    }
+    if (from.IsGeographic() != 0) { // a globe and half a cell is no strip at the antimeridian
+        box.east = box.west + (grid.east() - grid.west) * from.GetAngularUnits(nullptr) * 180.0 / portable::pi;
     }
     return box;
 }
@@ -350,14 +375,9 @@ std::string metric_crs(Grid const& grid, std::string const& what) {
         return ground.unit == GridUnit::distorted ? ground.crs : grid.crs;
     }
     DegreeBox const box = box_of(grid, what);
-    double const longitude = 0.5 * (box.west + box.east);
-    double const latitude = 0.5 * (box.south + box.north);
-    OGRSpatialReference const own = read_reference(grid.crs);
-    if (is_on_earth(own)) {
-        return utm_zone(longitude, latitude);
-    }
-    OGRSpatialReference const globe = globe_of(own);
-    return name_of(equal_area_around(std::round(longitude), std::round(latitude), &globe));
+    require_half_a_globe(box.west, box.east, what);
+    return metric_crs_around(read_reference(grid.crs), {0.5 * (box.west + box.east), 0.5 * (box.south + box.north)},
+                             box.east - box.west);
 }
 
 } // namespace thalweg::io

@@ -113,8 +113,9 @@ bool overlap_on_earth(Grid const& a, Grid const& b, std::string const& of_a, std
 /// \param grid with a CRS
 /// \param what its name in messages
 /// \return the grid's own CRS if it is projected in metres and lengths are not wrong by more than 1 %, else the UTM
-/// zone of its middle; of a grid that is not on the Earth an equal-area projection of its body
-/// \throws BadInput when the middle is in no UTM zone
+/// zone of its middle; where that does not serve (more than 12 degrees wide, near a pole, not on the Earth) an
+/// equal-area projection around the middle
+/// \throws BadInput when the grid has no longitude and latitude, or reaches over more than 180 degrees of longitude
 std::string metric_crs(Grid const& grid, std::string const& what);
 
 /// Computes the largest relative error of lengths in a grid's UTM zone.

@@ -147,8 +147,6 @@ std::optional<PointScale> GroundScale::at(Vec2 place) const {
 
 namespace {
 
-constexpr double most_stretch = 0.04;
-
 // Nothing if a corner is not on the globe.
 std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformation& turn) {
     constexpr int points_a_side = 21;
@@ -165,10 +163,9 @@ std::optional<DegreeBox> degrees_of(FileBox const& box, OGRCoordinateTransformat
     return degrees;
 }
 
-// The UTM zone of the middle of a box whose coordinates are in `from`; if that lengthens lines by more than 4 %,
-// Lambert's azimuthal equal-area projection centred there. Longitudes on both sides of 180 degrees form one box if that
-// is narrower. Throws BadInput when the middle has no longitude and latitude or the box spans more than 180 degrees of
-// longitude: "io.into_metres: name ...".
+// metric_crs_around the middle of a box whose coordinates are in `from`. Longitudes on both sides of 180 degrees form
+// one box if that is narrower. Throws BadInput when the middle has no longitude and latitude or the box spans more than
+// 180 degrees of longitude: "io.into_metres: name ...".
 std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::string const& name) {
     FileBox box = given;
     if (from.IsGeographic() != 0 && box.across_180 && box.high.x - box.low.x > 180.0 &&
@@ -188,23 +185,17 @@ std::string zone_of(FileBox const& given, OGRSpatialReference const& from, std::
         at.x, at.y, from.GetName());
     auto const degrees = degrees_of(box, *turn);
     bool const has_zone = turned.y >= -80.0 && turned.y <= 84.0;
-    if (!has_zone || !degrees || utm_stretch(utm_zone(turned.x, turned.y), *degrees) <= most_stretch) {
+    if (!has_zone || !degrees) {
         return utm_zone(turned.x, turned.y);
     }
-    if (degrees->east - degrees->west > 180.0) {
-        throw BadInput(
-            fmt::format("io.into_metres: {} reaches over {:.0f} degrees of longitude, from {:.4g} to {:.4g}: "
-                        "no projection in metres serves all of it. Cut a part out (ogr2ogr -clipsrc), or "
-                        "name a CRS (--crs)",
-                        name, degrees->east - degrees->west, degrees->west, degrees->east));
-    }
-    return name_of(equal_area_around(std::round(turned.x), std::round(turned.y)));
+    require_half_a_globe(degrees->west, degrees->east, "io.into_metres: " + name);
+    return metric_crs_around(from, turned, degrees->east - degrees->west);
 }
 
 } // namespace
 
 bool is_distorted(OGRSpatialReference const& own, FileBox const& box) {
-    return is_projected_in_metres(own) && length_error(own, own, box) > most_length_error;
+    return is_on_earth(own) && is_projected_in_metres(own) && length_error(own, own, box) > most_length_error;
 }
 
 bool is_better(OGRSpatialReference const& other, OGRSpatialReference const& own, FileBox const& box) {

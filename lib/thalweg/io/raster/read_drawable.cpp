@@ -6,6 +6,7 @@
 #include <array>
 #include <cmath>
 #include <filesystem>
+#include <iterator>
 #include <limits>
 #include <memory>
 #include <utility>
@@ -32,9 +33,7 @@
 namespace thalweg::io {
 namespace {
 
-constexpr double widest_zone_deg = 12.0;
-
-/// The projection in which a raster on the globe is drawn: on another body around its middle, in its own metres.
+/// The projection in which a raster on the globe is drawn.
 OGRSpatialReference projection_for(OpenedHeights const& source, std::string const& what) {
     OGRSpatialReference const& from = *source.reference();
     std::unique_ptr<OGRSpatialReference> const globe(from.CloneGeogCS());
@@ -61,10 +60,7 @@ OGRSpatialReference projection_for(OpenedHeights const& source, std::string cons
         double const off = std::fabs(place(width, row).x - place(0.0, row).x);
         wide_deg = std::max(wide_deg, off);
     }
-    if (is_on_earth(from) && wide_deg <= widest_zone_deg && middle.y > -80.0 && middle.y < 84.0) {
-        return read_reference(utm_zone(middle.x, middle.y));
-    }
-    return equal_area_around(middle.x, middle.y, is_on_earth(from) ? nullptr : globe.get());
+    return read_reference(metric_crs_around(from, middle, wide_deg));
 }
 
 /// The same for a raster in metres with wrong lengths; nothing: no other projection is better.
@@ -79,7 +75,7 @@ std::optional<OGRSpatialReference> less_distorted_for(OpenedHeights const& sourc
     auto const [west, east] = ends(frame[0], frame[1], frame[2]);
     auto const [south, north] = ends(frame[3], frame[4], frame[5]);
     FileBox const box{{west, south}, {east, north}};
-    if (!is_on_earth(own) || !is_distorted(own, box)) {
+    if (!is_distorted(own, box)) {
         return std::nullopt;
     }
     try {
@@ -345,6 +341,55 @@ std::optional<OGRSpatialReference> target_for(OpenedHeights const& source, ReadD
     return params.metres == MetresOf::the_ground ? less_distorted_for(source, what) : std::nullopt;
 }
 
+/// The longitudes that a raster in degrees covers; 0: it is in other units.
+double degrees_wide(OpenedHeights const& source) {
+    OGRSpatialReference const* const own = source.reference();
+    bool const in_degrees = own != nullptr && own->IsGeographic() != 0;
+    return in_degrees ? source.width() * source.frame()[1] * own->GetAngularUnits(nullptr) * 180.0 / portable::pi : 0.0;
+}
+
+/// What became of a raster's position.
+std::vector<Finding> conversions_in(OpenedHeights const& source, std::int64_t k, Target target, bool is_warped,
+                                    Grid const& grid, std::string const& name) {
+    std::vector<Finding> findings;
+    auto const find = [&](FindingKind kind, double amount, std::string const& text) {
+        findings.push_back({.kind = kind, .amount = amount, .text = name + ": " + text, .layer = name});
+    };
+    auto const name_or = [](OGRSpatialReference const& crs, char const* other) {
+        return crs.GetName() == nullptr ? other : crs.GetName();
+    };
+    CellFrame const& frame = source.frame();
+    double const cell = grid.cell_m;
+    double const wide_deg = degrees_wide(source);
+    if (constexpr double half_a_globe = 180.0; wide_deg > half_a_globe) {
+        double const quarter = std::min(0.25 * wide_deg, 85.0) * portable::pi / 180.0; // Snyder 1987, eq. 24-2
+        find("stretched", 1.0 / portable::cos(quarter) - 1.0,
+             fmt::format("it reaches over {:.0f} degrees of longitude: far from its middle lengths and slopes are not "
+                         "those of the ground",
+                         wide_deg));
+    }
+    if (k > 1) {
+        find("reduced", static_cast<double>(grid_of_means(source, k).cells()),
+             fmt::format("reduced to means of {}x{} cells", k, k));
+    }
+    if (target != nullptr) {
+        find("dem_reprojected", cell,
+             fmt::format("warped from {} into {}, cells of {:.4g} m", name_or(*source.reference(), "its CRS"),
+                         name_or(*target, "metres"), cell));
+    } else if (is_warped && (frame[2] != 0.0 || frame[4] != 0.0)) {
+        find("turned_raster", cell, fmt::format("turned north-up, cells of {:.6g} m", cell));
+    } else if (is_warped) {
+        find("turned_raster", cell,
+             fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", frame[1], -frame[5], cell));
+    }
+    if (source.reference() == nullptr) {
+        find("no_crs", 0.0,
+             source.is_placed() ? "it has no CRS: its coordinates count as metres"
+                                : "it has no position: its cells count as 1 m");
+    }
+    return findings;
+}
+
 } // namespace
 
 Drawable read_drawable(Source const& file, ReadDrawableParams const& params, Run const& run) {
@@ -371,40 +416,17 @@ Drawable read_drawable(Source const& file, ReadDrawableParams const& params, Run
     if (summarises) {
         out.own = own_heights.value();
     }
-    auto const find = [&](FindingKind kind, double amount, std::string const& text) {
-        out.findings.push_back({.kind = kind, .amount = amount, .text = name + ": " + text, .layer = name});
-    };
-    CellFrame const& frame = source.frame();
-    if (k > 1) {
-        find("reduced", static_cast<double>(means.cells()), fmt::format("reduced to means of {}x{} cells", k, k));
-    }
     if (is_warped) {
-        OGRSpatialReference const* const own = source.reference();
-        CellFrame reduced = frame;
+        CellFrame reduced = source.frame();
         for (std::size_t const i : {1U, 2U, 4U, 5U}) {
             reduced[i] *= static_cast<double>(k);
         }
-        out.dem = warp(means, reduced, own, target ? &*target : nullptr, most_side, what, run);
-        double const cell = out.dem.grid().cell_m;
-        if (target) {
-            find("dem_reprojected", cell,
-                 fmt::format("warped from {} into {}, cells of {:.4g} m",
-                             own->GetName() == nullptr ? "its CRS" : own->GetName(),
-                             target->GetName() == nullptr ? "metres" : target->GetName(), cell));
-        } else if (frame[2] != 0.0 || frame[4] != 0.0) {
-            find("turned_raster", cell, fmt::format("turned north-up, cells of {:.6g} m", cell));
-        } else {
-            find("turned_raster", cell,
-                 fmt::format("cells of {:.6g} x {:.6g} made squares of {:.6g} m", frame[1], -frame[5], cell));
-        }
+        out.dem = warp(means, reduced, source.reference(), target ? &*target : nullptr, most_side, what, run);
     } else {
         out.dem = std::move(means);
     }
-    if (source.reference() == nullptr) {
-        find("no_crs", 0.0,
-             source.is_placed() ? "it has no CRS: its coordinates count as metres"
-                                : "it has no position: its cells count as 1 m");
-    }
+    std::ranges::copy(conversions_in(source, k, target ? &*target : nullptr, is_warped, out.dem.grid(), name),
+                      std::back_inserter(out.findings));
     return out;
 }
 

@@ -4,6 +4,8 @@
 
 #include <string>
 
+#include <thalweg/core/vec.hpp>
+
 class OGRSpatialReference;
 
 namespace thalweg::io {
@@ -18,6 +20,18 @@ OGRSpatialReference read_reference(std::string const& text);
 /// \param globe its longitudes and latitudes; null: WGS 84
 OGRSpatialReference equal_area_around(double longitude_deg, double latitude_deg,
                                       OGRSpatialReference const* globe = nullptr);
+
+/// The projection in metres for what has none, of every command: the UTM zone of the middle; where that does not serve
+/// (more than 12 degrees wide, beyond latitudes -80 and 84, another body than the Earth) Lambert's azimuthal equal-area
+/// projection around the middle, in whole degrees.
+/// \param own any CRS of the body
+/// \param middle_deg longitude and latitude
+/// \param wide_deg extent in longitude
+/// \return as name_of
+std::string metric_crs_around(OGRSpatialReference const& own, Vec2 middle_deg, double wide_deg);
+
+/// \throws BadInput where data cover more than 180 degrees of longitude, which no projection in metres serves
+void require_half_a_globe(double west_deg, double east_deg, std::string const& what);
 
 /// Whether a CRS is one of the Earth, by the size of its ellipsoid.
 bool is_on_earth(OGRSpatialReference const& reference);

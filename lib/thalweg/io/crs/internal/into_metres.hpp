@@ -62,8 +62,7 @@ public:
     /// Chooses the target CRS.
     /// \param own the file's CRS
     /// \param wanted the target; "": the file's own if it is projected in metres that are metres on the ground
-    /// (OwnMetres), else the UTM zone of the middle of the box; if that lengthens lines by more than 4 %, Lambert's
-    /// azimuthal equal-area projection centred there
+    /// (OwnMetres), else metric_crs_around() the middle of the box
     /// \param box of the data, in the file's coordinates
     /// \param name of the file, for messages
     /// \throws BadInput when there is no CRS, or the data span more than 180 degrees of longitude: "io.into_metres:
@@ -115,7 +114,7 @@ private:
     std::unique_ptr<Turn> turn_;
 };
 
-/// Whether lengths in a CRS projected in metres are wrong by more than 1 % on average over a box.
+/// Whether lengths in a CRS of the Earth projected in metres are wrong by more than 1 % on average over a box.
 bool is_distorted(OGRSpatialReference const& own, FileBox const& box);
 
 /// Whether lengths in the other CRS have at most half the error of the own one.
