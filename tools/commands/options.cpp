@@ -68,7 +68,8 @@ void add_dem_options(CLI::App& app, io::ReadDemParams& reading) {
     app.add_option("--band", reading.band,
                    "Read heights from this band or variable of the DEM, by number or name. Default: the only one, or "
                    "the one whose name means heights.")
-        ->type_name("BAND");
+        ->type_name("BAND")
+        ->check([](std::string const& word) { return word.empty() ? "give a number or a name" : std::string(); });
     static std::map<std::string, io::HeightEncoding> const encodings{{"terrain-rgb", io::HeightEncoding::terrain_rgb},
                                                                      {"terrarium", io::HeightEncoding::terrarium}};
     app.add_option("--encoding", reading.encoding, "Decode the DEM's heights from the colours of a picture.")

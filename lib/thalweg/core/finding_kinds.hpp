@@ -278,6 +278,9 @@ inline constexpr auto finding_rows = [] {
         {"dem_reprojected", note, always, "m", "A DEM is warped to square cells in metres; the amount is their side.",
          ""},
         {"depths", note, always, "", "Numbers that grow downwards are depths; heights are their negatives.", ""},
+        {"doubtful_direction", warning, always, "",
+         "Names and attributes of a file do not agree on whether its numbers grow upwards, or do not say it.",
+         "Turn heights round if they are wrong (gdal_edit.py -scale -1)."},
         {"heights_in_metres", note, always, "1",
          "Heights are converted to metres by this factor, or count as metres where nothing names their unit.", ""},
         {"named_nodata", note, always, "cells", "Cells of the value that --nodata names are no-data.", ""},
@@ -288,9 +291,10 @@ inline constexpr auto finding_rows = [] {
         {"split_faces", note, always, "faces", "Faces with more than three corners are cut into triangles.", ""},
         {"transparent_cells", note, always, "cells", "Cells that the alpha band makes transparent are no-data.", ""},
         {"turned_raster", note, always, "m", "A raster is turned to north-up squares.", ""},
-        {"unknown_unit", warning, always, "m", "A file names a unit of heights that is none of length.",
+        {"unknown_unit", warning, always, "m", "A file names a unit of heights or coordinates that is none of length.",
          "Name the unit in the file (gdal_edit.py -units m), or scale the heights."},
-        {"zero_heights", warning, always, "cells", "Cells of 0 lie far from all other heights.",
+        {"zero_heights", warning, always, "cells",
+         "Cells of 0, or single ones of 32767 or 65535, lie far from all other heights.",
          "Add --nodata 0 if they are none, where the command has that option, or declare it (gdal_edit.py -a_nodata "
          "0)."},
         // Drainage on a DEM: the certificate.

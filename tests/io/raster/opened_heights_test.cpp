@@ -5,6 +5,7 @@
 #include <functional>
 #include <limits>
 #include <string>
+#include <utility>
 
 #include <gtest/gtest.h>
 #include <support.hpp>
@@ -103,7 +104,16 @@ TEST(OpenedHeights, TheUnitOfTheBandComesBeforeTheVerticalCrs) {
     std::string const odd = with_unit("parsecs", "EPSG:26913");
     expect_heights(odd, slope);
     EXPECT_NE(found(io::read_dem_file(odd).findings, "unknown_unit"), nullptr);
-    expect_heights(with_unit("parsecs", "EPSG:26913+6360"), [](int c, int r) { return slope(c, r) * us_foot_m; });
+    // It does not count as that of the vertical CRS, which the band says it is not.
+    expect_heights(with_unit("parsecs", "EPSG:26913+6360"), slope);
+    Finding const contrary = *found(io::read_dem_file(folder / "dem.tif").findings, "unknown_unit");
+    EXPECT_TRUE(has(contrary.text, "'parsecs'", "count as metres", "US survey feet"));
+    EXPECT_NE(found(io::read_dem_file(with_unit("'", "EPSG:26913")).findings, "unknown_unit"), nullptr);
+    for (auto const& [unit, metres] :
+         {std::pair{"fathoms", 1.8288}, std::pair{"Yards", 0.9144}, std::pair{"inches", 0.0254},
+          std::pair{"decimetres", 0.1}, std::pair{"kilometers", 1000.0}, std::pair{"US survey feet", us_foot_m}}) {
+        expect_heights(with_unit(unit, "EPSG:26913"), [&](int c, int r) { return slope(c, r) * metres; });
+    }
 }
 
 TEST(OpenedHeights, ADatumShiftsNothing) {
@@ -179,6 +189,7 @@ TEST(OpenedHeights, OneOfSeveralBandsIsNamed) {
     path = changed(folder, {.bands = 3}, name_bands({"uncertainty", "Elevation", "count"}));
     expect_heights(path, is(11.0));
     EXPECT_NE(found(io::read_dem_file(path).findings, "bands"), nullptr);
+    expect_heights(changed(folder, {.bands = 2}, name_bands({"depth", "elevation"})), is(11.0));
 }
 
 TEST(OpenedHeights, ColoursAreDecodedOrRefused) {
@@ -224,6 +235,7 @@ TEST(OpenedHeights, DepthsChangeTheirSign) {
     auto const depth = [](int c, int r) { return -slope(c, r); };
     expect_heights(changed(folder, {}, tell("positive", "down")), depth);
     EXPECT_NE(found(io::read_dem_file(folder / "dem.tif").findings, "depths"), nullptr);
+    EXPECT_EQ((io::read_stored_dem(folder / "dem.tif")[Cell{7, 3}]), static_cast<float>(depth(7, 3)));
     expect_heights(changed(folder, {}, tell("standard_name", "sea_floor_depth_below_geoid")), depth);
     expect_heights(changed(folder, {}, in_crs("EPSG:32632+5715")), depth); // MSL depth
     expect_heights(changed(folder, {}, tell("positive", "up")), slope);
@@ -280,6 +292,51 @@ TEST(OpenedHeights, ASiteHasMetresWithoutAPlace) {
     expect_heights(path, slope);
     changed(folder, {.frame = {100.0, 2.0, 0.0, 300.0, 0.0, -2.0}}, site("foot", 0.3048));
     EXPECT_NEAR(io::read_dem(path).grid().cell_m, 0.6096, 1e-12);
+    Finding const* const unit = found(io::read_dem_file(path).findings, "heights_in_metres");
+    ASSERT_NE(unit, nullptr) << "feet in plan, and no word on heights";
+    EXPECT_EQ(unit->amount, 1.0);
+}
+
+TEST(OpenedHeights, RowsThatAreColumnsAreReadAsThese) {
+    ScratchFolder const folder;
+    // A quarter turn either way, and the two that mirror: column and row of the file by those of the map.
+    struct Quarter {
+        std::vector<double> frame;
+        int (*col)(int c, int r);
+        int (*row)(int c, int r);
+    };
+    for (Quarter const &quarter :
+         {Quarter{
+              {500000.0, 0.0, 30.0, 5000000.0, -30.0, 0.0}, [](int, int r) { return r; }, [](int c, int) { return c; }},
+          Quarter{{500900.0, 0.0, -30.0, 5000000.0, -30.0, 0.0},
+                  [](int, int r) { return r; },
+                  [](int c, int) { return 29 - c; }},
+          Quarter{{500000.0, 0.0, 30.0, 4998800.0, 30.0, 0.0},
+                  [](int, int r) { return 39 - r; },
+                  [](int c, int) { return c; }}}) {
+        std::string const path = written(folder / "dem.tif", {.frame = quarter.frame}, slope);
+        EXPECT_EQ(io::read_dem(path).grid(), (Grid{30, 40, 30.0, 500000.0, 5000000.0, "EPSG:32632"}));
+        expect_heights(path, [&](int c, int r) { return slope(quarter.col(c, r), quarter.row(c, r)); });
+        EXPECT_NE(found(io::read_dem_file(path).findings, "turned_raster"), nullptr);
+    }
+}
+
+TEST(OpenedHeights, PositionsOffTheMapAreRefused) {
+    ScratchFolder const folder;
+    auto const placed = [&](double north) {
+        return written(folder / "dem.tif", {.epsg = 4326, .frame = {7.0, 0.1, 0.0, north, 0.0, -0.1}}, slope);
+    };
+    for (double const north : {95.0, -88.0}) {
+        std::string const path = placed(north);
+        for (auto const& read :
+             std::vector<std::function<void()>>{[&] { io::read_dem(path); }, [&] { io::read_drawable(path); }}) {
+            EXPECT_TRUE(has(error_of(read), "BadInput", "latitude", "beyond a pole", "gdal_edit.py"));
+        }
+    }
+    EXPECT_NO_THROW(io::read_dem(placed(90.05))) << "cells centred on the pole";
+    std::string const path = changed(folder, {}, in_crs("EPSG:4978"));
+    EXPECT_TRUE(
+        has(error_of([&] { io::read_dem(path); }), "BadInput io.read_dem", "geocentric", "gdal_edit.py -a_srs"));
 }
 
 TEST(OpenedHeights, DegreesWithoutACrsAreRefused) {
@@ -327,6 +384,10 @@ TEST(OpenedHeights, OtherBodiesKeepTheirMetres) {
     std::string const metric = io::metric_crs(own, "mars");
     EXPECT_TRUE(has(metric, "Equal area around 20, 10", "3396190"));
     EXPECT_TRUE(io::overlap_on_earth(own, own, "a", "b"));
+    // The whole globe has heights, but no lengths.
+    std::string const globe =
+        changed(folder, {.frame = {-180.0, 9.0, 0.0, 90.0, 0.0, -6.0}}, in_crs("+proj=longlat +R=1737400 +no_defs"));
+    EXPECT_NE(found(io::read_drawable(globe).findings, "stretched"), nullptr);
 }
 
 TEST(OpenedHeights, OwnHeightsOfDegreesAreWeightedByArea) {

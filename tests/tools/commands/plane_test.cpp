@@ -14,6 +14,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/raster/read_drawable.hpp>
 
 #include "command.hpp"
 
@@ -165,6 +166,41 @@ TEST(Planes, EveryCommandSeesTheSameHeightsAndSlope) {
             }
         }
     }
+}
+
+TEST(Planes, EveryCommandChoosesTheSameMetres) {
+    Workplace const place;
+    auto const write = [&](double west, double north, double cell) {
+        Plan const plan{"EPSG:4326", west, north, cell, 0.0, 0.0, false};
+        write_dem((place / "dem.tif").string(), {800.0, 2.0, 1.0}, units[0], plan, false, false);
+    };
+    // 6, 36 and 72 degrees wide, and around a pole.
+    for (auto const& [west, north, cell] : {std::array{7.0, 48.0, 0.1}, std::array{-20.0, 40.0, 0.6},
+                                            std::array{-30.0, 50.0, 1.2}, std::array{20.0, 89.9, 0.1}}) {
+        write(west, north, cell);
+        std::string const drawn = thalweg::io::read_drawable((place / "dem.tif").string()).dem.grid().crs;
+        expect_run(place, "make dem.tif -o out --overwrite -q", 0);
+        std::string const made = thalweg::io::read_dem((place / "out/dem.tif").string()).grid().crs;
+        EXPECT_EQ(made, drawn);
+        EXPECT_EQ(made.starts_with("EPSG:326"), cell < 0.5 && north < 84.0) << made;
+        bool const says_zone = expect_run(place, "stats dem.tif", 0).err.find("UTM zone") != std::string::npos;
+        EXPECT_EQ(says_zone, cell < 0.5 && north < 84.0);
+    }
+    write(-100.0, 88.0, 3.5);
+    expect_run(place, "make dem.tif -o out --overwrite", 2, "210 degrees of longitude", "-projwin");
+    expect_run(place, "stats dem.tif", 0, "210 degrees of longitude");
+}
+
+TEST(Planes, WhatHasNoPlaneIsRefusedInWords) {
+    Workplace const place;
+    Plan const plan{"EPSG:4326", 7.0, 95.0, 0.01, 0.0, 0.0, false};
+    write_dem((place / "dem.tif").string(), {800.0, 2.0, 1.0}, units[0], plan, false, false);
+    for (char const* const command : {"stats dem.tif", "make dem.tif -o out", "export dem.tif -o heights.png",
+                                      "draw dem.tif -o map.png", "tin dem.tif -o tin.ply"}) {
+        expect_run(place, command, 2, "beyond a pole");
+    }
+    write_dem((place / "dem.tif").string(), {800.0, 2.0, 1.0}, units[0], plans[0], false, false);
+    expect_run(place, "stats dem.tif --band ''", 2, "--band", "a number or a name");
 }
 
 } // namespace plane_test

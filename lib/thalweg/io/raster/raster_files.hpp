@@ -18,7 +18,8 @@ namespace thalweg::io {
 /// The quantity in the cells of a raster.
 enum class CellValues : std::uint8_t {
     heights, ///< of terrain
-    numbers  ///< of a mask, of classes, factors
+    numbers, ///< factors: scale and offset are applied
+    codes    ///< of a mask, of classes: as they are stored
 };
 
 /// How a picture's colours stand for heights.
@@ -72,7 +73,7 @@ Raster<float> read_dem(Source const& source, ReadDemParams const& params, Run co
 Raster<float> read_dem(Source const& source, Run const& run = {});
 
 /// \param source the file
-/// \return the same, with heights in the file's unit: two that differ there differ here.
+/// \return the same, with heights in the file's unit, which grow upwards: two that differ there differ here.
 Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params = {}, Run const& run = {});
 
 /// Reads a mask: the cells of any raster file whose value is neither 0 nor no-data.

@@ -71,7 +71,7 @@ Raster<float> read_stored_dem(Source const& source, ReadDemParams const& params,
 }
 
 Mask read_mask(Source const& source, Grid const& grid, Run const& run) {
-    Raster<float> const values = read_dem(source, {.values = CellValues::numbers}, run);
+    Raster<float> const values = read_dem(source, {.values = CellValues::codes}, run);
     std::string const what = "io.read_mask: " + source.path;
     Grid const& own = values.grid();
     refuse_if<BadInput>(!same_cells(own, grid),

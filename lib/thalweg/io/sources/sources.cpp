@@ -29,7 +29,7 @@
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
-#include <thalweg/io/raster/internal/opened_heights.hpp>
+#include <thalweg/io/raster/internal/height_bands.hpp>
 
 namespace thalweg::io {
 namespace {

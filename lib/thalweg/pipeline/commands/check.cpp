@@ -53,7 +53,7 @@ Mask cells_in(std::string const& raster, Grid const& grid) {
     if (raster.empty()) {
         return {};
     }
-    Raster<float> const values = io::read_stored_dem(raster, {.values = io::CellValues::numbers});
+    Raster<float> const values = io::read_stored_dem(raster, {.values = io::CellValues::codes});
     if (values.grid() != grid) {
         return {};
     }

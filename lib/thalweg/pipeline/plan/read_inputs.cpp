@@ -77,7 +77,7 @@ Mask read_mask_of_land(io::Source const& source, Grid const& grid, Run const& ru
     if (io::holds_polygons(source)) {
         return blend::mask_polygons(io::read_polygons(source, grid.crs, run), grid);
     }
-    Raster<float> const given = io::read_dem(source, {.values = io::CellValues::numbers});
+    Raster<float> const given = io::read_dem(source, {.values = io::CellValues::codes});
     refuse_if<BadInput>(given.width() != grid.width || given.height() != grid.height,
                         "surface.mask = \"{}\" has {}x{} cells, the grid {}x{}", source.path, given.width(),
                         given.height(), grid.width, grid.height);

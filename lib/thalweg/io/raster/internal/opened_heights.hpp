@@ -15,7 +15,6 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 
 class OGRSpatialReference;
@@ -25,17 +24,13 @@ namespace thalweg::io {
 /// The position of a raster's cells in its CRS: west, width of a cell, skew, north, skew, minus the height of a cell.
 using CellFrame = std::array<double, 6>;
 
-/// Opens the only variable of a file without cells of its own, or the only one whose name means heights.
-/// \throws BadInput naming all variables where there is none such
-Dataset variable_of_heights(Dataset const& file, std::string const& what);
-
 /// The unit in which heights are wanted.
 enum class HeightsIn : std::uint8_t { metres, stored };
 
 /// A raster file of heights, open: the one way from a file to metres, for every reader. It chooses the band or
 /// variable, decodes colours, and applies mask, alpha, no-data, scale, offset, unit and the direction of heights; rows
-/// that run from the south and columns that run from the east are read the other way. The vertical CRS only names the
-/// unit: nothing shifts heights to another datum.
+/// that run from the south and columns that run from the east are read the other way, rows that are columns as these.
+/// The vertical CRS only names the unit: nothing shifts heights to another datum.
 class OpenedHeights {
 public:
     /// \param what "io.read_dem: FILE", for messages
@@ -71,12 +66,26 @@ public:
 
 private:
     struct Bands;
+    struct Counts { ///< of cells
+        std::int64_t known = 0;
+        std::int64_t above = 0; ///< 0 m
+        std::int64_t below = 0;
+        std::int64_t named = 0; ///< by --nodata
+        std::int64_t nan = 0;
+    };
 
-    void choose_bands();
     void take_place();
+    /// Makes rows run from the north and columns from the west where both run along the axes.
+    void turn();
+    void require_latitudes() const;
+    /// Takes the unit of length that axes name.
+    void take_axes();
     void take_unit();
+    /// \return [m] of a stored unit, below 0 where numbers grow downwards
+    double signed_unit();
     void find(Finding finding);
-    /// Reads a row of the file: stored values, and 0 where the file declares no data.
+    void find_counts(Counts const& counts);
+    /// Reads a row of the file, if transposed a column: stored values, and 0 where the file declares no data.
     void read_stored(int file_row, std::span<double> stored, std::span<std::uint8_t> valid);
 
     ReadDemParams params_;
@@ -89,11 +98,13 @@ private:
     int height_ = 0;
     bool is_placed_ = false;
     CellFrame frame_{};
-    bool from_south_ = false; ///< the file's rows
-    bool from_east_ = false;  ///< the file's columns
+    bool is_transposed_ = false; ///< width, height and frame are those of the columns
+    bool from_south_ = false;    ///< the file's rows
+    bool from_east_ = false;     ///< the file's columns
     std::unique_ptr<OGRSpatialReference> reference_;
-    double scale_ = 1.0;  ///< [m] of a stored unit
-    double offset_ = 0.0; ///< [m]
+    double scale_ = 1.0;         ///< [m] of a stored unit
+    double offset_ = 0.0;        ///< [m]
+    bool may_be_depths_ = false; ///< the name of its band says so
     std::vector<Finding> findings_;
 };
 
