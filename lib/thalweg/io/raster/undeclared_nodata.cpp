@@ -12,13 +12,15 @@
 namespace thalweg::io {
 namespace {
 
-// The last, the smallest normal float, is what GDAL's HF2 driver writes for no-data.
-constexpr std::array<double, 5> no_terrain{-9999.0, -32767.0, -32768.0, -99999.0,
-                                           static_cast<double>(std::numeric_limits<float>::min())};
+// The smallest normal float is what GDAL's HF2 driver writes for no-data.
+constexpr double smallest_float = std::numeric_limits<float>::min();
+constexpr std::array<double, 7> no_terrain{-9999.0, -32767.0, -32768.0, -99999.0, smallest_float, 32767.0, 65535.0};
+constexpr double highest_land_m = 30000.0; // of any planet
 constexpr double deepest_sea = -12000.0;
 constexpr std::int32_t block_side = 3;
 constexpr double steepest_coast_m = 300.0; // over one cell, along all of a coast
 constexpr double doubtful_coast_m = 30.0;
+constexpr double steep_coast_m = 50.0;
 
 std::string remedy(double stored, std::string const& path) {
     return fmt::format("declare it (gdal_edit.py -a_nodata {0:.9g} {1}), or use --nodata {0:.9g} where the command has "
@@ -41,8 +43,9 @@ std::string implausible_words(std::int64_t col, std::int64_t row, double stored)
 }
 
 UndeclaredNodata::UndeclaredNodata(int width, ReadDemParams const& params, bool is_declared, double metres)
-    : searches_(!params.nodata), searches_blocks_(params.values == CellValues::heights && !is_declared),
-      metres_(std::fabs(metres)) {
+    : searches_(!params.nodata), is_height_(params.values == CellValues::heights), is_declared_(is_declared),
+      metres_(std::fabs(metres)),
+      highest_(is_height_ ? highest_land_m / metres_ : std::numeric_limits<double>::infinity()) {
     low_.run.assign(static_cast<std::size_t>(width), 0);
     high_.run = low_.run;
     for (std::size_t i = 0; i < no_terrain.size(); ++i) {
@@ -50,16 +53,18 @@ UndeclaredNodata::UndeclaredNodata(int width, ReadDemParams const& params, bool 
     }
 }
 
-void UndeclaredNodata::Extreme::add(std::size_t col, double z) {
+void UndeclaredNodata::Extreme::add(Position at, double z) {
     if (z < value) {
         next = value;
         value = z;
         cells = 0;
+        first = at;
         std::ranges::fill(run, 0);
         block.reset();
     } else if (z > value && z < next) {
         next = z;
     }
+    auto const col = static_cast<std::size_t>(at[0]);
     cells += z == value ? 1 : 0;
     run[col] = z == value ? run[col] + 1 : 0;
 }
@@ -86,64 +91,126 @@ void UndeclaredNodata::note_sentinel(std::int64_t col, double z) {
     }
 }
 
-void UndeclaredNodata::add_row(std::span<double const> stored) {
-    constexpr double deep = -9000.0;
-    if (searches_) {
-        for (std::size_t col = 0; col < stored.size(); ++col) {
-            double const z = stored[col];
-            if (z < deep || z == no_terrain.back()) {
-                note_sentinel(static_cast<std::int64_t>(col), z);
-            }
-            if (searches_blocks_) { // NaN is skipped by both
-                low_.add(col, z);
-                high_.add(col, -z);
+void UndeclaredNodata::note_single() {
+    auto const& [above, row, below] = recent_;
+    for (std::size_t col = 0; col < row.size(); ++col) {
+        double const z = row[col];
+        if (z != 0.0 && z != 32767.0 && z != 65535.0) {
+            continue;
+        }
+        int far = 0;
+        int near = 0;
+        for (std::vector<double> const* const line : {&above, &row, &below}) {
+            for (std::size_t at = col == 0 ? 0 : col - 1; at < std::min(col + 2, line->size()); ++at) {
+                double const wall_m = std::fabs((*line)[at] - z) * metres_;
+                far += wall_m > steep_coast_m ? 1 : 0; // NaN is neither
+                near += wall_m <= steep_coast_m ? 1 : 0;
             }
         }
-        if (searches_blocks_) {
-            low_.end_row(row_);
-            high_.end_row(row_);
+        constexpr int least = 3;         // a corner of the raster has as many
+        if (far >= least && near == 1) { // itself
+            first_single_ = single_ == 0 ? Position{static_cast<std::int64_t>(col), row_ - 2} : first_single_;
+            single_value_ = single_ == 0 ? z : single_value_;
+            ++single_;
+        }
+    }
+}
+
+void UndeclaredNodata::add_row(std::span<double const> stored) {
+    constexpr double deep = -9000.0;
+    if (!searches_) {
+        return;
+    }
+    for (std::size_t col = 0; col < stored.size(); ++col) {
+        double const z = stored[col];
+        auto const at = static_cast<std::int64_t>(col);
+        if (z < deep || z == smallest_float || z > highest_) {
+            note_sentinel(at, z);
+        }
+        if (is_height_) { // NaN is skipped by both
+            low_.add({at, row_}, z);
+            high_.add({at, row_}, -z);
         }
     }
     ++row_;
+    if (is_height_) {
+        low_.end_row(row_ - 1);
+        high_.end_row(row_ - 1);
+        std::ranges::rotate(recent_, recent_.begin() + 1);
+        recent_[2].assign(stored.begin(), stored.end());
+        note_single();
+    }
 }
 
-std::optional<Finding> UndeclaredNodata::require_none(std::string const& what, std::string const& path) const {
+void UndeclaredNodata::refuse_sentinels(std::string const& what, std::string const& path) const {
     for (Sentinel const& s : sentinels_) {
         if (s.count > 0 && !s.is_depth) {
-            throw BadInput(fmt::format("{} has {} cells of {:g}, the first at column {}, row {}: no terrain has this "
-                                       "height, and the file does not declare it as no-data. If it is, {}; --nodata "
-                                       "nan takes it as a height",
-                                       what, s.count, s.value, s.first[0], s.first[1], remedy(s.value, path)));
+            throw BadInput(fmt::format("{} has {} cells of {:g}, the first at column {}, row {}: {}, and the file does "
+                                       "not declare it as no-data. If it is, {}{}",
+                                       what, s.count, s.value, s.first[0], s.first[1],
+                                       is_height_ ? "no terrain has this height" : "this number stands for no-data",
+                                       remedy(s.value, path),
+                                       is_height_ ? "; --nodata nan takes it as a height" : "; else use another"));
         }
     }
-    double const gap_below = low_.next - low_.value;
-    double const gap_above = high_.next - high_.value;
+}
+
+void UndeclaredNodata::refuse_block(Extreme const& e, double value, double range, std::string const& what,
+                                    std::string const& path) const {
+    if (is_declared_ || !e.block || !std::isfinite(e.gap()) || !(range > 0.0)) {
+        return;
+    }
+    if (value == 0.0 ? e.gap() * metres_ > steepest_coast_m : e.gap() > range) {
+        throw BadInput(
+            fmt::format("{} has a block of cells of {:.9g} around column {}, row {}, {:.6g} apart from "
+                        "every other value, and these differ by {:.6g} only: it looks like no-data that the "
+                        "file does not declare. If it is, {}; if it is terrain, use --nodata nan, or declare "
+                        "another value",
+                        what, value, (*e.block)[0], (*e.block)[1], e.gap(), range, remedy(value, path)));
+    }
+}
+
+std::optional<Finding> UndeclaredNodata::doubt_about(Extreme const& e, double range) const {
+    double const gap_m = e.gap() * metres_;
+    bool const is_coast = gap_m <= steep_coast_m && !(e.block && e.gap() > range && gap_m > doubtful_coast_m);
+    if (e.value != 0.0 || !std::isfinite(gap_m) || is_coast || !(range > 0.0)) {
+        return std::nullopt;
+    }
+    Position const at = e.block.value_or(e.first);
+    return Finding{.kind = "zero_heights",
+                   .amount = static_cast<double>(e.cells),
+                   .text = fmt::format("{} cells of 0, around column {}, row {}, lie {:.4g} m apart from all other "
+                                       "heights, which differ by {:.4g} m",
+                                       e.cells, at[0], at[1], gap_m, range * metres_)};
+}
+
+std::optional<Finding> UndeclaredNodata::require_none(std::string const& what, std::string const& path) {
+    refuse_sentinels(what, path);
+    if (!searches_ || !is_height_) {
+        return std::nullopt;
+    }
+    std::ranges::rotate(recent_, recent_.begin() + 1);
+    recent_[2].clear();
+    ++row_;
+    note_single();
     double const range_above = -high_.value - low_.next;
     double const range_below = -high_.next - low_.value;
-    std::optional<Finding> doubt;
-    auto const refuse = [&](Extreme const& e, double value, double gap, double range) {
-        if (!e.block || !std::isfinite(gap) || !(range > 0.0)) {
-            return;
-        }
-        bool const is_zero = value == 0.0;
-        if (is_zero ? gap * metres_ > steepest_coast_m : gap > range) {
-            throw BadInput(fmt::format("{} has a block of cells of {:.9g} around column {}, row {}, {:.6g} apart from "
-                                       "every other value, and these differ by {:.6g} only: it looks like no-data "
-                                       "that the file does not declare. If it is, {}; if it is terrain, use --nodata "
-                                       "nan, or declare another value",
-                                       what, value, (*e.block)[0], (*e.block)[1], gap, range, remedy(value, path)));
-        }
-        if (is_zero && gap > range && gap * metres_ > doubtful_coast_m) {
-            doubt = Finding{.kind = "zero_heights",
-                            .amount = static_cast<double>(e.cells),
-                            .text = fmt::format("{} cells of 0, around column {}, row {}, lie {:.4g} m apart from all "
-                                                "other heights, which differ by {:.4g} m",
-                                                e.cells, (*e.block)[0], (*e.block)[1], gap * metres_, range * metres_)};
-        }
-    };
-    refuse(low_, low_.value, gap_below, range_above);
-    refuse(high_, -high_.value, gap_above, range_below);
-    return doubt;
+    refuse_block(low_, low_.value, range_above, what, path);
+    refuse_block(high_, -high_.value, range_below, what, path);
+    if (auto const low = doubt_about(low_, range_above)) {
+        return low;
+    }
+    if (auto const high = doubt_about(high_, range_below)) {
+        return high;
+    }
+    return single_ == 0
+               ? std::nullopt
+               : std::optional(Finding{
+                     .kind = "zero_heights",
+                     .amount = static_cast<double>(single_),
+                     .text = fmt::format("{} single cells of {:g} or such, the first at column {}, row {}, lie "
+                                         "more than {:g} m apart from all cells around them",
+                                         single_, single_value_, first_single_[0], first_single_[1], steep_coast_m)});
 }
 
 } // namespace thalweg::io
