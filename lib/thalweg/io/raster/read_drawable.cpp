@@ -367,6 +367,7 @@ std::vector<Finding> conversions_in(OpenedHeights const& source, std::int64_t k,
              fmt::format("it reaches over {:.0f} degrees of longitude: far from its middle lengths and slopes are not "
                          "those of the ground",
                          wide_deg));
+        findings.back().remedy = "Cut a part out (gdal_translate -projwin).";
     }
     if (k > 1) {
         find("reduced", static_cast<double>(grid_of_means(source, k).cells()),

@@ -95,7 +95,8 @@ void UndeclaredNodata::note_single() {
     auto const& [above, row, below] = recent_;
     for (std::size_t col = 0; col < row.size(); ++col) {
         double const z = row[col];
-        if (z != 0.0 && z != 32767.0 && z != 65535.0) {
+        bool const is_void = z == 0.0 || z == 32767.0 || z == 65535.0;
+        if (!is_void || (col > 0 && row[col - 1] == z)) {
             continue;
         }
         int far = 0;
