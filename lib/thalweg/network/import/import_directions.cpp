@@ -40,9 +40,9 @@ double logit(double p) {
 struct Drawing {
     std::size_t sources = 0;
     std::size_t sinks = 0;
-    std::size_t confluences = 0;  ///< nodes where more lines arrive than leave
-    std::size_t divergences = 0;  ///< nodes where more leave than arrive
-    std::size_t inner = 0;        ///< nodes of several lines
+    std::size_t confluences = 0; ///< nodes where more lines arrive than leave
+    std::size_t divergences = 0; ///< nodes where more leave than arrive
+    std::size_t inner = 0;       ///< nodes at which lines end that none passes: no drawing contradicts itself elsewhere
     std::size_t contradicted = 0; ///< of these: nothing leaves or nothing reaches them
     bool leads_down = true;       ///< a sink can be reached from everywhere
     bool leads_up = true;         ///< everything can be reached from a source
@@ -85,12 +85,23 @@ private:
             g.sinks += out_[n] == 0 && in_[n] > 0 ? 1 : 0;
             g.confluences += out_[n] > 0 && in_[n] > 1 ? 1 : 0;
             g.divergences += in_[n] > 0 && out_[n] > 1 ? 1 : 0;
-            bool const is_inner = in_[n] + out_[n] > 1;
+            bool const is_inner = in_[n] + out_[n] > 1 && !is_passed(n);
             g.inner += is_inner ? 1 : 0;
             g.contradicted += is_inner && (in_[n] == 0 || out_[n] == 0) ? 1 : 0;
         }
         reach(-1, &Drawing::leads_down);
         reach(1, &Drawing::leads_up);
+    }
+
+    /// Whether a drawn line runs through a node.
+    bool is_passed(std::size_t n) const {
+        return std::ranges::any_of(p_.at_node[n], [&](PieceId k) {
+            Piece const& one = p_.pieces[k];
+            return one.to == n && std::ranges::any_of(p_.at_node[n], [&](PieceId other) {
+                       Piece const& next = p_.pieces[other];
+                       return next.from == n && next.line == one.line && next.first == one.last;
+                   });
+        });
     }
 
     /// Records whether some node lies on no path to an end (-1: sinks, 1: sources) of its group.
@@ -130,7 +141,7 @@ private:
 struct RootedGroup {
     ReachGroup const* reaches;
     std::vector<Root> roots;
-    double votes = 0.0;   ///< reaches whose drawn direction counts
+    double votes = 0.0;   ///< lines whose drawn direction counts
     double said = 0.0;    ///< the same for reaches whose direction the file gives
     bool is_said = false; ///< the file gives the direction of all of it
     std::vector<double> score = {};
@@ -194,7 +205,7 @@ public:
             RootedGroup& g = groups.emplace_back(RootedGroup{&group, scores.of(group)});
             g.is_said = true;
             for (std::size_t const k : group.reaches) {
-                g.votes += graph.is_bridge[k] != 0 && scores.drawn()[k] != 0.0 ? 1.0 : 0.0;
+                g.votes += graph.is_bridge[k] != 0 ? scores.voters()[k] : 0.0;
                 g.said += graph.is_bridge[k] != 0 ? std::fabs(scores.certain()[k]) : 0.0;
                 g.is_said = g.is_said && std::ranges::all_of(graph.reaches[k].steps, [&](Reach::Step const& s) {
                                 return found_.said[s.piece] != 0;
@@ -209,6 +220,9 @@ public:
         for (RootedGroup& g : groups) {
             run.check();
             direct(g, graph, scores);
+        }
+        if (is_drawn_upstream_) {
+            doubt_upstream(groups);
         }
     }
 
@@ -518,6 +532,27 @@ private:
              fmt::format("rivers run to ({:.6f}, {:.6f}) by {}, but by their {} they would run to ({:.6f}, {:.6f})",
                          at.x, at.y, speaks_[drawings_.group(g.roots[one].node)],
                          params_.dem != nullptr ? "angles and the DEM" : "angles", there.x, there.y)});
+    }
+
+    /// Lines that fork and nowhere meet are those of a delta as well, if they are few.
+    void doubt_upstream(std::vector<RootedGroup> const& groups) {
+        constexpr std::size_t most_forks = 8;
+        for (RootedGroup const& g : groups) {
+            Drawing const& drawing = drawings_.of(g.roots.front().node);
+            if (is_silent_[drawings_.group(g.roots.front().node)] == 0 || drawing.divergences == 0 ||
+                drawing.divergences > most_forks) {
+                continue;
+            }
+            std::size_t const root = g.roots[best_of(g.score)].node;
+            Vec2 const at = p_.nodes[root];
+            found_.report.uncertain_m += g.reaches->length_m;
+            found_.report.expected_wrong_m += 0.5 * g.reaches->length_m;
+            found_.report.doubts.push_back(
+                {"uncertain_direction", feature_at(root), at, 0.5,
+                 fmt::format("{:.6g} m of rivers fork as they are drawn, and nowhere meet: they are taken for drawn "
+                             "upstream and run to ({:.6f}, {:.6f}); those of a delta would run as drawn",
+                             g.reaches->length_m, at.x, at.y)});
+        }
     }
 
     std::int64_t feature_at(std::size_t node) const {

@@ -326,6 +326,7 @@ constexpr double free_weight = 1.02;
 constexpr double free_reach = 3.0;     // relative to the median reach
 constexpr double climb_per_unit = 3.0; // [m]
 constexpr double most_climb_m = 12.0;  // of a reach
+constexpr double split_weight = 4.0;   // of a drawn line whose parts run against each other
 
 constexpr double fixed_point = 1LL << 32U;
 
@@ -406,7 +407,7 @@ RootScores::RootScores(Pieces const& p, std::vector<RiverLine> const& lines, Rea
     if (dem != nullptr) {
         measure_heights(*dem);
     }
-    measure_votes(certain);
+    measure_votes(certain, lines.size());
     sample();
     for (std::size_t k = 0; k < graph.reaches.size(); ++k) {
         Reach const& r = graph.reaches[k];
@@ -441,9 +442,25 @@ void RootScores::measure_angles() {
         auto const of_near = opposed(near);
         auto const of_far = opposed(far);
         for (std::size_t i = 0; i < ways.size(); ++i) {
-            angle_[n].push_back(near_weight * of_near[i] + far_weight * of_far[i]);
+            angle_[n].push_back(near_weight * of_near[i] + far_weight * of_far[i] - split_weight * lines_split(n, i));
         }
     }
+}
+
+/// The lines drawn through a node that would run into it from both sides if its water left by a way.
+double RootScores::lines_split(std::size_t node, std::size_t left_by) const {
+    auto const& ways = graph_.at[node];
+    auto const line_of = [&](Way const& way) {
+        auto const& steps = graph_.reaches[way.reach].steps;
+        return p_.pieces[way.sign > 0 ? steps.front().piece : steps.back().piece].line;
+    };
+    double lines = 0.0;
+    for (std::size_t i = 0; i < ways.size(); ++i) {
+        for (std::size_t j = i + 1; j < ways.size(); ++j) {
+            lines += i != left_by && j != left_by && line_of(ways[i]) == line_of(ways[j]) ? 1.0 : 0.0;
+        }
+    }
+    return lines;
 }
 
 void RootScores::measure_heights(Raster<float> const& dem) {
@@ -454,18 +471,36 @@ void RootScores::measure_heights(Raster<float> const& dem) {
     }
 }
 
-void RootScores::measure_votes(Votes const& certain) {
+/// A line that others meet on its way votes once, however many reaches that makes of it.
+void RootScores::measure_votes(Votes const& certain, std::size_t lines) {
+    std::vector<double> reaches_of_line(lines, 0.0);
+    for (Reach const& r : graph_.reaches) {
+        std::vector<std::size_t> seen;
+        for (auto const& [k, runs] : r.steps) {
+            if (std::size_t const line = p_.pieces[k].line; std::ranges::find(seen, line) == seen.end()) {
+                seen.push_back(line);
+                reaches_of_line[line] += 1.0;
+            }
+        }
+    }
     for (Reach const& r : graph_.reaches) {
         double drawn_m = 0.0;
+        double vote_m = 0.0;
+        double weight_m = 0.0;
         double certain_m = 0.0;
         double length_m = 0.0;
         for (auto const& [k, runs] : r.steps) {
             double const m = p_.pieces[k].length_m;
+            double const share = 1.0 / reaches_of_line[p_.pieces[k].line];
             length_m += m;
             drawn_m += runs * m;
+            vote_m += runs * m * share;
+            weight_m += m * share;
             certain_m += certain.empty() ? 0.0 : runs * certain[k] * m;
         }
         drawn_.push_back(drawn_m / length_m);
+        vote_.push_back(vote_m / length_m);
+        voters_.push_back(drawn_m == 0.0 ? 0.0 : weight_m / length_m);
         certain_.push_back(certain_m / length_m);
     }
 }
@@ -540,7 +575,7 @@ double RootScores::angle(std::size_t node, std::size_t reach) const {
 RootScores::Sums RootScores::along(std::size_t reach, int sign) const {
     Sums sums;
     sums.climb = to_fixed(-std::max(0.0, sign * rise_m_[reach]) / climb_per_unit);
-    sums.drawn = graph_.is_bridge[reach] != 0 ? to_fixed(sign * drawn_[reach]) : 0;
+    sums.drawn = graph_.is_bridge[reach] != 0 ? to_fixed(sign * vote_[reach]) : 0;
     sums.certain = graph_.is_bridge[reach] != 0 ? to_fixed(sign * certain_[reach]) : 0;
     return sums;
 }

@@ -67,7 +67,7 @@ struct Root {
     std::size_t node;
     double shape;   ///< angles, borders, free area ahead
     double climb;   ///< from a DEM, <= 0
-    double drawn;   ///< reaches drawn towards it minus those drawn away; bridges only
+    double drawn;   ///< votes of reaches drawn towards it minus those of reaches drawn away; bridges only
     double certain; ///< the same by the file's certain directions
     double geometry() const { return shape + climb; }
 };
@@ -98,6 +98,8 @@ public:
     std::vector<double> const& certain() const { return certain_; }
     /// By reach [-1, 1]: the share drawn from `from` to `to` minus the share drawn back.
     std::vector<double> const& drawn() const { return drawn_; }
+    /// By reach: the most that its drawing may count, 1 for a line of its own.
+    std::vector<double> const& voters() const { return voters_; }
 
     static constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
 
@@ -112,7 +114,8 @@ private:
     };
     void measure_angles();
     void measure_heights(Raster<float> const& dem);
-    void measure_votes(Votes const& certain);
+    double lines_split(std::size_t node, std::size_t left_by) const;
+    void measure_votes(Votes const& certain, std::size_t lines);
     void sample();
     double leaf_terms(std::size_t node, Vec2 low, Vec2 high) const;
     bool is_free_ahead(std::size_t node) const;
@@ -128,6 +131,8 @@ private:
     std::vector<std::vector<double>> angle_; ///< by node, by branch
     std::vector<double> rise_m_;             ///< by reach: from `from` to `to` in the DEM
     std::vector<double> drawn_;              ///< by reach [-1, 1]
+    std::vector<double> vote_;               ///< by reach: drawn_ by lines, of which each votes once
+    std::vector<double> voters_;             ///< by reach: the most vote_ may be
     std::vector<double> certain_;            ///< by reach [-1, 1]
     std::vector<std::size_t> exits_;         ///< by block: number of bridges that touch it
     std::vector<std::size_t> block_reaches_; ///< by block
