@@ -99,6 +99,22 @@ TEST(ImportGaps, AStepBackWithinACellIsStraightened) {
     }
 }
 
+TEST(ImportGaps, ARiverDrawnTwiceIsOneRiver) {
+    std::vector<std::vector<Vec2>> all{{{0, 0}, {400, 0}, {900, 50}}, {{300, 300}, {400, 0}}};
+    double const once_m = 400.0 + std::hypot(500, 50) + std::hypot(100, 300);
+    all.push_back({{1, 1.5}, {200, 1.5}, {400, 1.5}, {650, 26}, {899, 51}}); // of another source, other vertices
+    all.push_back({{600, 300}, {650, 26}});                                  // which has one more tributary
+    Imported const imported = import_lines(drawn(all), on_cells);
+    EXPECT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.secondary.size(), 1U);
+    double length_m = 0.0;
+    for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
+        length_m += imported.network.length_m(a);
+    }
+    EXPECT_NEAR(length_m, once_m + std::hypot(50, 274), 5.0);
+    EXPECT_EQ(import_lines(drawn({all[0], all[1], {{0, 40}, {900, 90}}}), on_cells).secondary.size(), 0U);
+}
+
 TEST(ImportGaps, ATreeWithGapsIsTheTree) {
     ASSERT_TRUE(rc::check([] {
         auto const pieces = *rc::gen::inRange(2, 12);

@@ -319,6 +319,7 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
                         "network.import_lines: every river in {} is shorter than the snapping distance {} m", file.name,
                         snap_m);
     if (params.cell_m > 0.0) {
+        import_steps::drop_near_copies(lines, params.cell_m, left, run);
         import_steps::close_gaps(lines, file, params, left, run);
     }
     run.at(0.2, "adopt");

@@ -52,7 +52,8 @@ struct ImportParams {
     /// [m] >= 0, 0: gaps stay. An end that meets nothing is joined to the nearest line of another connected part within
     /// half of it, or within two where the next candidate is five times as far; a line to the one that its link names
     /// over a tenth of the shorter of both. Springs, by evidence or a drawing without contradictions, are joined only
-    /// to ends from which water comes. A line that steps back by less is straightened
+    /// to ends from which water comes. A line that steps back by less is straightened; one of four cells or more of
+    /// which nine tenths lie within a quarter of a cell of others is their duplicate
     double cell_m = 0.0;
     Raster<float> const* dem = nullptr; ///< [m] heights for automatic and links, in the lines' CRS; null: none
 };

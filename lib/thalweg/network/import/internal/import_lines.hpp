@@ -73,6 +73,10 @@ struct Left {
 /// Drops every line whose vertices are all within snap_m of those of an earlier one, in either direction.
 void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
 
+/// Drops every line of four cells or more of which nine tenths lie within a quarter of a cell of other lines: the last
+/// ones of the file first.
+void drop_near_copies(std::vector<RiverLine>& lines, double cell_m, Left& left, Run const& run);
+
 /// Joins ends to other lines within snap_m, and drops lines that collapse to a point.
 void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run);
 
