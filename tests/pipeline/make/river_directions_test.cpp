@@ -391,9 +391,8 @@ TEST(RiverDirections, AFileDrawnFromTheMouthIsTurned) {
     EXPECT_EQ(network.node(network.outlets()[0]).at, (Vec2{500000, 5000000}));
     ASSERT_TRUE(logged.made.assessment.given);
     EXPECT_NEAR(logged.made.assessment.given->turned_m, from_the_mouth_m, 1.0);
-    ASSERT_EQ(logged.about("directions").size(), 1U);
-    EXPECT_TRUE(test::has(logged.about("directions")[0], "27.7 km"));
-    EXPECT_EQ(logged.about("those of a delta would run as drawn").size(), 1U);
+    EXPECT_FALSE(logged.about("27.7 km reversed").empty());
+    EXPECT_FALSE(logged.about("doubtful_directions").empty()) << "it may as well be a delta";
 }
 
 TEST(RiverDirections, OfAFileDrawnFromTheMouthAMendedCopyIsTurned) {
@@ -406,7 +405,7 @@ TEST(RiverDirections, OfAFileDrawnFromTheMouthAMendedCopyIsTurned) {
     EXPECT_EQ(checked.written.size(), 1U);
     EXPECT_EQ(test::count(checked.mended, "reversed"), 7);
     EXPECT_EQ(test::count(checked.notes, "directions"), 1);
-    EXPECT_EQ(test::count(checked.notes, "doubtful_directions"), 0);
+    EXPECT_EQ(test::count(checked.notes, "doubtful_directions"), 1);
 }
 
 // A line alone whose file is drawn in all directions: a warning, and a DEM decides, in make and in check --fix.
