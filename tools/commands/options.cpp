@@ -36,7 +36,9 @@ void add_network_options(CLI::App& app, std::string& path, io::ReadNetworkParams
              "Name the field of NETWORK that holds a quantity of the native schema, such as ds_arc=NEXT_DOWN. "
              "May be repeated.",
              '\0');
-    app.add_option("--layer,--arcs-layer", read.arcs_layer, "Read arcs from this layer.")->type_name("NAME");
+    app.add_option("--layer,--arcs-layer", read.arcs_layer,
+                   "Read arcs from this layer, or from several, separated by commas.")
+        ->type_name("NAME");
     app.add_option("--nodes-layer", read.nodes_layer, "Read nodes from this layer.")->type_name("NAME");
     app.add_option("--source-crs", read.source_crs,
                    "Read a NETWORK that has no CRS in this one. Default: its coordinates are metres.")

@@ -46,6 +46,8 @@ inline constexpr auto finding_rows = [] {
         {"curve", note, verbose, "vertices", "A curve is drawn by straight segments.", ""},
         {"cut_below", note, verbose, "arcs", "An arc links to one that the file does not hold, and ends there.", ""},
         {"heights_converted", note, verbose, "1", "Heights are converted to metres by this factor.", ""},
+        {"layers_not_read", note, always, "m", "Other layers of the file hold lines that are not read.",
+         "network.lines.layer (check, convert: --layer) takes several, separated by commas."},
         {"left_out", note, verbose, "vertices", "A feature, or its vertices without finite coordinates, are left out.",
          "Repair the geometry in the file if the river is wanted."},
         {"measures", note, verbose, "lines", "Measures (M) of lines are left out.", ""},

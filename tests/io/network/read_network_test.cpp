@@ -611,7 +611,7 @@ TEST(DamagedLayers, AreNotTakenForEmptyOnes) {
     auto const data = opened(path);
     ASSERT_NE(data, nullptr);
     EXPECT_THROW(require_lines(*data, "damaged.gpkg", "io.test"), IoError);
-    EXPECT_THROW(rivers_layer(*data, "", "damaged.gpkg", "io.test"), IoError);
+    EXPECT_THROW(rivers_layers(*data, "", "io.test: damaged.gpkg"), IoError);
 }
 
 TEST(DamagedLayers, HeightsAreNotTakenForMetres) {

@@ -153,7 +153,7 @@ std::map<std::string, Words> const values = {
     {"network.forest.seeds", {"3"}},
     {"network.forest.particles", {"60"}},
     {"network.lines.path", {"second.geojson"}},
-    {"network.lines.layer", {"second"}},
+    {"network.lines.layer", {"second", "rivers, second"}},
     {"network.lines.source_crs", {"EPSG:32632"}},
     {"network.lines.type_field", {"kind"}},
     {"network.lines.rank_field", {"up"}},

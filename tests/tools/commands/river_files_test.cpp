@@ -414,6 +414,27 @@ TEST(RiverFiles, WaysOfOpenStreetMap) {
     }
 }
 
+TEST(RiverFiles, OfAnExtractOfOpenStreetMapTheRiversAreRead) {
+    Workplace const place;
+    std::string extract = R"(<?xml version="1.0"?><osm version="0.6">)";
+    std::string river;
+    for (int i = 1; i <= 40; ++i) {
+        std::string const id = std::to_string(i);
+        extract += "<node id=\"" + id + "\" version=\"1\" lat=\"47." + std::to_string(1000 + i * 10) + "\" lon=\"9.0" +
+                   std::to_string(10 + i % 2) + "\"/>";
+        river += "<nd ref=\"" + id + "\"/>";
+    }
+    auto const way = [&](char const* id, char const* tag) {
+        return "<way id=\"" + std::string(id) + "\" version=\"1\">" + river + "<tag " + tag + "/></way>";
+    };
+    place.write("extract.osm", extract + way("1", R"(k="waterway" v="river")") + way("2", R"(k="power" v="line")") +
+                                   way("3", R"(k="ref" v="1")") + "</osm>");
+    expect_run(place, "make extract.osm -o out" + std::string(coarse), 0, "1 lines from extract.osm");
+    EXPECT_EQ(texts_of(place / "out/network.gpkg", "secondary", "reason"),
+              (std::multiset<std::string>{"no waterway", "power line"}));
+    EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), fs::directory_iterator()), 2);
+}
+
 TEST(RiverFiles, WaysInSeveralPartsAreMended) {
     Workplace const place;
     place.write("parts.geojson", test::geojson(test::feature("MultiLineString",

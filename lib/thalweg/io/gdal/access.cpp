@@ -291,6 +291,22 @@ void set_unless_set(char const* option, char const* value) {
     }
 }
 
+// GDAL starts no Python, writes NAME.gz.properties beside no archive, and puts temporary files (of OpenStreetMap's
+// nodes beyond 100 MB) where they belong: by itself it takes the current folder.
+std::vector<std::pair<std::string, std::string>> const& own_settings() {
+    static std::vector<std::pair<std::string, std::string>> const settings = [] {
+        std::vector<std::pair<std::string, std::string>> all{{"GDAL_VRT_ENABLE_PYTHON", "NO"},
+                                                             {"CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO"}};
+        std::error_code failed;
+        std::string const folder = fs::temp_directory_path(failed).string();
+        if (!failed && CPLGetConfigOption("CPL_TMPDIR", nullptr) == nullptr) {
+            all.emplace_back("CPL_TMPDIR", folder);
+        }
+        return all;
+    }();
+    return settings;
+}
+
 } // namespace
 
 void share_gdal() {
@@ -304,14 +320,18 @@ bool is_gdal_shared() {
 void enter_gdal() {
     if (inside++ == 0 && is_shared) {
         CPLHTTPPushFetchCallback(refuse_fetch, nullptr);
-        CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+        for (auto const& [option, value] : own_settings()) {
+            CPLSetThreadLocalConfigOption(option.c_str(), value.c_str());
+        }
     }
 }
 
 void leave_gdal() {
     if (--inside == 0 && is_shared) {
         CPLHTTPPopFetchCallback();
-        CPLSetThreadLocalConfigOption("GDAL_VRT_ENABLE_PYTHON", nullptr);
+        for (auto const& [option, value] : own_settings()) {
+            CPLSetThreadLocalConfigOption(option.c_str(), nullptr);
+        }
     }
 }
 
@@ -324,7 +344,9 @@ void guard_gdal() {
         }
         unregistered_drivers().postgres = take_away("PostgreSQL");
         unregistered_drivers().netcdf = take_away("netCDF");
-        CPLSetConfigOption("GDAL_VRT_ENABLE_PYTHON", "NO");
+        for (auto const& [option, value] : own_settings()) {
+            CPLSetConfigOption(option.c_str(), value.c_str());
+        }
         CPLHTTPSetFetchCallback(refuse_fetch, nullptr);
     }
     if (char const* const table = CPLFindFile("gdal", "gdalvrt.xsd")) {

@@ -35,8 +35,12 @@ struct Source {
     Source(std::string name, Access by = Access::user) : path(std::move(name)), access(by) {} // NOLINT(*-explicit-*)
     Source(char const* name) : path(name) {}                                                  // NOLINT(*-explicit-*)
 
+    /// \return the name for messages
+    std::string const& name() const { return shown.empty() ? path : shown; }
+
     std::string path; ///< "" for none
     Access access = Access::user;
+    std::string shown = {}; ///< the file that the user named, if this is a copy of it; "": none
 };
 
 /// \param source the source

@@ -9,11 +9,14 @@
 #include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iterator>
 #include <limits>
+#include <string_view>
 #include <system_error>
 #include <utility>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -71,6 +74,20 @@ bool copied(fs::path const& file, fs::path const& copy) {
     return before == std::array{state_of(file), state_of(wal_of(file))};
 }
 
+// Whether a NAME.gfs beside a GML file, which GDAL leaves there when another program reads it, hides what its elements
+// say by attributes: GDAL takes the fields from it and ignores its own option.
+bool has_hiding_gfs(fs::path const& file) {
+    std::error_code ignored;
+    fs::path beside = file;
+    bool const is_gml = EQUAL(file.extension().c_str(), ".gml") || EQUAL(file.extension().c_str(), ".xml");
+    if (!is_gml || fs::exists(beside.replace_extension(".xsd"), ignored) ||
+        !fs::exists(beside.replace_extension(".gfs"), ignored)) {
+        return false;
+    }
+    std::ifstream stream(beside, std::ios::binary);
+    return std::find(std::istreambuf_iterator<char>(stream), {}, '@') == std::istreambuf_iterator<char>();
+}
+
 // Opens a file so that reading changes neither it nor its folder. SQLite writes to a GeoPackage in write-ahead mode
 // even when it is opened for reading: it creates NAME-wal and NAME-shm, and on closing moves the content of NAME-wal
 // into the file; it deletes a NAME-wal beside a file in another mode. A GeoPackage without changes in NAME-wal is
@@ -86,6 +103,13 @@ public:
         }
         std::error_code ignored;
         if (!fs::is_regular_file(file, ignored)) {
+            return;
+        }
+        if (has_hiding_gfs(file)) {
+            copies_ = std::make_unique<TemporaryFolder>("thalweg");
+            path_ = copies_->path() / file.filename();
+            fs::create_symlink(fs::absolute(file), path_, ignored);
+            path_ = ignored ? file : path_;
             return;
         }
         Sqlite const base = sqlite_in(file);
@@ -255,13 +279,42 @@ struct Held {
     std::unique_ptr<Confined const> folder_of_copy = {};
 };
 
+struct DriverOption {
+    char const* driver;
+    char const* name;
+    char const* value;
+};
+
+// Without these GDAL leaves NAME.gfs beside a GML file, and leaves out what its elements say by attributes (references
+// by xlink:href, as INSPIRE's directions and nodes) and the heights of GPX.
+constexpr std::array driver_options{DriverOption{"GML", "WRITE_GFS", "NO"},
+                                    DriverOption{"GML", "GML_ATTRIBUTES_TO_OGR_FIELDS", "YES"},
+                                    DriverOption{"GPX", "ELE_AS_25D", "YES"}}; // since GDAL 3.8
+
+// The options that the driver of a file has, and others that are given.
+CPLStringList open_options(std::string const& path, unsigned kinds, char const* const* drivers,
+                           char const* const* given) {
+    CPLStringList options(CSLDuplicate(const_cast<char**>(given)), TRUE);
+    GDALDriverH const driver = GDALIdentifyDriverEx(path.c_str(), kinds, drivers, nullptr);
+    char const* const known = driver == nullptr ? nullptr : GDALGetMetadataItem(driver, GDAL_DMD_OPENOPTIONLIST, "");
+    for (DriverOption const& option : driver_options) {
+        if (known != nullptr && EQUAL(GDALGetDriverShortName(driver), option.driver) &&
+            std::string_view(known).find(option.name) != std::string_view::npos) {
+            options.SetNameValue(option.name, option.value);
+        }
+    }
+    return options;
+}
+
 // shown: the name in messages.
 Dataset opened(std::string const& path, unsigned kinds, char const* const* drivers, std::shared_ptr<Held const> held,
                std::string const& shown) {
-    char const* const* const options = held->file ? held->file->options() : nullptr;
     take_refusal();
-    Dataset data(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options),
-                 {std::move(held)});
+    CPLStringList const options = open_options(path, kinds, drivers, held->file ? held->file->options() : nullptr);
+    CPLConfigOptionSetter const heights("GPX_ELE_AS_25D", "YES", true); // before GDAL 3.8
+    Dataset data(
+        GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options.List()),
+        {std::move(held)});
     throw_refusal(take_refusal(), "io.open_unchanged: " + shown);
     return data;
 }

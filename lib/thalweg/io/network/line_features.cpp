@@ -235,7 +235,7 @@ struct RiverColumns {
     double unit = 1.0;      ///< of an area [m2]
 };
 
-constexpr std::array<RiverColumns, 18> river_columns{{
+constexpr std::array<RiverColumns, 11> river_columns{{
     // What a minor channel carries, areas, discharge, orders: NHDPlus, HydroRIVERS, MERIT-Basins, TauDEM, EU-Hydro,
     // GRASS.
     {RiverQuantity::size, Kind::real, "divdasqkm upland_skm uparea dis_av_cms ds_area dscontarea totdasqkm"},
@@ -249,14 +249,7 @@ constexpr std::array<RiverColumns, 18> river_columns{{
     {RiverQuantity::order, Kind::real, "streamorde streamorder"},
     {RiverQuantity::name, Kind::text, "name gnis_name nametxtint river_name rivername riv_name"},
     // INSPIRE and NHN, OS Open Rivers (GeoPackage and shapefile), BD TOPAGE.
-    {RiverQuantity::direction, Kind::text, "flowdirection flow_direction flow sensecoul"},
-    {RiverQuantity::waterway, Kind::text, "waterway"}, // OpenStreetMap, whose extracts hold all lines in one layer
-    {RiverQuantity::tunnel, Kind::text, "tunnel"},
-    {RiverQuantity::man_made, Kind::text, "man_made"},
-    {RiverQuantity::natural, Kind::text, "natural"},
-    {RiverQuantity::other_way, Kind::text, "highway railway aerialway barrier power route"},
-    {RiverQuantity::ftype, Kind::text, "ftype"}, // NHD
-    {RiverQuantity::fcode, Kind::real, "fcode"},
+    {RiverQuantity::direction, Kind::text, "flowdirection flow_direction flowdirection_href flow sensecoul"},
 }};
 
 // The columns of a line's own id and of the id downstream; the first pair that a layer has counts.
@@ -271,24 +264,6 @@ constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known_lin
     {"stream", "next_stream"},   // GRASS
     {"cat", "next_stream"},
 }};
-
-// Values of OpenStreetMap's key waterway.
-constexpr std::string_view natural_waterways = "river stream tidal_channel brook creek wadi rapids waterfall";
-constexpr std::string_view artificial_waterways = "canal ditch drain pressurised pipeline";
-
-bool is_among(std::string_view words, std::string const& word) {
-    return std::ranges::count(words_of(words), word) > 0;
-}
-
-// What NHD calls lines that are not rivers, by FTYPE in words or as a number, or by the first digits of FCODE; "" for
-// any other.
-std::string nhd_type(std::string const& type) {
-    std::string const word = lower_case(type);
-    return word == "566" || word == "coastline"    ? "Coastline"
-           : word == "428" || word == "pipeline"   ? "Pipeline"
-           : word == "336" || word == "canalditch" ? "CanalDitch"
-                                                   : "";
-}
 
 } // namespace
 
@@ -369,43 +344,6 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
             down_id_.emplace(line.feature, down);
         }
     }
-}
-
-RiverFields::Unnatural RiverFields::unnatural(OGRFeature const& feature) const {
-    auto const lower = [&](RiverQuantity quantity) { return lower_case(text(feature, quantity)); };
-    std::string const waterway = lower(RiverQuantity::waterway);
-    std::string const ftype = text(feature, RiverQuantity::ftype);
-    std::string const by_ftype = nhd_type(ftype);
-    int const fcode = static_cast<int>(number(feature, RiverQuantity::fcode));
-    std::string const by_fcode = nhd_type(fmt::format("{}", fcode / 100));
-    bool const natural_coast = lower(RiverQuantity::natural) == "coastline";
-    bool const is_coast = natural_coast || by_ftype == "Coastline" || by_fcode == "Coastline";
-    if (!waterway.empty() && !is_among(natural_waterways, waterway)) {
-        return {"waterway " + waterway, is_among(artificial_waterways, waterway), is_coast};
-    }
-    if (waterway.empty() && has(RiverQuantity::waterway)) {
-        for (Found const& way : found_[RiverQuantity::other_way]) {
-            if (std::string const kind = lower_case(way.column.text(feature)); !kind.empty()) {
-                return {lower_case(way.column.name()) + " " + kind, false, is_coast};
-            }
-        }
-    }
-    if (natural_coast) {
-        return {"natural coastline", false, is_coast};
-    }
-    if (lower(RiverQuantity::tunnel) == "flooded") {
-        return {"tunnel flooded", true, is_coast};
-    }
-    if (lower(RiverQuantity::man_made) == "pipeline") {
-        return {"man_made pipeline", true, is_coast};
-    }
-    if (!by_ftype.empty()) {
-        return {"FTYPE " + ftype, by_ftype != "Coastline", is_coast};
-    }
-    if (!by_fcode.empty()) {
-        return {fmt::format("FCODE {} {}", fcode, by_fcode), by_fcode != "Coastline", is_coast};
-    }
-    return {};
 }
 
 std::int64_t RiverFields::down_of(std::int64_t feature) const {

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <array>
 #include <bit>
+#include <filesystem>
 #include <map>
 
 #include <fmt/format.h>
@@ -329,6 +330,12 @@ NetworkFile read(std::string const& path, Wish const& wish, Run const& run) {
     }
     convert_heights(file, arcs, wish, notes);
     reproject_to_metres(file, arcs, nodes, wish, notes, run);
+    if (!arcs.read_from.empty() && wish.arcs_layer.empty() && !wish.whole) {
+        for (Finding const& others : layers_not_read(*source.dataset, arcs.read_from, file.crs, wish.source_crs,
+                                                     std::filesystem::path(place.arcs).filename().string())) {
+            notes.add(arcs.what, others);
+        }
+    }
     if (schema != Schema::native) {
         if (file.says.downstream) {
             drop_links_out(file, arcs.what, notes);

@@ -16,7 +16,8 @@ namespace thalweg::io {
 struct ReadNetworkParams {
     std::optional<Schema> schema = {};              ///< without it, it is recognised by the fields
     std::map<std::string, std::string> fields = {}; ///< a quantity (name_of), or node_id, to the field that holds it
-    std::string arcs_layer = {};  ///< "" takes the layer arcs, else the only layer of lines that is understood
+    std::string arcs_layer = {};  ///< "" takes the layer arcs, else the only layer of lines that is understood, else
+                                  ///< those that read_rivers() takes. Several are separated by commas
     std::string nodes_layer = {}; ///< "" takes the layer nodes of a network in the native schema, if it is there
     bool any_lines = false;       ///< lines of which neither schema nor fields are known are taken by their features
     bool bridge = false; ///< links without length, by which TauDEM joins three streams at one place, are left out: what

@@ -139,8 +139,8 @@ class ArcReader {
 public:
     ArcReader(Layer const& arcs, std::optional<Schema> schema, Wish const& wish, Notes& notes)
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
-          fields_(*arcs.layer), attributes_(*arcs.layer), by_feature_(!schema && takes_any_lines(wish)),
-          whole_(wish.whole) {
+          fields_(*arcs.layer), natural_(*arcs.layer), attributes_(*arcs.layer),
+          by_feature_(!schema && takes_any_lines(wish)), whole_(wish.whole) {
         find_columns(wish.columns);
         if (!by_feature_) {
             require_fields();
@@ -317,7 +317,7 @@ private:
         arc.channel = line.channel;
         arc.name = std::move(line.name);
         arc.runs = line.runs;
-        RiverFields::Unnatural unnatural = fields_.unnatural(feature);
+        Unnatural unnatural = natural_.of(feature);
         arc.unnatural = std::move(unnatural.reason);
         arc.is_channel = unnatural.is_channel;
     }
@@ -392,6 +392,7 @@ private:
     Notes& notes_;
     ByEnum<Quantity, Told, static_cast<std::size_t>(Quantity::constant)> columns_;
     RiverFields fields_;
+    NaturalFilter natural_;
     AttributeReader attributes_;
     bool by_feature_ = false;        // arcs have the numbers of their features
     bool whole_ = false;             // findings are refused

@@ -27,121 +27,6 @@ bool names_database(std::string const& path) {
     return path.starts_with("PG:") || path.starts_with("postgresql:");
 }
 
-std::vector<OGRLayer*> layers_of(GDALDataset& data) {
-    auto const layers = data.GetLayers();
-    return {layers.begin(), layers.end()};
-}
-
-std::vector<std::string> layer_names(std::vector<OGRLayer*> const& layers) {
-    std::vector<std::string> names;
-    for (OGRLayer* const layer : layers) {
-        names.emplace_back(layer->GetName());
-    }
-    return names;
-}
-
-bool is_line(OGRwkbGeometryType type) {
-    auto const flat = wkbFlatten(type);
-    return OGR_GT_IsSubClassOf(flat, wkbCurve) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiCurve) != 0;
-}
-
-bool may_hold_lines(OGRLayer& layer) {
-    auto const type = wkbFlatten(layer.GetGeomType());
-    return type == wkbUnknown || type == wkbGeometryCollection || is_line(type);
-}
-
-// Layers of rivers.
-
-enum class Holds : std::uint8_t { lines, other, nothing };
-
-// A layer of any shapes holds lines when one of its first features is one: exports of OpenStreetMap begin with nodes.
-Holds content_of(OGRLayer& layer, std::string const& what) {
-    constexpr int most_features = 1000000;
-    auto const type = wkbFlatten(layer.GetGeomType());
-    if (type != wkbUnknown && !is_line(type)) {
-        return type == wkbGeometryCollection ? Holds::lines : Holds::other;
-    }
-    Driver const driver;
-    Holds holds = Holds::nothing;
-    int looked_at = 0;
-    for (auto const& feature : layer) {
-        if (holds == Holds::lines || ++looked_at > most_features) {
-            break;
-        }
-        OGRGeometry const* const shape = feature->GetGeometryRef();
-        auto const drawn = shape == nullptr ? type : wkbFlatten(shape->getGeometryType());
-        holds = is_line(drawn) || drawn == wkbGeometryCollection ? Holds::lines : Holds::other;
-    }
-    layer.ResetReading();
-    driver.check(fmt::format("{}, layer {}", what, layer.GetName()));
-    return holds;
-}
-
-/// How clearly a name says that a layer holds the rivers: 0 most; all that do not say so are equal.
-std::size_t rank_of(std::string_view name) {
-    // thalweg; NHD and NHDPlus HR; EU-Hydro; OpenStreetMap; OS Open Rivers; and common names.
-    static constexpr std::array exact{"arcs",      "nhdflowline", "networknhdflowline", "nhdflowlinenetwork",
-                                      "rivernetl", "waterways",   "watercourselink"};
-    static constexpr std::array parts{"hydrorivers", "flowline", "waterway", "watercourse", "river", "stream"};
-    std::string const own = simple_name(name);
-    auto const has = [&](char const* part) { return own.find(part) != std::string::npos; };
-    if (auto const* const same = std::ranges::find(exact, own); same != exact.end()) {
-        return static_cast<std::size_t>(same - exact.begin());
-    }
-    bool const is_other = has("catchment") || has("nonnetwork");
-    auto const* const part = is_other ? parts.end() : std::ranges::find_if(parts, has);
-    return exact.size() + static_cast<std::size_t>(part - parts.begin());
-}
-
-/// The layers with lines; where there is none, those without features that may get some.
-std::vector<OGRLayer*> line_layers(GDALDataset& data, std::string const& what) {
-    std::vector<OGRLayer*> lines;
-    std::vector<OGRLayer*> empty;
-    std::vector<OGRLayer*> const all = layers_of(data);
-    for (OGRLayer* const layer : all) {
-        Holds const holds = content_of(*layer, what);
-        if (holds != Holds::other) {
-            (holds == Holds::lines ? lines : empty).push_back(layer);
-        }
-    }
-    refuse_if<BadInput>(lines.empty() && empty.empty(), "{} has no layer with lines ({})", what,
-                        listed(layer_names(all)));
-    return lines.empty() ? empty : lines;
-}
-
-} // namespace
-
-void require_lines(GDALDataset& data, std::string const& name, std::string const& who) {
-    line_layers(data, who + ": " + name);
-}
-
-OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string const& name, std::string const& who) {
-    std::string const what = who + ": " + name;
-    if (!wanted.empty()) {
-        std::vector<OGRLayer*> const layers = layers_of(data);
-        auto const at = std::ranges::find(layers, wanted, [](OGRLayer* layer) { return layer->GetName(); });
-        if (at == layers.end()) {
-            auto const names = layer_names(layers);
-            throw BadInput(
-                fmt::format("{} has no layer '{}'.{} ({})", what, wanted, did_you_mean(wanted, names), listed(names)));
-        }
-        refuse_if<BadInput>(!may_hold_lines(**at), "{}, layer {}: it holds {}, not lines", what, wanted,
-                            OGRGeometryTypeToName(wkbFlatten((*at)->GetGeomType())));
-        return **at;
-    }
-    std::vector<OGRLayer*> const lines = line_layers(data, what);
-    auto const rank = [](OGRLayer* layer) { return rank_of(layer->GetName()); };
-    OGRLayer* const best = *std::ranges::min_element(lines, {}, rank);
-    if (std::ranges::count(lines, rank(best), rank) > 1) {
-        throw BadInput(fmt::format("{} has {} layers with lines ({}): name the one with the rivers, "
-                                   "--set network.lines.layer=NAME",
-                                   what, lines.size(), listed(layer_names(lines))));
-    }
-    return *best;
-}
-
-namespace {
-
 // "NAME_arcs" and "arcs" end in "arcs" and have their counterpart in "NAME_nodes" and "nodes".
 bool ends_as(fs::path const& path, std::string_view layer) {
     std::string const stem = path.stem().string();
@@ -210,7 +95,8 @@ RiverSource find_rivers(std::string const& path) {
     refuse_if<BadInput>(data->GetLayerCount() == 0 && data->GetRasterCount() > 0,
                         "io.find_rivers: {} is a raster, not river lines", source.path);
     require_lines(*data, source.path, "io.find_rivers");
-    source.layer = data->GetLayerByName("arcs") != nullptr ? "arcs" : "";
+    bool const is_osm = data->GetDriver() != nullptr && EQUAL(data->GetDriver()->GetDescription(), "OSM");
+    source.layer = data->GetLayerByName("arcs") != nullptr ? "arcs" : is_osm ? "lines" : "";
     return source;
 }
 
@@ -313,28 +199,40 @@ void Layer::each(Driver const& driver, Run const& run, std::function<void(OGRFea
                        what, read, announced);
 }
 
+namespace {
+
+/// Several layers as one, which lives as long as the layer is used.
+Layer layer_of(NetworkSource const& source, std::vector<OGRLayer*> layers) {
+    ChosenLayer chosen = as_one(layers, source.what);
+    Layer layer = layer_of(source, *chosen.layer, chosen.name);
+    layer.holds = std::shared_ptr<GDALDataset>(std::move(chosen.holds));
+    layer.read_from = std::move(layers);
+    return layer;
+}
+
+} // namespace
+
 Layer choose_arcs(NetworkSource const& source, Wish const& wish) {
+    GDALDataset& data = *source.dataset;
     std::string const name = wish.arcs_layer.empty() ? "arcs" : wish.arcs_layer;
-    if (OGRLayer* const layer = source.dataset->GetLayerByName(name.c_str())) {
+    if (OGRLayer* const layer = data.GetLayerByName(name.c_str())) {
         return layer_of(source, *layer, name);
     }
     if (!wish.arcs_layer.empty()) {
-        refuse_layer(source, name);
+        return layer_of(source, rivers_layers(data, name, source.what));
     }
-    std::vector<OGRLayer*> const all = layers_of(*source.dataset);
+    std::vector<OGRLayer*> const all = layers_of(data);
     std::vector<OGRLayer*> lines = all;
     std::erase_if(lines, [](OGRLayer* layer) { return !may_hold_lines(*layer); });
     refuse_if<BadInput>(wish.whole && (all.size() != 1 || lines.empty()), "{} has no layer arcs", source.what);
     if (lines.size() > 1) {
         std::vector<OGRLayer*> understood = lines;
         std::erase_if(understood, [](OGRLayer* layer) { return recognised(*layer).empty(); });
-        lines = understood.size() == 1 ? understood : lines;
+        lines = understood.size() == 1 ? understood : rivers_layers(data, "", source.what);
     }
     refuse_if<BadInput>(lines.empty(), "{} has no layer of lines (there are {})", source.what,
                         listed(layer_names(all)));
-    refuse_if<BadInput>(lines.size() > 1, "{} has {} layers of lines; name one of them ({})", source.what, lines.size(),
-                        listed(layer_names(lines)));
-    return layer_of(source, *lines.front(), wish.whole ? "arcs" : lines.front()->GetName());
+    return wish.whole ? layer_of(source, *lines.front(), "arcs") : layer_of(source, lines);
 }
 
 std::optional<Schema> choose_schema(Layer const& arcs, Wish const& wish) {

@@ -29,7 +29,7 @@ public:
           rank_(column(params.rank_field.empty() ? "hydroseq" : params.rank_field,
                        params.rank_field.empty() ? "hydroseq" : "")),
           lambda_(column(params.lambda_field, "lambda")),
-          fields_(layer, column(params.id_field), column(params.down_field)), attributes_(layer) {
+          fields_(layer, column(params.id_field), column(params.down_field)), natural_(layer), attributes_(layer) {
         refuse_if<BadInput>(!params.rank_field.empty() && !rank_.is_number(),
                             "io.read_rivers: field {} of {} is not a number field: it cannot rank rivers",
                             params.rank_field, name);
@@ -38,7 +38,7 @@ public:
 
     struct NotNatural {
         RiverLine line;
-        RiverFields::Unnatural why;
+        Unnatural why;
     };
 
     void read(Run const& run) {
@@ -78,8 +78,7 @@ private:
         line.type = type_.text(feature);
         fields_.read(feature, line);
         attributes_.read(feature);
-        RiverFields::Unnatural const why =
-            filter_ == LineFilter::natural ? fields_.unnatural(feature) : RiverFields::Unnatural();
+        Unnatural const why = filter_ == LineFilter::natural ? natural_.of(feature) : Unnatural();
         OGRGeometry const* const drawn = feature.GetGeometryRef();
         std::int64_t const other_shapes = shapes_.count();
         std::vector<RiverLine> parts;
@@ -159,6 +158,7 @@ private:
     FileColumn rank_;
     FileColumn lambda_;
     RiverFields fields_;
+    NaturalFilter natural_;
     AttributeReader attributes_;
     OtherShapes shapes_;
     std::int64_t number_ = 0; ///< of the feature in hand, from 1
@@ -169,7 +169,7 @@ void require_any(LineReader const& read, std::string const& what) {
         return;
     }
     if (!read.others.empty()) {
-        throw BadInput(fmt::format("{} holds no natural watercourse: {} lines are left out, the first of them for its "
+        throw BadInput(fmt::format("{} holds no natural watercourse: {} lines are left out, the first of them for "
                                    "{}; set network.lines.filter = \"none\" to take them all",
                                    what, read.others.size(), read.others.front().why.reason));
     }
@@ -226,7 +226,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
                             "io.read_rivers: the field '{}' is named without its other half: links need the field of a "
                             "line's id and that of the id downstream",
                             params.id_field.empty() ? params.down_field : params.id_field);
-    std::string const& path = params.path.path;
+    std::string const& path = params.path.name();
     Driver const driver;
     RiverLines rivers;
     rivers.name = std::filesystem::path(path).filename().string();
@@ -238,8 +238,10 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
                             "io.read_rivers: there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")");
         throw BadInput(fmt::format("io.read_rivers: {} is not a vector file that GDAL can read ({})", path, words));
     }
-    OGRLayer& layer = rivers_layer(*data, params.layer, rivers.name, "io.read_rivers");
-    std::string const what = fmt::format("io.read_rivers: layer {} of {}", layer.GetName(), rivers.name);
+    std::vector<OGRLayer*> const layers = rivers_layers(*data, params.layer, "io.read_rivers: " + rivers.name);
+    ChosenLayer const chosen = as_one(layers, "io.read_rivers: " + rivers.name);
+    OGRLayer& layer = *chosen.layer;
+    std::string const what = fmt::format("io.read_rivers: layer {} of {}", chosen.name, rivers.name);
     LineReader read(layer, params, rivers.name);
     read.read(run);
     driver.check("io.read_rivers: " + path);
@@ -281,6 +283,10 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     }
     rivers.lines = std::move(read.lines);
     rivers.findings = std::move(read.findings);
+    if (params.layer.empty()) {
+        std::vector<Finding> const others = layers_not_read(*data, layers, metres.crs(), source_crs, rivers.name);
+        rivers.findings.insert(rivers.findings.end(), others.begin(), others.end());
+    }
     rivers.attributes = read.attributes();
     rivers.crs = metres.crs();
     rivers.has_z = have_heights(rivers.lines);

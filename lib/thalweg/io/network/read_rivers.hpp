@@ -15,7 +15,7 @@ namespace thalweg::io {
 /// Where the rivers of a path are.
 struct RiverSource {
     std::string path;
-    std::string layer; ///< "arcs" of a network that thalweg wrote, else ""
+    std::string layer; ///< "arcs" of a network that thalweg wrote, "lines" of OpenStreetMap, else ""
 };
 
 /// Looks for rivers.
@@ -34,8 +34,10 @@ enum class LineFilter : std::uint8_t {
 
 /// Options of read_rivers().
 struct ReadRiversParams {
-    Source path = {};                  ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
-    std::string layer = {};            ///< "" takes the only line layer
+    Source path = {}; ///< anything OGR opens: GeoPackage, Shapefile, GeoJSON, FlatGeobuf, ...
+    /// Several are separated by commas. "" takes the only line layer, or the one whose name says that it holds rivers;
+    /// all folders of KML, tracks and routes of GPX, the ways of OpenStreetMap.
+    std::string layer = {};
     std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
     std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one
     /// Of the result; "" takes the file's own when projected in metres whose lengths are off by 1 % at most, else

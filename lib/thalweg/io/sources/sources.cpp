@@ -109,9 +109,11 @@ std::vector<std::string> dataset_files(Source const& source) {
             files.emplace_back(list[i]);
         }
     }
-    if (!files.empty() &&
-        data->GetDescription() != source.path) { // a copy was read, because changes stand beside the file
-        files = {source.path, source.path + "-wal"};
+    if (!files.empty() && data->GetDescription() != source.path) { // it was read elsewhere: see UnchangedFile
+        files = {source.path};
+        if (std::error_code ignored; std::filesystem::exists(source.path + "-wal", ignored)) {
+            files.push_back(source.path + "-wal");
+        }
     }
     std::sort(files.begin(), files.end());
     return files;
@@ -145,11 +147,8 @@ std::optional<FileBox> placed_box(OGRLayer& layer) {
 }
 
 OGRLayer* layer_of(GDALDataset& data, std::string const& wanted, std::string const& path) {
-    if (!wanted.empty()) {
-        return data.GetLayerByName(wanted.c_str());
-    }
     try {
-        return &rivers_layer(data, "", path, "io.conversions_of");
+        return rivers_layers(data, wanted, "io.conversions_of: " + path).front();
     } catch (BadInput const&) { // it has points or polygons
         return data.GetLayerCount() > 0 ? data.GetLayer(0) : nullptr;
     }
@@ -193,8 +192,8 @@ std::vector<std::string> conversions_of(Source const& source, std::string const&
     if (!data) {
         return {};
     }
-    Units const units = units_of(*data, layer, source.path, source_crs);
-    std::string const name = std::filesystem::path(source.path).filename().string();
+    Units const units = units_of(*data, layer, source.name(), source_crs);
+    std::string const name = std::filesystem::path(source.name()).filename().string();
     std::vector<std::string> said;
     bool in_feet = false;
     if (units.crs.IsEmpty() == 0 && units.crs.IsLocal() == 0) {
@@ -230,15 +229,15 @@ Dataset copy_raster(GDALDataset& source, std::string const& path, GdalProgress& 
         path.c_str(), &source, FALSE, options.List(), &GdalProgress::step, &gdal_progress));
 }
 
-Dataset copy_layers(GDALDataset& source, std::string const& layer, std::string const& path,
+Dataset copy_layers(GDALDataset& source, std::vector<std::string> const& layers, std::string const& path,
                     GdalProgress& gdal_progress) {
     CPLStringList words;
     // The columns for ids and geometries must not collide with the source's.
     for (char const* const word : {"-f", "GPKG", "-lco", "FID=thalweg_fid", "-lco", "GEOMETRY_NAME=thalweg_shape"}) {
         words.AddString(word);
     }
-    if (!layer.empty()) {
-        words.AddString(layer.c_str());
+    for (std::string const& name : layers) {
+        words.AddString(name.c_str());
     }
     std::unique_ptr<GDALVectorTranslateOptions, decltype(&GDALVectorTranslateOptionsFree)> const options(
         GDALVectorTranslateOptionsNew(words.List(), nullptr), &GDALVectorTranslateOptionsFree);
@@ -247,6 +246,14 @@ Dataset copy_layers(GDALDataset& source, std::string const& layer, std::string c
     int wrong_use = FALSE;
     return Dataset(
         GDALDataset::FromHandle(GDALVectorTranslate(path.c_str(), nullptr, 1, &from, options.get(), &wrong_use)));
+}
+
+/// The names of the layers to copy; none: all.
+std::vector<std::string> names_to_copy(GDALDataset& source, std::string const& wanted, std::string const& path) {
+    if (wanted.empty() || source.GetLayerByName(wanted.c_str()) != nullptr) {
+        return wanted.empty() ? std::vector<std::string>() : std::vector{wanted};
+    }
+    return layer_names(rivers_layers(source, wanted, "io.plain_copy: " + path));
 }
 
 std::string stem_of(std::string const& source, std::string const& layer) {
@@ -273,12 +280,13 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
     }
     MemoryFile const raster;
     bool const is_raster = data->GetRasterCount() > 0 && data->GetLayerCount() == 0;
+    std::vector<std::string> const names = is_raster ? std::vector<std::string>() : names_to_copy(*data, layer, source);
     std::string const path = (std::filesystem::path(folder) /
                               (stem_of(file.empty() ? source : file, layer) + (is_raster ? ".tif" : ".gpkg")))
                                  .string();
     GdalProgress gdal_progress(run, "copy");
     Dataset copy =
-        is_raster ? copy_raster(*data, raster.path(), gdal_progress) : copy_layers(*data, layer, path, gdal_progress);
+        is_raster ? copy_raster(*data, raster.path(), gdal_progress) : copy_layers(*data, names, path, gdal_progress);
     gdal_progress.settle();
     bool const done = copy != nullptr;
     copy.reset();

@@ -281,8 +281,9 @@ struct Recipe {
     std::optional<DetailRecipe> detail;
     std::vector<PatchRecipe> patches; ///< in their order
     OutputRecipe output;
-    std::string folder;                             ///< file names are relative to it; "" is the working folder
-    std::map<std::string, std::string> set_at = {}; ///< where keys were set, for messages: "r.toml, line 3" or "--set"
+    std::string folder;                              ///< file names are relative to it; "" is the working folder
+    std::map<std::string, std::string> set_at = {};  ///< where keys were set, for messages: "r.toml, line 3" or "--set"
+    std::map<std::string, std::string> copy_of = {}; ///< by a copy of a file (see UserFiles): what the user named
 };
 
 /// \return what `thalweg make` makes without a recipe; the same as samples/relief.toml.

@@ -24,7 +24,10 @@ bool is_address(std::string const& name) {
 
 io::Source file_in(Recipe const& recipe, std::string const& name) {
     bool const stands_alone = name.empty() || name.front() == '/' || is_address(name);
-    return {recipe.folder.empty() || stands_alone ? name : recipe.folder + "/" + name, io::Access::recipe};
+    io::Source source(recipe.folder.empty() || stands_alone ? name : recipe.folder + "/" + name, io::Access::recipe);
+    auto const original = recipe.copy_of.find(source.path);
+    source.shown = original == recipe.copy_of.end() ? "" : original->second;
+    return source;
 }
 
 namespace {
@@ -214,7 +217,11 @@ std::string keep_user_file(std::string const& path, io::OutputFolder const& out,
 UserFiles::UserFiles(Recipe& recipe, Run const& run) {
     for (NamedFile const& file : files_of(recipe)) {
         if (is_users(recipe, file.key->place(file.item))) {
-            file.key->put(recipe, copied(recipe, file.name, file.layer, run), file.item);
+            std::string const copy = copied(recipe, file.name, file.layer, run);
+            if (copy != file.name && !io::names_connection(file.name)) { // whose name may contain a password
+                recipe.copy_of[copy] = file.name;
+            }
+            file.key->put(recipe, copy, file.item);
         }
     }
 }

@@ -290,7 +290,9 @@ std::span<Row const> recipe_rows() {
             [](Recipe& r, Item) -> Field { return &r.network->lines.path; },
             {.layer = "network.lines.layer", .folder = ""}),
         key("network.lines.layer", text, "", "name", R"(network.source = "lines")",
-            "layer of the lines; \"\": the only line layer",
+            "layer of the lines, or several, separated by commas; \"\": the only line layer, the one whose name says "
+            "that "
+            "it holds rivers, or all of KML and GPX",
             [](Recipe& r, Item) -> Field { return &r.network->lines.layer; }),
         key("network.lines.source_crs", text, "", "EPSG code or WKT", R"(network.source = "lines")",
             "coordinate system of a line file that has none; \"\": such a file is refused",

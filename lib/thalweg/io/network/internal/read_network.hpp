@@ -6,6 +6,7 @@
 #include <functional>
 #include <limits>
 #include <map>
+#include <memory>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -118,14 +119,7 @@ enum class RiverQuantity : std::uint8_t {
     calculated_order, ///< 0 on minor paths
     order,
     name,
-    direction,
-    waterway, ///< OpenStreetMap: this and the next four
-    tunnel,
-    man_made,
-    natural,
-    other_way, ///< roads, railways and the like
-    ftype,     ///< NHD: this and the next
-    fcode
+    direction
 };
 
 /// What the known columns of a river file say: NHDPlus, HydroRIVERS, EU-Hydro, OpenStreetMap, network schemas.
@@ -136,13 +130,6 @@ public:
 
     /// Sets size, area, name, channel and runs, and remembers the links of the feature.
     void read(OGRFeature const& feature, RiverLine& line);
-    /// Why a feature is not a natural watercourse.
-    struct Unnatural {
-        std::string reason = {}; ///< "FTYPE Coastline"; "" where it is one, or no field says so
-        bool is_channel = false; ///< it carries water: a canal, ditch, drain or pipe
-        bool is_coast = false;   ///< by any field
-    };
-    Unnatural unnatural(OGRFeature const& feature) const;
     /// Whether there are fields of links.
     bool has_links() const { return down_.is_there(); }
     /// The feature downstream by the file's links, once every feature has been read; 0 where it names none.
@@ -162,9 +149,46 @@ private:
 
     FileColumn id_;
     FileColumn down_;
-    ByEnum<RiverQuantity, std::vector<Found>, static_cast<std::size_t>(RiverQuantity::fcode) + 1> found_;
+    ByEnum<RiverQuantity, std::vector<Found>, static_cast<std::size_t>(RiverQuantity::direction) + 1> found_;
     std::map<std::string, std::int64_t> feature_of_; ///< by own id: the first feature that has it
     std::map<std::int64_t, std::string> down_id_;    ///< by feature: the id downstream
+};
+
+// Natural watercourses.
+
+/// Why a feature is not a natural watercourse.
+struct Unnatural {
+    std::string reason = {}; ///< "FTYPE Coastline"; "" where it is one, or no field says so
+    bool is_channel = false; ///< it carries water: a canal, ditch, drain or pipe
+    bool is_coast = false;   ///< by any field
+};
+
+/// The fields by which OpenStreetMap, NHD and others tell rivers from other lines: docs/river_files.md lists them.
+class NaturalFilter {
+public:
+    explicit NaturalFilter(OGRLayer& layer);
+
+    Unnatural of(OGRFeature const& feature) const;
+
+private:
+    /// The value of a key of OpenStreetMap, from its own column or from one that holds all other keys.
+    std::string tag(OGRFeature const& feature, std::string_view key) const;
+    Unnatural by_tags(OGRFeature const& feature) const;
+    /// What a way of OpenStreetMap without waterway is.
+    std::string other_way(OGRFeature const& feature) const;
+    bool is_way(OGRFeature const& feature) const;
+    Unnatural by_code(OGRFeature const& feature) const;
+
+    std::map<std::string, FileColumn, std::less<>> tags_; ///< columns of single keys
+    FileColumn all_tags_;
+    FileColumn osm_id_;
+    FileColumn ftype_;
+    FileColumn fcode_;
+    struct Code {
+        FileColumn column;
+        std::size_t row;
+    };
+    std::vector<Code> codes_; ///< columns of other schemas
 };
 
 // Lines.
@@ -207,6 +231,8 @@ struct NetworkSource {
 struct Layer {
     OGRLayer* layer = nullptr;
     std::string what = {};
+    std::shared_ptr<void const> holds = {}; ///< several layers as one
+    std::vector<OGRLayer*> read_from = {};  ///< the layers of the file
 
     /// Calls body for each feature.
     /// \throws IoError when there are fewer than the file announces
@@ -216,14 +242,44 @@ struct Layer {
 /// \throws BadInput that lists the layers when none has lines; IoError when features cannot be read
 void require_lines(GDALDataset& data, std::string const& name, std::string const& who);
 
-/// The layer of a source that holds its rivers.
-/// \param wanted a layer's name, or "" for the only layer with lines that is not empty; of several the one whose name
-/// says that it holds rivers (arcs, NHDFlowline, waterways, rivers, ...), if only one does
-/// \param name of the source, for messages
-/// \param who begins messages
+/// The layers of a source.
+std::vector<OGRLayer*> layers_of(GDALDataset& data);
+
+std::vector<std::string> layer_names(std::vector<OGRLayer*> const& layers);
+
+/// Whether the type of a layer admits lines.
+bool may_hold_lines(OGRLayer& layer);
+
+/// The layers of a source that hold its rivers.
+/// \param wanted a layer's name, or several separated by commas; or "" for the only layer with lines that is not empty;
+/// of several the one whose name says that it holds rivers (arcs, NHDFlowline, waterways, rivers, ...), if only one
+/// does. All folders of KML but those of roads and the like, all tracks and routes of GPX; of OpenStreetMap the ways.
+/// \param what begins messages
 /// \throws BadInput that lists the layers: no such layer, none with lines, several of which none is clearly meant;
 /// IoError when features cannot be read
-OGRLayer& rivers_layer(GDALDataset& data, std::string const& wanted, std::string const& name, std::string const& who);
+std::vector<OGRLayer*> rivers_layers(GDALDataset& data, std::string const& wanted, std::string const& what);
+
+/// Layers to be read as one.
+struct ChosenLayer {
+    OGRLayer* layer = nullptr;
+    std::string name;   ///< of the layer, or of all
+    Dataset holds = {}; ///< of several: a copy in memory, with a column "layer"
+};
+
+/// \param layers one or more
+/// \param what begins messages
+/// \throws BadInput when they are in different coordinate systems
+ChosenLayer as_one(std::vector<OGRLayer*> const& layers, std::string const& what);
+
+/// Names the layers with lines that are not read.
+/// \param data the source
+/// \param read those that are
+/// \param crs in metres, for lengths; "": there are none
+/// \param source_crs of layers that have none; "": none
+/// \param name of the file
+/// \return layers_not_read [m], or nothing
+std::vector<Finding> layers_not_read(GDALDataset& data, std::vector<OGRLayer*> const& read, std::string const& crs,
+                                     std::string const& source_crs, std::string const& name);
 
 /// The files of a network: a GeoPackage is both; nodes is "" where there is no file for them.
 struct NetworkPlace {
