@@ -14,6 +14,7 @@
 #include <utility>
 #include <vector>
 
+#include <cpl_conv.h>
 #include <cpl_string.h>
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -260,6 +261,7 @@ Dataset opened(std::string const& path, unsigned kinds, char const* const* drive
                std::string const& shown) {
     char const* const* const options = held->file ? held->file->options() : nullptr;
     take_refusal();
+    CPLConfigOptionSetter const addresses("GML_ATTRIBUTES_TO_OGR_FIELDS", "YES", true); // INSPIRE's code lists
     Dataset data(GDALDataset::Open(path.c_str(), kinds | GDAL_OF_READONLY | GDAL_OF_VERBOSE_ERROR, drivers, options),
                  {std::move(held)});
     throw_refusal(take_refusal(), "io.open_unchanged: " + shown);
