@@ -135,7 +135,8 @@ std::vector<Case> const cases{
      {"Against Digitized", "With Digitized", "Uninitialized"},
      " -1; +1;"},
     {"ArcGIS geometric networks, NHD", "FLOWDIR", {"2", "1", "0"}, " -1; +1;"},
-    {"ArcGIS geometric networks, NHD", "FLOWDIR", {"2", "1", "128"}, ";;"}, // D8 codes of a raster
+    {"ArcGIS geometric networks, NHD", "FLOWDIR", {"2", "1", "128"}, ";;"},                      // D8 codes of a raster
+    {"ArcGIS geometric networks, NHD", "FLOWDIR flow:r", {"2|12.5", "1|7", "0|20"}, " -1; +1;"}, // a discharge
 };
 
 } // namespace

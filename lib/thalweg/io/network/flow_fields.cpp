@@ -103,11 +103,11 @@ void FlowFields::read_direction(OGRFeature const& feature, Said& said) {
                                                                            : 0;
         if (!is_code(word)) {
             said.by_word = said.by_word == 0 ? runs : said.by_word;
-            continue;
+        } else if (std::ranges::any_of(direction.with, is_code)) { // else a discharge, say
+            constexpr std::string_view codes = " -1 0 1 2 3 9 ";
+            are_codes_ = are_codes_ && codes.find(fmt::format(" {} ", word)) != std::string_view::npos;
+            said.by_code = said.by_code == 0 ? runs : said.by_code;
         }
-        constexpr std::string_view codes = " -1 0 1 2 3 9 ";
-        are_codes_ = are_codes_ && codes.find(fmt::format(" {} ", word)) != std::string_view::npos;
-        said.by_code = said.by_code == 0 ? runs : said.by_code;
     }
 }
 
