@@ -29,7 +29,8 @@ Key = dict[str, Any]  # of `thalweg recipe --json`
 PLAIN = {"seed": "SEED", "grid.cell": "CELL", "grid.crs": "CRS", "output.units": "UNITS", "output.title": "TITLE"}
 LEFT_OUT = {"network.lines.path": "the layer RIVERS is that file", "network.lines.layer": "the layer RIVERS is that layer",
             "network.lines.source_crs": "the layer RIVERS has a CRS in QGIS"}
-FIELDS = ("network.lines.type_field", "network.lines.rank_field", "network.lines.id_field", "network.lines.down_field")
+FIELDS = ("network.lines.type_field", "network.lines.rank_field", "network.lines.id_field", "network.lines.down_field",
+          "network.lines.from_field", "network.lines.to_field", "network.lines.direction_field")
 TEXT_FILES = ("skeleton.points",)  # that QGIS does not open as a layer without being told how
 LARGEST = 2**31 - 1  # whole number of QGIS
 HEIGHTS_TEXT = "The heights of the terrain."

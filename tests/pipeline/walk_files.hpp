@@ -33,6 +33,16 @@ public:
                   "," +
                   line("[501500,5001600],[501200,5001100],[500900,5000700]", R"("own":2,"alias":2,"to":3,"back":1)") +
                   "," + line("[500900,5000700],[501000,5000010]", R"("own":3,"alias":1,"to":0,"back":1)")));
+        // Water runs against the lines.
+        write("nodes.geojson",
+              test::geojson(line("[500300,5001500],[500700,5001200],[500900,5000700]",
+                                 R"("begin":3,"end":1,"blank":null,"part":1,"way":"in opposite direction")") +
+                            "," +
+                            line("[501500,5001600],[501200,5001100],[500900,5000700]",
+                                 R"("begin":2,"end":3,"blank":null,"part":2,"way":"in direction")") +
+                            "," +
+                            line("[500900,5000700],[501000,5000010]",
+                                 R"("begin":4,"end":3,"blank":null,"part":1,"way":"in opposite direction")")));
         write("second.geojson", test::geojson(upper + "," + lower));
         write("heights.geojson", test::geojson(line("[500300,5001500,90],[500700,5001200,60],[500900,5000700,30]") +
                                                "," + line("[500900,5000700,30],[501000,5000010,5]")));

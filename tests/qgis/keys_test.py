@@ -53,7 +53,7 @@ class WhatTheProgramTakes(Case):
     def test_every_option_of_a_command_is_offered_or_left_out_with_a_reason(self):
         left_out = {"--help", "--threads", "--quiet", "--verbose", "--progress", "--json", "--overwrite", "--output",
                     "--device",  # the program's own default
-                    "--set", "--seed", "--crs", "--units", "--schema", "--field", "--only",  # of make: keys
+                    "--set", "--seed", "--crs", "--units", "--schema", "--field", "--where", "--only",  # of make: keys
                     "--dry-run",  # no run
                     "--ensemble", "--seeds", "--vary", "--shards", "--share",  # many terrains, for which QGIS has batch runs
                     "--source-crs", "--layer", "--arcs-layer", "--nodes-layer",  # of the layer

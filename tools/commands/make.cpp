@@ -230,9 +230,16 @@ void add_options_of_make(CLI::App& app, MakeOptions& options, Session& session) 
         ->type_name("EPSG:N");
     add_list(app, "--field", "QUANTITY=NAME", options.fields,
              "Name the field of rivers that holds a quantity: arc_id and ds_arc (a line's id and that of the line "
-             "downstream), key (a rank that falls downstream) or type. May be repeated. The same as --set "
-             "network.lines.id_field=NAME, down_field, rank_field and type_field.",
+             "downstream), from_node and to_node (where its water comes from and goes to), direction (whether it runs "
+             "as it is drawn), key (a rank that falls downstream) or type. May be repeated. The same as --set "
+             "network.lines.id_field=NAME, down_field, from_field, to_field, direction_field, rank_field and "
+             "type_field.",
              '\0');
+    add_key_option<std::string>(
+        app, "--where", "network.lines.where", options.params.set,
+        "Read only the rivers that meet this condition on their fields, such as \"STRAHLER >= 3\"; the same as --set "
+        "network.lines.where=SQL.")
+        ->type_name("SQL");
     add_key_option<std::string>(
         app, "--units", "output.units", options.params.set,
         "Write heights in metres or in international feet (dem.tif, networks, contours, TINs); the same as "

@@ -46,6 +46,7 @@ inline constexpr auto finding_rows = [] {
         {"curve", note, verbose, "vertices", "A curve is drawn by straight segments.", ""},
         {"cut_below", note, verbose, "arcs", "An arc links to one that the file does not hold, and ends there.", ""},
         {"heights_converted", note, verbose, "1", "Heights are converted to metres by this factor.", ""},
+        {"heights_of_fields", note, always, "lines", "Heights of lines come from fields of their ends.", ""},
         {"layers_not_read", note, always, "m", "Other layers of the file hold lines that are not read.",
          "network.lines.layer (check, convert: --layer) takes several, separated by commas."},
         {"left_out", note, verbose, "vertices", "A feature, or its vertices without finite coordinates, are left out.",
@@ -66,6 +67,9 @@ inline constexpr auto finding_rows = [] {
         {"null_number", note, verbose, "", "A feature has no value in a field of numbers.", ""},
         {"reprojected", note, verbose, "", "Coordinates of a file are reprojected.", ""},
         {"text_number", note, verbose, "", "A field of texts is read as numbers.", ""},
+        {"unused_fields", note, always, "lines",
+         "Fields look like links, nodes or directions of lines, and no known data set has them.",
+         "Name them with --field QUANTITY=NAME."},
         {"turned", note, verbose, "arcs", "The schema draws arcs upstream; they are turned.", ""},
         // Rivers of a file, as they become a network.
         {"captured", note, verbose, "cells",
@@ -102,6 +106,9 @@ inline constexpr auto finding_rows = [] {
          "Set network.lines.dem=FILE or --dem FILE, or network.lines.orientation."},
         {"second_outlet", note, verbose, "1", "A part of the network may have a second outlet.",
          "Set network.lines.dem, or network.lines.orientation."},
+        {"turned_rank", note, always, "1",
+         "A rank rises downstream by this share of what else the file says, and counts the other way round.",
+         "network.lines.orientation = \"rank\" takes it as it is."},
         {"uncertain_direction", note, verbose, "1", "The evidence for the directions of a part of the network is weak.",
          "Set network.lines.dem, or network.lines.orientation."},
         // Outlets.

@@ -54,6 +54,8 @@ struct RiverLine {
     std::int64_t id_shift = 0;   ///< feature is the file's own number plus this, for networks whose ids begin at 0
     int runs = 0;                ///< from a direction column: 1: as drawn, -1: against it, 0: unknown
     double area_m2 = 0.0;        ///< drainage area at its lower end from the file; 0: unknown
+    std::int64_t from_node = 0;  ///< number of the node from which water comes, by the file; 0: unknown
+    std::int64_t to_node = 0;    ///< of the node to which it goes
 
     /// The file's own number of the line.
     std::int64_t number() const { return feature - id_shift; }
@@ -90,6 +92,7 @@ struct RiverLines {
     std::vector<SecondaryLine> secondary = {}; ///< other lines that are not natural watercourses
     std::vector<Finding> findings = {}; ///< left_out [vertices]: features without a line; not_a_line [shapes], by type
     AttributeTable attributes = {};     ///< of the features, record = feature
+    std::string rank_field = {};        ///< name of the field of ranks, or ""
 };
 
 /// A network file as read, before any check.

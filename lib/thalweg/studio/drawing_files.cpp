@@ -409,9 +409,11 @@ void turn_into_lines(std::vector<Step>& steps, Recipe const& recipe) {
 
 /// Steps without what is said of the layer and the fields of another file.
 void forget_layer(std::vector<Step>& steps, Recipe const& recipe) {
-    static constexpr std::array<char const*, 7> passing{
-        "network.lines.layer",    "network.lines.source_crs", "network.lines.type_field", "network.lines.rank_field",
-        "network.lines.id_field", "network.lines.down_field", "network.tokunaga.layer"};
+    static constexpr std::array<char const*, 11> passing{
+        "network.lines.layer",      "network.lines.source_crs", "network.lines.type_field",
+        "network.lines.rank_field", "network.lines.id_field",   "network.lines.down_field",
+        "network.lines.from_field", "network.lines.to_field",   "network.lines.direction_field",
+        "network.lines.where",      "network.tokunaga.layer"};
     unset(steps, recipe, passing);
 }
 

@@ -126,7 +126,9 @@ TEST_F(ReadRivers, RefusalsNameFileLayerAndFeature) {
              {{.path = globe}, "over 240 degrees of longitude"},
              {{.path = none_left}, "feature 1"},
              {{.path = path("crs.geojson")}, "crs.geojson"},
-             {{.path = typed}, "feature 1 of typed.gpkg has the rank 1.5"},
+             {{.path = typed, .from_field = "kind", .to_field = "knd"}, "Did you mean 'kind'?"},
+             {{.path = typed, .where = "knd = 'c'"}, "network.lines.where"},
+             {{.path = typed, .where = "kind = 'd'"}, "no feature meets network.lines.where"},
              {{.path = typed, .type_field = "kint"}, "no field 'kint'"},
              {{.path = typed, .rank_field = "order"}, "no field 'order'"},
              {{.path = typed, .rank_field = "kind"}, "field kind"},
@@ -135,6 +137,7 @@ TEST_F(ReadRivers, RefusalsNameFileLayerAndFeature) {
         EXPECT_TRUE(has(refusal(params), "BadInput", words));
     }
     EXPECT_TRUE(has(refusal({.path = typed, .id_field = "kind"}), "BadParameter io.read_rivers"));
+    EXPECT_TRUE(has(refusal({.path = typed, .to_field = "kind"}), "BadParameter io.read_rivers"));
 }
 
 TEST_F(ReadRivers, ShapesThatAreNotLinesAreCounted) {

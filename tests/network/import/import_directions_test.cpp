@@ -334,6 +334,91 @@ TEST(ImportDirections, ADirectionColumnTells) {
     }));
 }
 
+// Law: nodes from which and to which water runs tell the direction of every line that has a neighbour.
+TEST(ImportDirections, NodesTell) {
+    ASSERT_TRUE(rc::check([] {
+        Lattice const lattice = random_lattice(*rc::gen::inRange(4, 50), 0);
+        if (lattice.edges.size() < 2) {
+            return;
+        }
+        RiverLines file = drawn(lattice);
+        for (std::size_t l = 0; l < file.lines.size(); ++l) {
+            file.lines[l].from_node = static_cast<std::int64_t>(lattice.edges[l].second) + 1;
+            file.lines[l].to_node = static_cast<std::int64_t>(lattice.edges[l].first) + 1;
+        }
+        disturb(file);
+        Imported const imported = import_lines(file);
+        RC_ASSERT(steps_of(imported.network) == steps_of(lattice));
+    }));
+}
+
+namespace {
+
+/// A trunk of five lines and four tributaries, all drawn downstream, with ranks that rise.
+RiverLines with_rising_ranks() {
+    std::vector<std::vector<Vec2>> lines;
+    for (int i = 5; i > 0; --i) {
+        double const y = 1000.0 * i;
+        lines.push_back({{0, y}, {0, y - 1000.0}});
+        if (i > 1) {
+            lines.push_back({{700, y - 300.0}, {0, y - 1000.0}});
+        }
+    }
+    RiverLines file = flats(lines);
+    for (std::size_t l = 0; l < file.lines.size(); ++l) {
+        file.lines[l].feature = static_cast<std::int64_t>(l) + 1;
+        file.lines[l].rank = file.lines[l].feature;
+    }
+    return file;
+}
+
+double end_of(Imported const& imported) {
+    return imported.network.node(imported.network.outlets()[0]).at.y;
+}
+
+std::size_t turned_ranks(Imported const& imported) {
+    return static_cast<std::size_t>(std::ranges::count(imported.repairs, FindingKind("turned_rank"), &Finding::kind));
+}
+
+void reverse_all(RiverLines& file) {
+    for (RiverLine& line : file.lines) {
+        std::ranges::reverse(line.vertices);
+    }
+}
+
+} // namespace
+
+TEST(ImportDirections, ARankThatRisesDownstreamIsTurned) {
+    RiverLines const drawn_down = with_rising_ranks();
+    EXPECT_EQ(end_of(import_lines(drawn_down)), 0.0);
+    EXPECT_EQ(turned_ranks(import_lines(drawn_down)), 1U);
+    Imported const asked = import_lines(drawn_down, {.orientation = Orientation::rank});
+    EXPECT_EQ(turned_ranks(asked), 0U);
+    EXPECT_NE(end_of(asked), 0.0);
+    // Drawn upstream, links or areas say it.
+    RiverLines linked = drawn_down;
+    RiverLines sized = drawn_down;
+    for (std::size_t l = 0; l < linked.lines.size(); ++l) {
+        bool const is_tributary = l % 2 == 1;
+        linked.lines[l].down = l + 1 < linked.lines.size() ? static_cast<std::int64_t>(l) + (is_tributary ? 2 : 3) : 0;
+        sized.lines[l].area_m2 = is_tributary ? 1.0 : 10.0 * static_cast<double>(l + 1);
+    }
+    for (RiverLines* const file : {&linked, &sized}) {
+        reverse_all(*file);
+        EXPECT_EQ(end_of(import_lines(*file)), 0.0);
+        EXPECT_EQ(turned_ranks(import_lines(*file)), 1U);
+    }
+    // A rank that falls stays, however lines are drawn.
+    RiverLines falling = drawn_down;
+    for (RiverLine& line : falling.lines) {
+        line.rank = 10 - line.rank;
+    }
+    EXPECT_EQ(turned_ranks(import_lines(falling)), 0U);
+    reverse_all(falling);
+    EXPECT_EQ(turned_ranks(import_lines(falling)), 0U);
+    EXPECT_EQ(end_of(import_lines(falling)), 0.0);
+}
+
 TEST(ImportDirections, AColumnWithAThirdOfItsValuesWrongIsDoubted) {
     auto file = flats(comb());
     for (std::size_t l = 0; l < file.lines.size(); ++l) {

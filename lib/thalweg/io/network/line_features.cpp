@@ -232,57 +232,52 @@ struct RiverColumns {
     RiverQuantity quantity;
     Kind kind;              ///< real: only columns of numbers are meant
     std::string_view names; ///< the first that a layer has counts; of sizes and classes all, compared in this order
-    double unit = 1.0;      ///< of an area [m2]
 };
 
-constexpr std::array<RiverColumns, 11> river_columns{{
+constexpr std::array<RiverColumns, 8> river_columns{{
     // What a minor channel carries, areas, discharge, orders: NHDPlus, HydroRIVERS, MERIT-Basins, TauDEM, EU-Hydro,
     // GRASS.
     {RiverQuantity::size, Kind::real, "divdasqkm upland_skm uparea dis_av_cms ds_area dscontarea totdasqkm"},
     {RiverQuantity::size, Kind::real, "streamcalc streamorde streamorder ord_stra strahler strmorder"},
     {RiverQuantity::size, Kind::real, "stream_ord strord horton"},
     {RiverQuantity::river_class, Kind::real, "streamleve streamlevel ord_clas ord_flow hack"},
-    {RiverQuantity::area, Kind::real, "totdasqkm upland_skm uparea", 1e6}, // NHDPlus, HydroRIVERS, MERIT-Basins
-    {RiverQuantity::area, Kind::real, "dscontarea ds_area"},               // TauDEM, thalweg
-    {RiverQuantity::divergence, Kind::real, "divergence"},                 // NHDPlus
+    {RiverQuantity::divergence, Kind::real, "divergence"}, // NHDPlus
     {RiverQuantity::calculated_order, Kind::real, "streamcalc"},
     {RiverQuantity::order, Kind::real, "streamorde streamorder"},
     {RiverQuantity::name, Kind::text, "name gnis_name nametxtint river_name rivername riv_name"},
-    // INSPIRE and NHN, OS Open Rivers (GeoPackage and shapefile), BD TOPAGE.
-    {RiverQuantity::direction, Kind::text, "flowdirection flow_direction flowdirection_href flow sensecoul"},
-}};
-
-// The columns of a line's own id and of the id downstream; the first pair that a layer has counts.
-constexpr std::array<std::pair<std::string_view, std::string_view>, 9> known_links{{
-    {"arc_id", "ds_arc"},        // thalweg, before the columns of a user
-    {"hydroseq", "dnhydroseq"},  // NHDPlus
-    {"comid", "tocomid"},        // nhdplusTools
-    {"comid", "nextdownid"},     // MERIT-Basins
-    {"hyriv_id", "next_down"},   // HydroRIVERS
-    {"object_id", "nextdownid"}, // EU-Hydro
-    {"linkno", "dslinkno"},      // TauDEM
-    {"stream", "next_stream"},   // GRASS
-    {"cat", "next_stream"},
 }};
 
 } // namespace
 
-RiverFields::RiverFields(OGRLayer& layer, FileColumn id, FileColumn down) : id_(std::move(id)), down_(std::move(down)) {
-    for (auto const& [own, below] : known_links) {
-        if (!id_.is_there() || !down_.is_there()) {
-            id_ = FileColumn(layer, {std::string(own)}, false);
-            down_ = FileColumn(layer, {std::string(below)}, false);
+std::vector<DataSet const*> data_sets_of(OGRLayer& layer) {
+    std::vector<DataSet const*> found;
+    for (DataSet const& set : all_data_sets()) {
+        if (set.told_by.empty() || FileColumn(layer, words_of(set.told_by), false).is_there()) {
+            found.push_back(&set);
         }
     }
-    if (!id_.is_there() || !down_.is_there()) {
-        id_ = down_ = {};
-    }
+    return found;
+}
+
+RiverFields::RiverFields(OGRLayer& layer) {
     for (RiverColumns const& known : river_columns) {
         for (std::string const& name : words_of(known.names)) {
             FileColumn column(layer, {name}, false);
             if (column.is_there() && (known.kind == Kind::text || column.is_number())) {
-                found_[known.quantity].push_back({std::move(column), known.unit});
+                found_[known.quantity].push_back({std::move(column)});
             }
+        }
+    }
+    std::vector<Found>& sizes = found_[RiverQuantity::size];
+    for (DataSet const* const set : data_sets_of(layer)) {
+        FileColumn const area(layer, {std::string(set->area)}, false);
+        if (!set->area.empty() && area.is_number()) {
+            found_[RiverQuantity::area].push_back({area, set->area_unit});
+            bool const is_known = std::ranges::any_of(sizes, [&](Found const& f) { return f.column.is(area); });
+            sizes.insert(sizes.end(), is_known ? 0 : 1, {area});
+        }
+        if (FileColumn main(layer, {std::string(set->main)}, false); !set->main.empty() && main.is_there()) {
+            found_[RiverQuantity::main].push_back({std::move(main)});
         }
     }
 }
@@ -296,20 +291,7 @@ double RiverFields::number(OGRFeature const& feature, RiverQuantity quantity) co
     return std::isfinite(value) ? value : 0.0;
 }
 
-// Compares without case and spaces, of an INSPIRE code list the last part.
-int RiverFields::runs_of(OGRFeature const& feature) const {
-    std::string value = lower_case(text(feature, RiverQuantity::direction));
-    std::erase_if(value, [](char c) { return c == ' ' || c == '_'; });
-    value.erase(0, value.rfind('/') + 1);
-    bool const is_coded = value.size() == 1 && // NHN
-                          lower_case(found_[RiverQuantity::direction].front().column.name()) == "flowdirection";
-    if (value == "indirection" || value == "sensdirect" || (is_coded && value == "1")) {
-        return 1;
-    }
-    return value == "inoppositedirection" || value == "sensinverse" || (is_coded && value == "2") ? -1 : 0;
-}
-
-void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
+void RiverFields::read(OGRFeature const& feature, RiverLine& line) const {
     auto const positive = [&](Found const& found) {
         double const value = found.column.real(feature);
         return value > 0.0 && std::isfinite(value) ? value : 0.0;
@@ -327,34 +309,16 @@ void RiverFields::read(OGRFeature const& feature, RiverLine& line) {
         line.area_m2 = positive(found) * found.unit;
     }
     line.name = text(feature, RiverQuantity::name);
-    line.runs = runs_of(feature);
     double const divergence = number(feature, RiverQuantity::divergence);
     bool const minor_path = has(RiverQuantity::calculated_order) &&
                             !found_[RiverQuantity::calculated_order].front().column.is_null(feature) &&
                             number(feature, RiverQuantity::calculated_order) == 0.0 &&
                             number(feature, RiverQuantity::order) > 0.0;
-    if (divergence == 1.0) {
+    std::string const main = lower_case(text(feature, RiverQuantity::main));
+    if (divergence == 1.0 || main == "1" || main == "true") {
         line.channel = Channel::main;
     } else if (divergence == 2.0 || minor_path) {
         line.channel = Channel::minor;
-    }
-    if (std::string const own = id_.text(feature); !own.empty()) {
-        feature_of_.try_emplace(own, line.feature);
-        if (std::string const down = down_.text(feature); !down.empty() && down != own) {
-            down_id_.emplace(line.feature, down);
-        }
-    }
-}
-
-std::int64_t RiverFields::down_of(std::int64_t feature) const {
-    auto const down = down_id_.find(feature);
-    auto const below = down == down_id_.end() ? feature_of_.end() : feature_of_.find(down->second);
-    return below == feature_of_.end() || below->second == feature ? 0 : below->second;
-}
-
-void RiverFields::link(std::vector<RiverLine>& lines) const {
-    for (RiverLine& line : lines) {
-        line.down = down_of(line.feature);
     }
 }
 

@@ -139,7 +139,7 @@ class ArcReader {
 public:
     ArcReader(Layer const& arcs, std::optional<Schema> schema, Wish const& wish, Notes& notes)
         : arcs_(arcs), schema_(schema), table_(table_of(schema.value_or(Schema::native))), notes_(notes),
-          fields_(*arcs.layer), natural_(*arcs.layer), attributes_(*arcs.layer),
+          fields_(*arcs.layer), flow_(*arcs.layer), natural_(*arcs.layer), attributes_(*arcs.layer),
           by_feature_(!schema && takes_any_lines(wish)), whole_(wish.whole) {
         find_columns(wish.columns);
         if (!by_feature_) {
@@ -163,6 +163,9 @@ public:
         }
         if (by_feature_) {
             link_by_features(file);
+        }
+        for (FileArc& arc : file.arcs) {
+            arc.runs = schema_ == Schema::native ? 0 : flow_.runs_of(arc.record);
         }
         file.attributes = attributes_.take();
         if (!whole_) {
@@ -256,6 +259,7 @@ private:
     }
 
     FileArc numbers_of(OGRFeature const& feature) {
+        flow_.read(feature, number_);
         FeatureNumbers const numbers{feature, number_, arcs_.what, notes_};
         bool const native = schema_ == Schema::native;
         std::int64_t const id = by_feature_ ? number_ : numbers.whole(column(Q::arc_id), 0, false);
@@ -311,21 +315,20 @@ private:
 
     void take_fields(FileArc& arc, OGRFeature const& feature) {
         RiverLine line;
-        line.feature = number_;
         fields_.read(feature, line);
         arc.size = std::move(line.size);
         arc.channel = line.channel;
         arc.name = std::move(line.name);
-        arc.runs = line.runs;
         Unnatural unnatural = natural_.of(feature);
         arc.unnatural = std::move(unnatural.reason);
         arc.is_channel = unnatural.is_channel;
     }
 
     void link_by_features(NetworkFile& file) {
-        file.says.downstream = fields_.has_links();
+        file.says.downstream = flow_.has_links();
+        auto const downs = flow_.downs();
         for (FileArc& arc : file.arcs) {
-            arc.ds_arc = fields_.down_of(arc.id);
+            arc.ds_arc = downs.contains(arc.id) ? downs.at(arc.id) : 0;
         }
         notes_.add(arcs_.what, "by_feature", 0, static_cast<double>(file.arcs.size()),
                    fmt::format("its fields match no schema: lines are numbered by their features and joined by {}",
@@ -392,6 +395,7 @@ private:
     Notes& notes_;
     ByEnum<Quantity, Told, static_cast<std::size_t>(Quantity::constant)> columns_;
     RiverFields fields_;
+    FlowFields flow_;
     NaturalFilter natural_;
     AttributeReader attributes_;
     bool by_feature_ = false;        // arcs have the numbers of their features

@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <filesystem>
+#include <memory>
 
 #include <cpl_vsi.h>
 #include <fmt/format.h>
@@ -26,14 +27,21 @@ class LineReader {
 public:
     LineReader(OGRLayer& layer, ReadRiversParams const& params, std::string const& name)
         : layer_(layer), name_(name), filter_(params.filter), type_(column(params.type_field, "rosgen")),
-          rank_(column(params.rank_field.empty() ? "hydroseq" : params.rank_field,
-                       params.rank_field.empty() ? "hydroseq" : "")),
-          lambda_(column(params.lambda_field, "lambda")),
-          fields_(layer, column(params.id_field), column(params.down_field)), natural_(layer), attributes_(layer) {
-        refuse_if<BadInput>(!params.rank_field.empty() && !rank_.is_number(),
-                            "io.read_rivers: field {} of {} is not a number field: it cannot rank rivers",
-                            params.rank_field, name);
-        rank_ = rank_.is_number() ? rank_ : FileColumn();
+          lambda_(column(params.lambda_field, "lambda")), fields_(layer),
+          flow_(layer, {.id = column(params.id_field),
+                        .down = column(params.down_field),
+                        .from_node = column(params.from_field),
+                        .to_node = column(params.to_field),
+                        .direction = column(params.direction_field),
+                        .rank = number_column(params.rank_field)}),
+          natural_(layer), attributes_(layer) {
+        if (!params.where.empty()) {
+            where_ = std::make_unique<OGRFeatureQuery>();
+            refuse_if<BadInput>(where_->Compile(&layer, params.where.c_str(), TRUE, nullptr) != OGRERR_NONE,
+                                "io.read_rivers: network.lines.where = \"{}\" is no condition on fields of {}: {} "
+                                "({})",
+                                params.where, name, CPLGetLastErrorMsg(), listed(field_names(layer)));
+        }
     }
 
     struct NotNatural {
@@ -44,16 +52,31 @@ public:
     void read(Run const& run) {
         for (auto const& feature : layer_) {
             run.check();
-            add(*feature);
+            if (where_ == nullptr || where_->Evaluate(feature.get()) != 0) {
+                add(*feature);
+            } else {
+                pass(*feature);
+            }
         }
-        fields_.link(lines);
+        flow_.tell(lines);
+        if (raised_ > 0) {
+            findings.push_back({.kind = "heights_of_fields",
+                                .amount = static_cast<double>(raised_),
+                                .text = fmt::format("heights of {} lines come from their fields {}, linear in between",
+                                                    raised_, flow_.names_of_heights())});
+        }
+        if (!flow_.has_any()) {
+            std::vector<Finding> const unused = unused_fields(lines, attributes_.table());
+            findings.insert(findings.end(), unused.begin(), unused.end());
+        }
         for (std::vector<Finding> const& more : {shapes_.findings(), attributes_.findings()}) {
             findings.insert(findings.begin(), more.begin(), more.end());
         }
     }
     AttributeTable attributes() { return attributes_.take(); }
-    /// The link of a feature to the one downstream, once all are read.
-    std::int64_t down_of(std::int64_t feature) const { return fields_.down_of(feature); }
+    /// By feature, once all are read: the one downstream.
+    std::map<std::int64_t, std::int64_t> downs() const { return flow_.downs(); }
+    std::string const& rank_name() const { return flow_.rank_name(); }
 
     std::vector<RiverLine> lines; ///< in coordinates of the layer
     std::vector<NotNatural> others;
@@ -71,12 +94,26 @@ private:
         return found;
     }
 
+    FileColumn number_column(std::string const& field) const {
+        FileColumn found = column(field);
+        refuse_if<BadInput>(found.is_there() && !found.is_number(),
+                            "io.read_rivers: field {} of {} is not a number field: it cannot rank rivers", field,
+                            name_);
+        return found;
+    }
+
+    // Features keep their numbers and records in the layer.
+    void pass(OGRFeature const& feature) {
+        ++number_;
+        attributes_.read(feature);
+    }
+
     void add(OGRFeature const& feature) {
         RiverLine line;
         line.feature = ++number_;
-        line.rank = rank_of(feature);
         line.type = type_.text(feature);
         fields_.read(feature, line);
+        flow_.read(feature, number_);
         attributes_.read(feature);
         Unnatural const why = filter_ == LineFilter::natural ? natural_.of(feature) : Unnatural();
         OGRGeometry const* const drawn = feature.GetGeometryRef();
@@ -85,6 +122,7 @@ private:
         if (drawn != nullptr && drawn->IsEmpty() == 0) {
             parts = lines_of(*drawn, line);
         }
+        raised_ += parts.size() == 1 && flow_.raise(feature, parts.front().vertices) ? 1 : 0;
         if (parts.empty() && shapes_.count() == other_shapes) {
             findings.push_back(left_out(drawn));
         }
@@ -96,16 +134,6 @@ private:
                 others.push_back({std::move(part), why});
             }
         }
-    }
-
-    std::int64_t rank_of(OGRFeature const& feature) const {
-        if (rank_.is_null(feature)) {
-            return 0;
-        }
-        auto const rank = rank_.whole(feature);
-        refuse_if<BadInput>(!rank, "io.read_rivers: feature {} of {} has the rank {}: a whole number is required",
-                            number_, name_, rank_.text(feature));
-        return *rank;
     }
 
     int lambda_of(OGRFeature const& feature, RiverLine const& line) const {
@@ -154,17 +182,19 @@ private:
     OGRLayer& layer_;
     std::string const& name_;
     LineFilter filter_;
+    std::unique_ptr<OGRFeatureQuery> where_;
     FileColumn type_;
-    FileColumn rank_;
     FileColumn lambda_;
     RiverFields fields_;
+    FlowFields flow_;
     NaturalFilter natural_;
     AttributeReader attributes_;
     OtherShapes shapes_;
     std::int64_t number_ = 0; ///< of the feature in hand, from 1
+    std::int64_t raised_ = 0; ///< lines whose heights come from fields
 };
 
-void require_any(LineReader const& read, std::string const& what) {
+void require_any(LineReader const& read, std::string const& what, std::string const& where) {
     if (!read.lines.empty()) {
         return;
     }
@@ -176,6 +206,8 @@ void require_any(LineReader const& read, std::string const& what) {
     auto const why = std::ranges::find_if(read.findings, [](Finding const& f) {
         return f.kind == FindingKind("not_a_line") || f.kind == FindingKind("left_out");
     });
+    refuse_if<BadInput>(!where.empty() && why == read.findings.end(),
+                        "{}: no feature meets network.lines.where = \"{}\"", what, where);
     throw BadInput(why == read.findings.end() ? what + " is empty"
                                               : fmt::format("{} holds no line: {}", what, why->text));
 }
@@ -221,11 +253,23 @@ bool have_heights(std::vector<RiverLine> const& lines) {
 
 } // namespace
 
-RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
+namespace {
+
+void require_halves(ReadRiversParams const& params) {
     refuse_if<BadParameter>(params.id_field.empty() != params.down_field.empty(),
                             "io.read_rivers: the field '{}' is named without its other half: links need the field of a "
                             "line's id and that of the id downstream",
                             params.id_field.empty() ? params.down_field : params.id_field);
+    refuse_if<BadParameter>(params.from_field.empty() != params.to_field.empty(),
+                            "io.read_rivers: the field '{}' is named without its other half: nodes need the field of "
+                            "that from which water comes and that of the one to which it goes",
+                            params.from_field.empty() ? params.to_field : params.from_field);
+}
+
+} // namespace
+
+RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
+    require_halves(params);
     std::string const& path = params.path.name();
     Driver const driver;
     RiverLines rivers;
@@ -249,7 +293,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         rivers.crs = params.crs;
         return rivers;
     }
-    require_any(read, what);
+    require_any(read, what, params.where);
     std::string const source_crs = params.source_crs.value_or("");
     OGRSpatialReference const own = crs_of_layer(layer.GetSpatialRef(), source_crs);
     refuse_if<BadInput>(own.IsEmpty() != 0, "{} has no CRS; assign one (ogr2ogr -a_srs EPSG:n){}", what,
@@ -266,11 +310,12 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         run.check();
         bring(line);
     }
+    auto const downs = read.downs();
     for (auto& [line, why] : read.others) {
         run.check();
         bring(line);
         if (why.is_channel && !why.is_coast) {
-            line.down = read.down_of(line.feature);
+            line.down = downs.contains(line.feature) ? downs.at(line.feature) : 0;
             line.artificial = std::move(why.reason);
             rivers.channels.push_back(std::move(line));
         } else {
@@ -288,6 +333,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         rivers.findings.insert(rivers.findings.end(), others.begin(), others.end());
     }
     rivers.attributes = read.attributes();
+    rivers.rank_field = read.rank_name();
     rivers.crs = metres.crs();
     rivers.has_z = have_heights(rivers.lines);
     return rivers;

@@ -39,7 +39,7 @@ struct ReadRiversParams {
     /// all folders of KML, tracks and routes of GPX, the ways of OpenStreetMap.
     std::string layer = {};
     std::string type_field = "rosgen"; ///< river type; optional in the file when it has this default name
-    std::string rank_field = {};       ///< number that falls downstream; "" takes hydroseq (NHDPlus) where there is one
+    std::string rank_field = {};       ///< number that falls downstream; "" takes that of a known data set
     /// Of the result; "" takes the file's own when projected in metres whose lengths are off by 1 % at most, else
     /// its UTM zone.
     std::string crs = {};
@@ -47,6 +47,10 @@ struct ReadRiversParams {
     LineFilter filter = LineFilter::none; ///< what it takes away is in RiverLines::secondary
     std::string id_field = {};            ///< id of a line, and
     std::string down_field = {};          ///< that of the line downstream; "" takes the known ones. Both or none
+    std::string from_field = {};          ///< node from which the water of a line comes, and
+    std::string to_field = {};            ///< that to which it goes; "" takes the known ones. Both or none
+    std::string direction_field = {};     ///< whether a line runs as it is drawn, in words of a known data set
+    std::string where = {};               ///< condition on fields, as SQL's after WHERE: other features are not read
     /// CRS of a file that has none ("": such a file is refused); nothing where the user has no option to name it
     std::optional<std::string> source_crs = {};
     bool may_be_empty = false; ///< a layer without features gives no lines, instead of being refused
@@ -54,17 +58,15 @@ struct ReadRiversParams {
 
 /// Reads the lines of any OGR source, multi-part lines part by part, curves as OGR linearises them, reprojected and
 /// rounded to 1e-6 m. Heights are kept (in metres), measures ignored. Field names are found in any case of letters. The
-/// feature of a line is its number in the layer's order, from 1. Fields of NHDPlus, HydroRIVERS, EU-Hydro,
+/// feature of a line is its number in the layer's order, from 1. Fields of known data sets (all_data_sets), of
 /// OpenStreetMap and of networks say which line is downstream, which channel is a minor one and how great a river is.
 /// Features without a line of some length (null, empty, points that are all one) are left out, shapes that are not
-/// lines are skipped: findings. has_z: every vertex has a height, and not all are the same (files that fill Z with 0
-/// have none).
-/// \return the lines
-/// \throws BadParameter one of id_field and down_field without the other
-/// \throws BadInput naming file, layer and feature: missing file, layer or named field, no or several line layers, no
-/// features, no CRS, coordinates that are not finite or cannot be reprojected, nothing left, a lambda that is not a
-/// whole number from 1 to 50
-/// \throws IoError when the file cannot be read to its end
+/// lines are skipped: findings. Heights may come from fields of a line's ends. has_z: every vertex has a height, and
+/// not all are the same (files that fill Z with 0 have none). \return the lines \throws BadParameter one of id_field
+/// and down_field without the other, or of from_field and to_field \throws BadInput naming file, layer and feature:
+/// missing file, layer or named field, no or several line layers, no features, no CRS, coordinates that are not finite
+/// or cannot be reprojected, nothing left, a lambda that is not a whole number from 1 to 50 \throws IoError when the
+/// file cannot be read to its end
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run = {});
 
 } // namespace thalweg::io

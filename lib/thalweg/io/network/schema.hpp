@@ -109,6 +109,35 @@ struct SchemaTable {
     bool segment_parts = false;  ///< every segment of a line is a part of its own
 };
 
+/// The columns by which the river lines of a data set say where water goes. A column is "" where there is none; of
+/// names that a blank separates the first that a layer has counts, in any case of letters.
+struct DataSet {
+    std::string_view name = {};
+    std::string_view version = {}; ///< "": of any
+    std::string_view source = {};  ///< who names the columns
+    std::string_view told_by = {}; ///< its other columns count in layers that have one of these; "": in any
+    // Links: both or none.
+    std::string_view id = {};
+    std::string_view down = {};      ///< ids downstream; a text may hold several
+    std::string_view nexus = {};     ///< how ids of points between lines begin: "nex-7" is above line "wb-7"
+    std::string_view of_nexus = {};  ///< "wb-"
+    std::string_view from_node = {}; ///< nodes in the direction of flow: both or none
+    std::string_view to_node = {};
+    // The column that tells whether water runs as a line is drawn, and its words: in lower case, without blanks.
+    std::string_view direction = {};
+    std::string_view with = {};
+    std::string_view against = {};
+    std::string_view rank = {};    ///< number that falls downstream
+    std::string_view main = {};    ///< 1 on the main one of several channels
+    std::string_view area = {};    ///< drainage area at the lower end
+    double area_unit = 1e6;        ///< [m2]
+    std::string_view z_first = {}; ///< [m] height of the first vertex, and
+    std::string_view z_last = {};  ///< of the last: both or none
+};
+
+/// All data sets whose columns are known; of two that a layer is of the first counts.
+std::span<DataSet const> all_data_sets();
+
 SchemaTable const& table_of(Schema schema);
 std::span<SchemaTable const> all_schemas();
 /// \param name its name

@@ -328,6 +328,9 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     double const near_m = std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines));
     import_steps::drop_overshoots(lines, slip_in_near * near_m, left);
     auto pieces = import_steps::cut(lines, left);
+    if (params.orientation != Orientation::rank) {
+        import_steps::turn_ranks(pieces, lines, file.rank_field, repairs);
+    }
     auto evidence = import_steps::evidence_of(pieces, lines, file, params.orientation);
     auto const found = import_steps::find_directions(pieces, lines, params, evidence, run);
     std::vector<PieceId> leaves;

@@ -16,15 +16,15 @@ namespace thalweg::network {
 
 /// How the flow direction of a component, and so its outlet, is found.
 enum class Orientation : std::uint8_t {
-    /// by links if the file has any, else by a direction column, else by height if every line has heights, else by rank
-    /// if the file gives one; where these are silent as drawn if that is free of contradictions, else by a DEM, angles
-    /// at
+    /// by links if the file has any, else by its nodes, else by a direction column, else by height if every line has
+    /// heights, else by rank if the file gives one, which is turned where links, areas or the drawn direction say that
+    /// it rises downstream; where these are silent as drawn if that is free of contradictions, else by a DEM, angles at
     /// confluences, the border and the drawn direction together (docs/algorithms/river_directions.md)
     automatic,
     height,       ///< downhill
     rank,         ///< towards lower ranks
     as_drawn,     ///< in the file's direction
-    links,        ///< by the file's links or direction column, else as automatic without heights and ranks
+    links,        ///< by the file's links, nodes or direction column, else as automatic without heights and ranks
     least_turned, ///< to the end of the component for which the least length of lines is reversed
     topology      ///< to the end of the component nearest the border of the box
 };

@@ -1,6 +1,8 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <array>
 #include <cmath>
+#include <map>
 #include <tuple>
 #include <utility>
 
@@ -123,15 +125,61 @@ Votes by_rank(Pieces const& p, std::vector<RiverLine> const& lines) {
     return votes;
 }
 
+constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
+
+// By line: the nodes where it begins and ends; none for a line without pieces.
+struct LineEnds {
+    std::vector<std::size_t> first;
+    std::vector<std::size_t> last;
+};
+
+LineEnds ends_of(Pieces const& p, std::vector<RiverLine> const& lines) {
+    LineEnds ends{std::vector<std::size_t>(lines.size(), none), std::vector<std::size_t>(lines.size(), none)};
+    for (auto const& piece : p.pieces) {
+        ends.first[piece.line] = ends.first[piece.line] == none ? piece.from : ends.first[piece.line];
+        ends.last[piece.line] = piece.to;
+    }
+    return ends;
+}
+
+Votes of_pieces(Pieces const& p, Votes const& of_line) {
+    Votes votes;
+    for (auto const& piece : p.pieces) {
+        votes.push_back(of_line[piece.line]);
+    }
+    return votes;
+}
+
+// A node of the file lies where most of the lines that name it have an end. Nodes that all follow the drawn direction
+// repeat it, and say nothing.
+Votes by_nodes(Pieces const& p, std::vector<RiverLine> const& lines) {
+    auto const [first, last] = ends_of(p, lines);
+    auto const has_nodes = [&](std::size_t l) {
+        return lines[l].from_node != 0 && lines[l].to_node != 0 && first[l] != last[l];
+    };
+    std::map<std::pair<std::int64_t, std::size_t>, int> claims;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        for (std::int64_t const node : {lines[l].from_node, lines[l].to_node}) {
+            if (has_nodes(l)) {
+                ++claims[{node, first[l]}];
+                ++claims[{node, last[l]}];
+            }
+        }
+    }
+    Votes of_line(lines.size(), 0);
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        if (has_nodes(l) && lines[l].from_node != lines[l].to_node) {
+            int const forth = claims[{lines[l].from_node, first[l]}] + claims[{lines[l].to_node, last[l]}];
+            int const back = claims[{lines[l].from_node, last[l]}] + claims[{lines[l].to_node, first[l]}];
+            of_line[l] = int{forth > back} - int{forth < back};
+        }
+    }
+    return std::ranges::count(of_line, -1) == 0 ? Votes(p.pieces.size(), 0) : of_pieces(p, of_line);
+}
+
 // A line ends where it meets the line that the file names as downstream, and begins where it meets those that name it.
 Votes by_links(Pieces const& p, std::vector<RiverLine> const& lines) {
-    constexpr std::size_t none = std::numeric_limits<std::size_t>::max();
-    std::vector<std::size_t> first(lines.size(), none);
-    std::vector<std::size_t> last(lines.size(), none);
-    for (auto const& piece : p.pieces) {
-        first[piece.line] = first[piece.line] == none ? piece.from : first[piece.line];
-        last[piece.line] = piece.to;
-    }
+    auto const [first, last] = ends_of(p, lines);
     auto const meets = [&](std::size_t node, auto const& test) {
         return std::ranges::any_of(p.at_node[node], [&](std::size_t k) { return test(lines[p.pieces[k].line]); });
     };
@@ -149,14 +197,101 @@ Votes by_links(Pieces const& p, std::vector<RiverLine> const& lines) {
         }
         of_line[l] = vote;
     }
-    Votes votes;
-    for (auto const& piece : p.pieces) {
-        votes.push_back(of_line[piece.line]);
+    return of_pieces(p, of_line);
+}
+
+// How often a rank falls and rises downstream, by something else that the file says.
+struct Sense {
+    std::size_t falls = 0;
+    std::size_t rises = 0;
+    char const* by = "";
+
+    void add(std::int64_t above, std::int64_t below) {
+        falls += above != 0 && below != 0 && above > below ? 1 : 0;
+        rises += above != 0 && below != 0 && above < below ? 1 : 0;
     }
-    return votes;
+    double share() const { return static_cast<double>(rises) / static_cast<double>(falls + rises); }
+};
+
+Sense sense_by_links(std::vector<RiverLine> const& lines) {
+    std::map<std::int64_t, std::int64_t> rank_of;
+    for (RiverLine const& line : lines) {
+        rank_of.emplace(line.feature, line.rank);
+    }
+    Sense sense{.by = "the file's links"};
+    for (RiverLine const& line : lines) {
+        if (auto const below = rank_of.find(line.down); line.down != 0 && below != rank_of.end()) {
+            sense.add(line.rank, below->second);
+        }
+    }
+    return sense;
+}
+
+// Of the lines that meet the one with the largest area is downstream.
+Sense sense_by_areas(Pieces const& p, std::vector<RiverLine> const& lines) {
+    Sense sense{.by = "the file's areas"};
+    for (std::vector<PieceId> const& at : p.at_node) {
+        auto const area = [&](PieceId k) { return lines[p.pieces[k].line].area_m2; };
+        auto const largest = std::ranges::max_element(at, {}, area);
+        for (PieceId const k : at) {
+            if (area(k) > 0.0 && area(k) < area(*largest)) {
+                sense.add(lines[p.pieces[k].line].rank, lines[p.pieces[*largest].line].rank);
+            }
+        }
+    }
+    return sense;
+}
+
+// As the lines are drawn, where these meet more often than they fork.
+Sense sense_by_drawing(Pieces const& p, std::vector<RiverLine> const& lines) {
+    Sense sense{.by = "the drawn direction"};
+    std::size_t meet = 0;
+    std::size_t fork = 0;
+    for (std::size_t n = 0; n < p.nodes.size(); ++n) {
+        std::size_t arriving = 0;
+        std::size_t leaving = 0;
+        for (PieceId const k : p.at_node[n]) {
+            arriving += p.pieces[k].to == n ? 1 : 0;
+            leaving += p.pieces[k].from == n ? 1 : 0;
+            for (PieceId const other : p.at_node[n]) {
+                if (p.pieces[k].to == n && p.pieces[other].from == n) {
+                    sense.add(lines[p.pieces[k].line].rank, lines[p.pieces[other].line].rank);
+                }
+            }
+        }
+        meet += arriving > 1 && leaving == 1 ? 1 : 0;
+        fork += leaving > 1 && arriving == 1 ? 1 : 0;
+    }
+    return meet > fork ? sense : Sense{};
 }
 
 } // namespace
+
+void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string const& field,
+                std::vector<Finding>& repairs) {
+    constexpr std::size_t enough = 3;
+    constexpr double most = 0.8;
+    constexpr double nearly_all = 0.95;
+    std::array<std::pair<Sense, double>, 3> const senses{
+        {{sense_by_links(lines), most}, {sense_by_areas(p, lines), most}, {sense_by_drawing(p, lines), nearly_all}}};
+    auto const decides = [&](auto const& said) {
+        auto const& [sense, share] = said;
+        return sense.falls + sense.rises >= enough && (sense.share() >= share || sense.share() <= 1.0 - share);
+    };
+    auto const first = std::ranges::find_if(senses, decides);
+    if (first == senses.end() || first->first.share() < 0.5) {
+        return;
+    }
+    std::int64_t const high = std::ranges::max_element(lines, {}, &RiverLine::rank)->rank;
+    for (RiverLine& line : lines) {
+        line.rank = line.rank == 0 ? 0 : high + 1 - line.rank;
+    }
+    Sense const& sense = first->first;
+    repairs.push_back({"turned_rank", 0, nowhere, sense.share(),
+                       fmt::format("the rank{}{} rises downstream at {} of {} places by {}: it counts the other way "
+                                   "round",
+                                   field.empty() ? "" : " ", field, sense.rises, sense.falls + sense.rises, sense.by)});
+}
 
 std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
                                   Orientation asked) {
@@ -171,6 +306,10 @@ std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const&
     bool const any_link = std::ranges::any_of(lines, [](RiverLine const& l) { return l.down != 0; });
     if (any_link && (asked == Orientation::automatic || asked == Orientation::links)) {
         evidence.push_back({Evidence::Kind::links, by_links(p, lines), "the file's links"});
+    }
+    bool const any_node = std::ranges::any_of(lines, [](RiverLine const& l) { return l.to_node != 0; });
+    if (any_node && (asked == Orientation::automatic || asked == Orientation::links)) {
+        evidence.push_back({Evidence::Kind::nodes, by_nodes(p, lines), "the file's nodes"});
     }
     bool const any_runs = std::ranges::any_of(lines, [](RiverLine const& l) { return l.runs != 0; });
     if (any_runs && (asked == Orientation::automatic || asked == Orientation::links)) {

@@ -41,6 +41,9 @@ Recipe recipe_without_file(std::vector<std::string> const& assignments) {
 Recipe with_options(Recipe recipe, MakeParams const& params) {
     static std::map<std::string, char const*> const keys{{"arc_id", "network.lines.id_field"},
                                                          {"ds_arc", "network.lines.down_field"},
+                                                         {"from_node", "network.lines.from_field"},
+                                                         {"to_node", "network.lines.to_field"},
+                                                         {"direction", "network.lines.direction_field"},
                                                          {"key", "network.lines.rank_field"},
                                                          {"type", "network.lines.type_field"}};
     for (std::string const& assignment : params.set) {
@@ -48,10 +51,11 @@ Recipe with_options(Recipe recipe, MakeParams const& params) {
     }
     for (auto const& [quantity, name] : params.fields) {
         auto const key = keys.find(quantity);
-        refuse_if<BadParameter>(key == keys.end(),
-                                "--field {}={}: make reads arc_id, ds_arc, key (a rank that falls downstream) and type "
-                                "from fields that are named",
-                                quantity, name);
+        refuse_if<BadParameter>(
+            key == keys.end(),
+            "--field {}={}: make reads arc_id, ds_arc, from_node, to_node, direction, key (a rank that "
+            "falls downstream) and type from fields that are named",
+            quantity, name);
         set_key(recipe, fmt::format("{}={}", key->second, name));
     }
     return recipe;

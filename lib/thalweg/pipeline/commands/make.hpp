@@ -20,7 +20,8 @@ struct MakeParams {
     std::string output = "valley"; ///< a folder
     io::Existing existing = io::Existing::refuse;
     std::vector<std::string> set = {}; ///< KEY=VALUE: keys of the recipe, in order
-    /// names of the fields of rivers that hold arc_id, ds_arc, key (a rank that falls downstream) and type
+    /// names of the fields of rivers that hold arc_id, ds_arc, from_node, to_node, direction, key (a rank that falls
+    /// downstream) and type
     std::map<std::string, std::string> fields = {};
 };
 

@@ -269,6 +269,10 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
                                         .filter = wanted.filter,
                                         .id_field = wanted.id_field,
                                         .down_field = wanted.down_field,
+                                        .from_field = wanted.from_field,
+                                        .to_field = wanted.to_field,
+                                        .direction_field = wanted.direction_field,
+                                        .where = wanted.where,
                                         .source_crs = wanted.source_crs},
                                        run);
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);

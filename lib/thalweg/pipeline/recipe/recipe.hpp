@@ -69,7 +69,11 @@ struct LinesRecipe {
     std::string rank_field;
     std::string id_field;   ///< of a line, and
     std::string down_field; ///< of the line downstream; both or none
-    double snap_m = 0.0;    ///< [m] 0 takes 1e-6 of the box's diagonal
+    std::string from_field; ///< node from which a line's water comes, and
+    std::string to_field;   ///< to which it goes; both or none
+    std::string direction_field;
+    std::string where;   ///< condition on fields; "" for all lines
+    double snap_m = 0.0; ///< [m] 0 takes 1e-6 of the box's diagonal
     network::Orientation orientation = network::Orientation::automatic;
     std::string dem; ///< heights that lines are oriented by; "" for none
     network::Divergences divergences = network::Divergences::main;

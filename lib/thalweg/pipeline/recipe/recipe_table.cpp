@@ -303,8 +303,8 @@ std::span<Row const> recipe_rows() {
         key("network.lines.rank_field", text, "", "name",
             R"(network.source = "lines" and (network.lines.orientation = "auto" or "rank" or )"
             R"((network.lines.orientation = "height" or "as_drawn" and network.lines.divergences = "main")))",
-            "integer field that decreases downstream, and is least on the main of several branches; \"\": hydroseq "
-            "where there is one",
+            "field of numbers that decrease downstream, and are least on the main of several branches; \"\": a known "
+            "one (docs/river_files.md)",
             [](Recipe& r, Item) -> Field { return &r.network->lines.rank_field; }),
         key("network.lines.id_field", text, "", "name", "by_links",
             "field with the id of a line, for down_field; \"\": a known one (docs/river_files.md)",
@@ -312,6 +312,20 @@ std::span<Row const> recipe_rows() {
         key("network.lines.down_field", text, "", "name", "by_links",
             "field with the id of the line downstream; \"\": a known one (docs/river_files.md)",
             [](Recipe& r, Item) -> Field { return &r.network->lines.down_field; }),
+        key("network.lines.from_field", text, "", "name", "by_links",
+            "field with the node from which a line's water comes, for to_field; \"\": a known one "
+            "(docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.from_field; }),
+        key("network.lines.to_field", text, "", "name", "by_links",
+            "field with the node to which a line's water goes; \"\": a known one (docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.to_field; }),
+        key("network.lines.direction_field", text, "", "name", "by_links",
+            "field that says whether water runs as a line is drawn, in words of a known data set; \"\": a known one "
+            "(docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.direction_field; }),
+        key("network.lines.where", text, "", "SQL condition", R"(network.source = "lines")",
+            "condition on fields, as after WHERE: other lines are not read; \"\": all lines",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.where; }),
         key("network.lines.snap", number, "m", {0, 1e6}, R"(network.source = "lines")",
             "line ends closer than this are joined; 0: open ends within half a cell, or two where it is clear to what "
             "(docs/rivers_you_have.md)",

@@ -20,6 +20,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/read_network.hpp>
+#include <thalweg/io/network/schema.hpp>
 
 class OGRFeature;
 class OGRGeometry;
@@ -40,6 +41,9 @@ std::vector<std::string> names_of(SchemaField const& field);
 /// With a to z for A to Z.
 std::string lower_case(std::string text);
 
+/// A word without case and blanks, of a code list's address the last part.
+std::string plain_word(std::string word);
+
 /// "a, b, c"; "none" for an empty list.
 std::string listed(std::vector<std::string> const& names);
 
@@ -58,6 +62,8 @@ public:
     FileColumn(OGRLayer& layer, std::vector<std::string> const& names, bool or_feature_id = true);
 
     bool is_there() const { return field_ != absent; }
+    /// Whether both are the same column of a layer.
+    bool is(FileColumn const& other) const { return field_ == other.field_; }
     /// Whether its type is one of numbers.
     bool is_number() const;
     bool is_null(OGRFeature const& feature) const;
@@ -91,6 +97,8 @@ public:
 
     /// The values of the next feature.
     void read(OGRFeature const& feature);
+    /// All rows so far.
+    AttributeTable const& table() const { return table_; }
     /// All rows, in the order of reading.
     AttributeTable take() { return std::move(table_); }
     /// as_text (columns): fields of a type that AttributeTable does not have, kept as text. not_utf8 (values): texts
@@ -110,32 +118,110 @@ std::vector<Schema> recognised(OGRLayer& layer);
 /// Whether a layer is in the native schema.
 bool is_in_network_schema(OGRLayer& layer);
 
+/// The known data sets of which a layer can be.
+std::vector<DataSet const*> data_sets_of(OGRLayer& layer);
+
+/// The columns for the flow of river lines that a user names.
+struct FlowColumns {
+    FileColumn id = {};
+    FileColumn down = {};
+    FileColumn from_node = {};
+    FileColumn to_node = {};
+    FileColumn direction = {};
+    FileColumn rank = {};
+};
+
+/// What the columns of a river file say of where water goes: those that a user names, else those of a known data set.
+class FlowFields {
+public:
+    explicit FlowFields(OGRLayer& layer, FlowColumns named = {});
+
+    /// Remembers what a feature says.
+    /// \param feature its number, from 1
+    void read(OGRFeature const& feature, std::int64_t number);
+    // Once every feature has been read:
+    /// Whether there are fields of links, of nodes or of directions.
+    bool has_links() const { return !links_.empty(); }
+    bool has_any() const { return has_links() || to_node_.is_there() || !directions_.empty(); }
+    /// By feature: the one downstream by the file's links.
+    std::map<std::int64_t, std::int64_t> downs() const;
+    /// 1: a feature runs as it is drawn, -1: against it, 0: unknown.
+    int runs_of(std::int64_t number) const;
+    /// Sets down, runs, rank, from_node and to_node of all lines.
+    void tell(std::vector<RiverLine>& lines) const;
+    /// The name of the field of ranks, or "".
+    std::string const& rank_name() const { return rank_.name(); }
+
+    /// Sets the heights of a feature's only line from the columns of its ends, where it has none.
+    /// \return false: there are no such columns, or the line has heights
+    bool raise(OGRFeature const& feature, std::vector<Vec3>& line) const;
+    /// "z_ini and z_fin"
+    std::string names_of_heights() const { return z_first_.name() + " and " + z_last_.name(); }
+
+private:
+    struct Links {
+        FileColumn id;
+        FileColumn down;
+        std::string_view nexus = {};
+        std::string_view of_nexus = {};
+        std::map<std::string, std::int64_t> feature_of = {}; ///< by own id: the first feature that has it
+        std::map<std::int64_t, std::string> down_id = {};    ///< by feature: the ids downstream
+        std::int64_t below(std::int64_t number) const;
+        double share_found() const;
+    };
+    struct Direction {
+        FileColumn column;
+        std::vector<std::string> with;
+        std::vector<std::string> against;
+    };
+    struct Said {
+        int by_word = 0; ///< as runs
+        int by_code = 0; ///< the same, in a column of numbers
+        double rank = nan;
+        std::int64_t from_node = 0;
+        std::int64_t to_node = 0;
+    };
+    void find(OGRLayer& layer, DataSet const& set);
+    void read_direction(OGRFeature const& feature, Said& said);
+    Links const& links() const;
+    Said said_of(std::int64_t number) const;
+
+    std::vector<Links> links_;
+    std::vector<Direction> directions_;
+    FileColumn from_node_;
+    FileColumn to_node_;
+    FileColumn rank_;
+    FileColumn z_first_;
+    FileColumn z_last_;
+    std::map<std::int64_t, Said> said_;                ///< by feature
+    std::map<std::string, std::int64_t> node_numbers_; ///< by name, from 1
+    bool are_codes_ = true;                            ///< no number in a column of directions is none of its codes
+};
+
+/// Columns that look like links, nodes or directions of lines, and are of no known data set: unused_fields.
+/// \param lines in coordinates of the file, record of their attributes = feature
+std::vector<Finding> unused_fields(std::vector<RiverLine> const& lines, AttributeTable const& attributes);
+
 /// What a column of a river file says of a line. docs/river_files.md lists the names.
 enum class RiverQuantity : std::uint8_t {
     size,        ///< larger for larger rivers
     river_class, ///< 1 for the largest rivers
     area,        ///< drainage area at the lower end
+    main,        ///< 1 on the main one of several channels
     divergence,
     calculated_order, ///< 0 on minor paths
     order,
-    name,
-    direction
+    name
 };
 
-/// What the known columns of a river file say: NHDPlus, HydroRIVERS, EU-Hydro, OpenStreetMap, network schemas.
+/// What the known columns of a river file say of rivers, beside where they flow: NHDPlus, HydroRIVERS, EU-Hydro,
+/// OpenStreetMap, network schemas.
 class RiverFields {
 public:
-    /// id, down: the columns of a line's own id and of the line downstream where a user names both.
-    explicit RiverFields(OGRLayer& layer, FileColumn id = {}, FileColumn down = {});
+    explicit RiverFields(OGRLayer& layer);
 
-    /// Sets size, area, name, channel and runs, and remembers the links of the feature.
-    void read(OGRFeature const& feature, RiverLine& line);
-    /// Whether there are fields of links.
-    bool has_links() const { return down_.is_there(); }
-    /// The feature downstream by the file's links, once every feature has been read; 0 where it names none.
-    std::int64_t down_of(std::int64_t feature) const;
-    /// Sets `down` of all lines, once every feature has been read.
-    void link(std::vector<RiverLine>& lines) const;
+    /// Sets size, area, name and channel.
+    void read(OGRFeature const& feature, RiverLine& line) const;
 
 private:
     struct Found {
@@ -145,13 +231,8 @@ private:
     bool has(RiverQuantity quantity) const { return !found_[quantity].empty(); }
     std::string text(OGRFeature const& feature, RiverQuantity quantity) const;
     double number(OGRFeature const& feature, RiverQuantity quantity) const;
-    int runs_of(OGRFeature const& feature) const;
 
-    FileColumn id_;
-    FileColumn down_;
-    ByEnum<RiverQuantity, std::vector<Found>, static_cast<std::size_t>(RiverQuantity::direction) + 1> found_;
-    std::map<std::string, std::int64_t> feature_of_; ///< by own id: the first feature that has it
-    std::map<std::int64_t, std::string> down_id_;    ///< by feature: the id downstream
+    ByEnum<RiverQuantity, std::vector<Found>, static_cast<std::size_t>(RiverQuantity::name) + 1> found_;
 };
 
 // Natural watercourses.

@@ -121,11 +121,16 @@ using Votes = std::vector<int>; ///< by piece: 1: as drawn, -1: against it, 0: u
 
 /// What the file states with certainty about the direction of pieces.
 struct Evidence {
-    enum class Kind : std::uint8_t { links, column, height, rank, drawn };
+    enum class Kind : std::uint8_t { links, nodes, column, height, rank, drawn };
     Kind kind;
     Votes votes;
     char const* name; ///< "by NAME", for messages
 };
+
+/// Makes ranks fall downstream: where links, areas or, together, meeting lines as they are drawn say that they rise,
+/// they are counted from the other end, with a finding (turned_rank).
+void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string const& field,
+                std::vector<Finding>& repairs);
 
 /// Chooses the evidence to use, the most trusted first.
 /// \throws BadInput when the file lacks requested data
