@@ -163,7 +163,7 @@ std::map<std::string, Words> const values = {
     {"network.lines.to_field", {"blank"}},
     {"network.lines.direction_field", {"way"}},
     {"network.lines.where", {"part = 1"}},
-    {"network.lines.snap", {"40"}},
+    {"network.lines.snap", {"0.001"}},
     {"network.lines.dem", {"north.asc"}},
     {"network.lines.keep", {"0.5"}},
     {"skeleton.ridge_farthest", {"60"}},
