@@ -507,7 +507,8 @@ TEST(LandInEquilibrium, RiversOfAFileStayUnlessAskedToMeander) {
 
 TEST(LandInEquilibrium, TwoRiversInOneCellBecomeOne) {
     Files const files;
-    Made const t = made(lines + "[network.lines]\npath = \"double.geojson\"\nsnap = 0.001\n" + equilibrium, files.folder());
+    Made const t =
+        made(lines + "[network.lines]\npath = \"double.geojson\"\nsnap = 0.001\n" + equilibrium, files.folder());
     EXPECT_GE(count(findings_of(t), "captured"), 1);
     for (Check const& c : t.assessment.checks) { // two rivers in one cell cannot both be followed cell for cell
         bool const beside_another = c.name == "walled_cells"; // cells of one stand a step above those of the other

@@ -206,12 +206,13 @@ TEST(GivenRivers, ATributaryThatDoesNotQuiteMeetItsRiverIsReported) {
     Workplace const place;
     place.write("gap.geojson", test::geojson(test::line("[500000,5005000],[505000,5004000],[510000,5005000]") + "," +
                                              test::line("[505000,5009000],[505000,5004070]")));
-    Outcome const o = thalweg_run("make gap.geojson --set grid.cell=50 -o out", place.path());
-    EXPECT_TRUE(test::has(o.err, "warning: ", "network.lines.snap=150"));
-    Outcome const joined =
-        expect_run(place, "make gap.geojson --set grid.cell=50 --set network.lines.snap=100 -o joined", 0);
-    EXPECT_FALSE(test::has(joined.err, "network.lines.snap"));
-    EXPECT_EQ(report_of(place / "joined")["network"]["outlets"], 1);
+    std::string const make = "make gap.geojson --set grid.cell=50 ";
+    Outcome const o = thalweg_run(make + "--set network.lines.snap=1 -o apart", place.path());
+    EXPECT_TRUE(test::has(o.err, "1 river ends 68.6 m from another river", "network.lines.snap=69"));
+    for (std::string const words : {"-o clear", "--set network.lines.snap=69 -o joined"}) { // nothing else is near
+        EXPECT_FALSE(test::has(expect_run(place, make + words, 0).err, "[unjoined_ends]"));
+        EXPECT_EQ(report_of(place / words.substr(words.rfind(' ') + 1))["network"]["outlets"], 1);
+    }
 }
 
 struct Stroke {
@@ -256,7 +257,7 @@ TEST(GivenRivers, StrokesThatNearlyTouchPassAllChecksOnceTheAdviceIsTaken) {
                                   "--set 'grid.origin=[500000,5000000]' --set surface.method=" +
                                   method + " --overwrite -o out";
         Outcome const raw = thalweg_run(words, place.path());
-        EXPECT_TRUE(test::has(raw.err, "network.lines.snap=90"));
+        EXPECT_TRUE(test::has(raw.err, "network.lines.snap="));
         Outcome const o = expect_run(place, words + " --set network.lines.snap=90", 0);
         EXPECT_FALSE(test::has(o.err, "network.lines.snap")) << "it is taken\n";
     }

@@ -323,18 +323,25 @@ std::vector<GapBelow> gaps_below(StreamNetwork const& network, Grid const& grid,
 
 /// Warns where rivers end nearer to others than to the border, away from their mouths: they were probably meant to
 /// meet.
-void warn_of_gaps(StreamNetwork const& network, Grid const& grid, bool has_sea, StageLog& stage_log, Run const& run) {
+/// \param snapped_m [m] the distance within which ends have been joined
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, bool has_sea, StageLog& stage_log,
+                  Run const& run) {
     constexpr double small_cells = 3.0; // a larger snapping distance would move too much
-    std::vector<GapBelow> const gaps = gaps_below(network, grid, has_sea, run);
+    std::vector<GapBelow> gaps = gaps_below(network, grid, has_sea, run);
     if (gaps.empty()) {
         return;
+    }
+    double const enough_m = small_cells * grid.cell_m;
+    bool const is_small =
+        snapped_m < enough_m && std::ranges::any_of(gaps, [&](GapBelow const& gap) { return gap.gap_m <= enough_m; });
+    if (is_small) {
+        std::erase_if(gaps, [&](GapBelow const& gap) { return gap.gap_m > enough_m; });
     }
     auto const [least, most] = std::ranges::minmax_element(gaps, {}, &GapBelow::gap_m);
     Vec2 const at = network.node(least->outlet).at;
     std::string const so_far = gaps.size() == 1 ? fmt::format("{:.3g} m", least->gap_m)
                                                 : fmt::format("{:.3g} to {:.3g} m", least->gap_m, most->gap_m);
-    double const enough_m = std::ceil(most->gap_m);
-    bool const is_small = enough_m <= small_cells * grid.cell_m;
+    double const all_m = std::ceil(most->gap_m);
     stage_log.find(
         {.kind = "unjoined_ends",
          .where = at,
@@ -342,7 +349,7 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, bool has_sea, 
          .text = fmt::format("{} {} from another river without meeting it, the nearest at ({:.0f}, {:.0f})",
                              gaps.size() == 1 ? "1 river ends" : fmt::format("{} rivers end", gaps.size()), so_far,
                              at.x, at.y),
-         .remedy = is_small ? fmt::format("If they should meet: --set network.lines.snap={}", enough_m)
+         .remedy = is_small ? fmt::format("If they should meet: --set network.lines.snap={}", all_m)
                             : "If they should meet, draw what is missing between them; if their water sinks there: "
                               "--set network.inland=sink",
          .key = is_small ? "network.lines.snap" : "network.inland",
@@ -474,7 +481,7 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     stage_log.find(direction_findings(imported.directions, params.dem != nullptr ? "" : "--set network.lines.dem=FILE",
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
-    warn_of_gaps(imported.network, rivers.grid, has_coastlines(plan), stage_log, run);
+    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_coastlines(plan), stage_log, run);
     rivers.land = land_of_coastlines(plan, stage_log, run);
     rivers.file_heights = heights_of_file(plan, imported, stage_log);
     rivers.network = std::move(imported.network);
