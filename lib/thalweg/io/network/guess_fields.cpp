@@ -66,44 +66,16 @@ public:
 
     // A field of ids, and one that names the line downstream: of lines that meet, and of several the same.
     std::vector<Finding> links() const {
-        Field const* best_id = nullptr;
-        Field const* best_down = nullptr;
-        std::size_t most = 0;
-        for (Field const& id : fields_) {
-            if (id.holders.size() < id.known || id.known < size_) {
-                continue;
-            }
-            for (Field const& down : fields_) {
-                std::size_t const found = &id == &down ? 0 : linked(id, down);
-                if (found > most) {
-                    most = found;
-                    best_id = &id;
-                    best_down = &down;
-                }
-            }
-        }
-        return best_id == nullptr ? std::vector<Finding>()
-                                  : said(most, *best_id, *best_down, "links", "arc_id", "ds_arc");
+        return best_pair("links", "arc_id", "ds_arc", [&](Field const& id, Field const& down) {
+            return id.holders.size() < id.known || id.known < size_ ? 0 : linked(id, down);
+        });
     }
 
     // Fields of two nodes: lines of which one ends at a node where another begins meet, and more end than begin at one.
     std::vector<Finding> nodes() const {
-        Field const* best_from = nullptr;
-        Field const* best_to = nullptr;
-        std::size_t most = 0;
-        for (Field const& from : fields_) {
-            for (Field const& to : fields_) {
-                bool const gathers = &from != &to && to.holders.size() < from.holders.size();
-                std::size_t const found = gathers ? joined(from, to) : 0;
-                if (found > most) {
-                    most = found;
-                    best_from = &from;
-                    best_to = &to;
-                }
-            }
-        }
-        return best_from == nullptr ? std::vector<Finding>()
-                                    : said(most, *best_from, *best_to, "nodes", "from_node", "to_node");
+        return best_pair("nodes", "from_node", "to_node", [&](Field const& from, Field const& to) {
+            return to.holders.size() < from.holders.size() ? joined(from, to) : 0;
+        });
     }
 
     // A field all of whose words are of directions, or whose name is.
@@ -147,11 +119,29 @@ private:
                 .key = "network.lines.path"};
     }
 
-    static std::vector<Finding> said(std::size_t amount, Field const& one, Field const& other, char const* what,
-                                     char const* first, char const* second) {
-        return {finding(amount,
-                        fmt::format("fields {} and {} look like {} of lines: --field {}={} --field {}={} takes them",
-                                    one.name, other.name, what, first, one.name, second, other.name))};
+    // The two fields for which most lines count, if any does; of equal ones the first.
+    template <class Count>
+    std::vector<Finding> best_pair(char const* what, char const* first, char const* second, Count const& count) const {
+        Field const* best_one = nullptr;
+        Field const* best_other = nullptr;
+        std::size_t most = 0;
+        for (Field const& one : fields_) {
+            for (Field const& other : fields_) {
+                std::size_t const found = &one == &other ? 0 : count(one, other);
+                if (found > most) {
+                    most = found;
+                    best_one = &one;
+                    best_other = &other;
+                }
+            }
+        }
+        if (most == 0) {
+            return {};
+        }
+        return {finding(most, fmt::format("fields {} and {} look like {} of lines: --field {}={} --field {}={} takes "
+                                          "them",
+                                          best_one->name, best_other->name, what, first, best_one->name, second,
+                                          best_other->name))};
     }
 
     bool meet(std::size_t a, std::size_t b) const {

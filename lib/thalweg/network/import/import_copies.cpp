@@ -117,16 +117,7 @@ void drop_near_copies(std::vector<RiverLine>& lines, double cell_m, Left& left, 
         left.secondary.push_back(
             {lines[l].feature, lines[l].vertices, "duplicate", lines[l].feature, LeftOut::duplicate});
     }
-    std::size_t kept = 0;
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        if (is_gone[l] == 0) {
-            if (kept != l) {
-                lines[kept] = std::move(lines[l]);
-            }
-            ++kept;
-        }
-    }
-    lines.resize(kept);
+    erase_marked(lines, is_gone);
 }
 
 } // namespace thalweg::network::import_steps

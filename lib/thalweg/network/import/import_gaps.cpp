@@ -6,8 +6,6 @@
 #include <unordered_map>
 #include <utility>
 
-#include <fmt/format.h>
-
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
@@ -25,47 +23,49 @@ Vec2 end_of(RiverLine const& line, std::size_t e) {
     return in_plan(e % 2 == 0 ? line.vertices.front() : line.vertices.back());
 }
 
-/// What is known of the lines before gaps are closed.
-struct Known {
-    std::vector<int> flows;        ///< by end: 1: water leaves the line there, -1: it begins there, 0: unknown
-    std::vector<std::size_t> part; ///< by line: its connected part
-    std::vector<char> is_open;     ///< by end: it meets no other line
-    std::size_t parts = 0;
+/// How lines hang together before gaps are closed.
+struct Parts {
+    std::vector<std::size_t> of_line; ///< its connected part
+    std::vector<char> is_open;        ///< by end: it meets no other line
+    std::size_t most = 0;             ///< numbers are less
 };
 
-/// Finds the connected parts and the directions of lines as they are.
-Known known_of(std::vector<RiverLine> lines, RiverLines const& file, ImportParams const& params, Run const& run) {
-    Known known{std::vector<int>(2 * lines.size(), 0), std::vector<std::size_t>(lines.size(), 0),
-                std::vector<char>(2 * lines.size(), 0)};
-    split(lines, run);
-    std::vector<Finding> notes;
-    std::vector<SecondaryLine> secondary;
-    Left left{notes, secondary};
-    Pieces const pieces = cut(lines, left);
-    std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation);
-    FoundDirections const found = find_directions(pieces, lines, params, evidence, run);
-    bool const is_drawn_sure = std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
+Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
+    Parts parts{std::vector<std::size_t>(lines.size(), 0), std::vector<char>(2 * lines.size(), 0), pieces.nodes.size()};
     Sets sets(pieces.nodes.size());
-    for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
-        Piece const& piece = pieces.pieces[k];
+    for (Piece const& piece : pieces.pieces) {
         sets.join(piece.from, piece.to);
-        bool const is_sure = found.said[k] != 0 || is_drawn_sure;
-        auto const look_at_end = [&](std::size_t end, std::size_t node, int flows) {
-            known.flows[2 * piece.line + end] = is_sure ? flows : 0;
-            known.is_open[2 * piece.line + end] = pieces.at_node[node].size() == 1 ? 1 : 0;
-        };
         if (piece.first == 0) {
-            look_at_end(0, piece.from, -found.runs[k]);
+            parts.is_open[2 * piece.line] = pieces.at_node[piece.from].size() == 1 ? 1 : 0;
         }
         if (piece.last + 1 == lines[piece.line].vertices.size()) {
-            look_at_end(1, piece.to, found.runs[k]);
+            parts.is_open[2 * piece.line + 1] = pieces.at_node[piece.to].size() == 1 ? 1 : 0;
         }
     }
-    known.parts = pieces.nodes.size();
     for (Piece const& piece : pieces.pieces) {
-        known.part[piece.line] = sets.of(piece.from);
+        parts.of_line[piece.line] = sets.of(piece.from);
     }
-    return known;
+    return parts;
+}
+
+/// By end: 1: water leaves the line there, -1: it begins there, 0: that is not sure.
+std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
+                          ImportParams const& params, Left& left, Run const& run) {
+    std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation, left.repairs);
+    FoundDirections const found = find_directions(pieces, lines, params, evidence, run);
+    bool const is_drawn_sure = std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
+    std::vector<int> flows(2 * lines.size(), 0);
+    for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
+        Piece const& piece = pieces.pieces[k];
+        int const runs = found.said[k] != 0 || is_drawn_sure ? found.runs[k] : 0;
+        if (piece.first == 0) {
+            flows[2 * piece.line] = -runs;
+        }
+        if (piece.last + 1 == lines[piece.line].vertices.size()) {
+            flows[2 * piece.line + 1] = runs;
+        }
+    }
+    return flows;
 }
 
 /// A place to which an end may be joined.
@@ -96,22 +96,27 @@ Joint nearest_on(RiverLine const& line, geometry::NearSegment const& s, Vec2 p) 
 /// An end and where it may be joined.
 struct Proposal {
     std::size_t end = 0;
-    Joint goal;
+    Joint joint;
     bool is_named = false; ///< by a link
 };
 
 class Gaps {
 public:
-    Gaps(std::vector<RiverLine>& lines, Known known, double cell_m, Left& left)
-        : lines_(lines), known_(std::move(known)), cell_m_(cell_m), left_(left), joined_(known_.parts) {}
+    Gaps(std::vector<RiverLine>& lines, Parts parts, double cell_m, Left& left)
+        : lines_(lines), parts_(std::move(parts)), cell_m_(cell_m), left_(left), joined_(parts_.most) {}
 
-    void close(Run const& run) {
+    /// Those that may be closed, in the order in which they are.
+    std::vector<Proposal> find(Run const& run) {
         std::vector<Proposal> proposals = named();
         append_nearest(proposals, run);
-        std::ranges::stable_sort(proposals, {},
-                                 [](Proposal const& p) { return std::tuple(p.is_named ? 0 : 1, p.goal.gap_m, p.end); });
+        std::ranges::stable_sort(
+            proposals, {}, [](Proposal const& p) { return std::tuple(p.is_named ? 0 : 1, p.joint.gap_m, p.end); });
+        return proposals;
+    }
+
+    void close(std::vector<Proposal> const& proposals, std::vector<int> const& flows) {
         for (Proposal const& p : proposals) {
-            if (is_allowed(p)) {
+            if (is_allowed(p, flows)) {
                 join(p);
             }
         }
@@ -120,7 +125,7 @@ public:
     }
 
 private:
-    std::size_t part(std::size_t line) { return joined_.of(known_.part[line]); }
+    std::size_t part(std::size_t line) { return joined_.of(parts_.of_line[line]); }
 
     /// The gaps to the lines that links name.
     std::vector<Proposal> named() {
@@ -142,7 +147,7 @@ private:
                 Vec2 const p = end_of(lines_[l], e);
                 for (std::size_t s = 0; s + 1 < lines_[to].vertices.size(); ++s) {
                     Joint const goal = nearest_on(lines_[to], {to, s}, p);
-                    if (goal.gap_m <= most_m && (!best || goal.gap_m < best->goal.gap_m)) {
+                    if (goal.gap_m <= most_m && (!best || goal.gap_m < best->joint.gap_m)) {
                         best = Proposal{e, goal, true};
                     }
                 }
@@ -158,8 +163,8 @@ private:
     void append_nearest(std::vector<Proposal>& proposals, Run const& run) {
         std::vector<std::size_t> open;
         std::vector<Vec2> at;
-        for (std::size_t e = 0; e < known_.is_open.size(); ++e) {
-            if (known_.is_open[e] != 0) {
+        for (std::size_t e = 0; e < parts_.is_open.size(); ++e) {
+            if (parts_.is_open[e] != 0) {
                 open.push_back(e);
                 at.push_back(end_of(lines_[e / 2], e));
             }
@@ -177,7 +182,7 @@ private:
         Vec2 const p = end_of(lines_[e / 2], e);
         std::vector<Joint> goals;
         for (geometry::NearSegment const& s : near) {
-            if (known_.part[s.line] != known_.part[e / 2]) {
+            if (parts_.of_line[s.line] != parts_.of_line[e / 2]) {
                 goals.push_back(nearest_on(lines_[s.line], s, p));
             }
         }
@@ -204,59 +209,49 @@ private:
 
     /// Whether parts are still apart there, and water may run from one to the other: a spring joins nothing but an
     /// end from which water comes.
-    bool is_allowed(Proposal const& p) {
-        if (part(p.end / 2) == part(p.goal.line)) {
+    bool is_allowed(Proposal const& p, std::vector<int> const& flows) {
+        RiverLine const& own = lines_[p.end / 2];
+        if (part(p.end / 2) == part(p.joint.line)) {
             return false;
         }
-        if (p.is_named) {
-            return true;
+        if (p.is_named || parts_.is_open[p.end] == 0) { // else it has been joined
+            return p.is_named;
         }
-        std::optional<std::size_t> const other = end_at(p.goal);
-        if (known_.is_open[p.end] == 0 || (other && known_.is_open[*other] == 0 && known_.flows[p.end] < 0)) {
-            return false; // it has been joined
+        if (flows[p.end] < 0) {
+            std::optional<std::size_t> const other = end_at(p.joint);
+            return other && parts_.is_open[*other] != 0 && flows[*other] >= 0;
         }
-        bool const is_spring = known_.flows[p.end] < 0;
-        bool const gives_water = other && known_.is_open[*other] != 0 && known_.flows[*other] >= 0;
-        if (is_spring) {
-            return gives_water;
-        }
-        return lines_[p.end / 2].down == 0 || known_.flows[p.end] == 0 ||
-               lines_[p.end / 2].down == lines_[p.goal.line].feature;
+        return own.down == 0 || flows[p.end] == 0 || own.down == lines_[p.joint.line].feature;
     }
-
-    static std::size_t number(std::size_t line, bool is_front) { return 2 * line + (is_front ? 0 : 1); }
 
     /// The end of a line that a place is.
     std::optional<std::size_t> end_at(Joint const& goal) const {
         if (!goal.vertex || (*goal.vertex != 0 && *goal.vertex + 1 != lines_[goal.line].vertices.size())) {
             return std::nullopt;
         }
-        return number(goal.line, *goal.vertex == 0);
+        return 2 * goal.line + (*goal.vertex == 0 ? 0 : 1);
     }
 
     void join(Proposal const& p) {
         RiverLine& own = lines_[p.end / 2];
-        Vec2 const at = p.goal.vertex ? in_plan(lines_[p.goal.line].vertices[*p.goal.vertex]) : p.goal.at;
-        if (!p.goal.vertex) {
-            additions_.push_back({p.goal.line, p.goal.segment, p.goal.along, at});
+        Vec2 const at = p.joint.vertex ? in_plan(lines_[p.joint.line].vertices[*p.joint.vertex]) : p.joint.at;
+        if (!p.joint.vertex) {
+            additions_.push_back({p.joint.line, p.joint.segment, p.joint.along, at});
         }
         Vec3& end = p.end % 2 == 0 ? own.vertices.front() : own.vertices.back();
         double const gap_m = distance(in_plan(end), at);
         end.x = at.x;
         end.y = at.y;
-        known_.is_open[p.end] = 0;
-        if (auto const other = end_at(p.goal)) {
-            known_.is_open[*other] = 0;
+        parts_.is_open[p.end] = 0;
+        if (auto const other = end_at(p.joint)) {
+            parts_.is_open[*other] = 0;
         }
-        joined_.join(part(p.end / 2), part(p.goal.line));
-        left_.repairs.push_back(
-            {"snapped", own.number(), at, gap_m,
-             fmt::format("the {} of river {} is moved {:.3g} m onto river {}", p.end % 2 == 0 ? "start" : "end",
-                         own.number(), gap_m, lines_[p.goal.line].number())});
+        joined_.join(part(p.end / 2), part(p.joint.line));
+        left_.repairs.push_back(moved_onto(own, p.end % 2 == 0, at, gap_m, lines_[p.joint.line].number()));
     }
 
     std::vector<RiverLine>& lines_;
-    Known known_;
+    Parts parts_;
     double cell_m_;
     Left& left_;
     Sets joined_;
@@ -265,13 +260,19 @@ private:
 
 } // namespace
 
-void close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
+bool close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
                 Run const& run) {
-    Known known = known_of(lines, file, params, run);
-    bool const is_whole = std::ranges::all_of(known.part, [&](std::size_t part) { return part == known.part.front(); });
-    if (!is_whole) {
-        Gaps(lines, std::move(known), params.cell_m, left).close(run);
+    std::vector<Finding> notes;
+    std::vector<SecondaryLine> secondary;
+    Left nothing{notes, secondary};
+    Pieces const pieces = cut(lines, nothing);
+    Gaps gaps(lines, parts_of(pieces, lines), params.cell_m, left);
+    std::vector<Proposal> const proposals = gaps.find(run);
+    if (proposals.empty()) {
+        return false;
     }
+    gaps.close(proposals, flows_of(pieces, lines, file, params, left, run));
+    return true;
 }
 
 } // namespace thalweg::network::import_steps

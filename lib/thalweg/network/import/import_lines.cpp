@@ -320,18 +320,17 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
                         snap_m);
     if (params.cell_m > 0.0) {
         import_steps::drop_near_copies(lines, params.cell_m, left, run);
-        import_steps::close_gaps(lines, file, params, left, run);
     }
     run.at(0.2, "adopt");
     import_steps::split(lines, run);
+    if (params.cell_m > 0.0 && import_steps::close_gaps(lines, file, params, left, run)) {
+        import_steps::split(lines, run);
+    }
     run.at(0.7, "adopt");
     double const near_m = std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines));
     import_steps::drop_overshoots(lines, slip_in_near * near_m, left);
     auto pieces = import_steps::cut(lines, left);
-    if (params.orientation != Orientation::rank) {
-        import_steps::turn_ranks(pieces, lines, file.rank_field, repairs);
-    }
-    auto evidence = import_steps::evidence_of(pieces, lines, file, params.orientation);
+    auto evidence = import_steps::evidence_of(pieces, lines, file, params.orientation, repairs);
     auto const found = import_steps::find_directions(pieces, lines, params, evidence, run);
     std::vector<PieceId> leaves;
     if (params.divergences == Divergences::error) {

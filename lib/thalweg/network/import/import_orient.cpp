@@ -265,8 +265,6 @@ Sense sense_by_drawing(Pieces const& p, std::vector<RiverLine> const& lines) {
     return meet > fork ? sense : Sense{};
 }
 
-} // namespace
-
 void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string const& field,
                 std::vector<Finding>& repairs) {
     constexpr std::size_t enough = 3;
@@ -293,8 +291,13 @@ void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string cons
                                    field.empty() ? "" : " ", field, sense.rises, sense.falls + sense.rises, sense.by)});
 }
 
-std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                  Orientation asked) {
+} // namespace
+
+std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine>& lines, RiverLines const& file,
+                                  Orientation asked, std::vector<Finding>& repairs) {
+    if (asked != Orientation::rank) {
+        turn_ranks(p, lines, file.rank_field, repairs);
+    }
     bool const any_rank = std::ranges::any_of(lines, [](RiverLine const& l) { return l.rank != 0; });
     if (asked == Orientation::height && !file.has_z) {
         throw BadInput("network.import_lines: the rivers of " + file.name + " carry no heights to orient them by");

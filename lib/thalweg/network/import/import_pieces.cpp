@@ -174,6 +174,25 @@ std::vector<std::int64_t> drop_repeats(std::vector<RiverLine>& lines) {
     return dropped;
 }
 
+void erase_marked(std::vector<RiverLine>& lines, std::vector<char> const& is_gone) {
+    std::size_t kept = 0;
+    for (std::size_t l = 0; l < lines.size(); ++l) {
+        if (is_gone[l] == 0) {
+            if (kept != l) {
+                lines[kept] = std::move(lines[l]);
+            }
+            ++kept;
+        }
+    }
+    lines.resize(kept);
+}
+
+Finding moved_onto(RiverLine const& line, bool is_start, Vec2 to, double moved_m, std::int64_t onto) {
+    return {"snapped", line.number(), to, moved_m,
+            fmt::format("the {} of river {} is moved {:.3g} m onto river {}", is_start ? "start" : "end", line.number(),
+                        moved_m, onto)};
+}
+
 void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run) {
     std::vector<Vec2> starts;
     for (auto const& line : lines) {
@@ -205,13 +224,7 @@ void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run c
             }
         }
     }
-    std::vector<RiverLine> kept;
-    for (std::size_t l = 0; l < lines.size(); ++l) {
-        if (dropped[l] == 0) {
-            kept.push_back(std::move(lines[l]));
-        }
-    }
-    lines = std::move(kept);
+    erase_marked(lines, dropped);
 }
 
 void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run) {
@@ -252,30 +265,24 @@ void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Lef
         end.x = goal->at.x;
         end.y = goal->at.y;
         if (goal->moved_m > 0.0) {
-            left.repairs.push_back(
-                {"snapped", lines[own].number(), goal->at, goal->moved_m,
-                 fmt::format("the {} of river {} is moved {:.3g} m onto river {}", e % 2 == 0 ? "start" : "end",
-                             lines[own].number(), goal->moved_m, goal->onto)});
+            left.repairs.push_back(moved_onto(lines[own], e % 2 == 0, goal->at, goal->moved_m, goal->onto));
         }
     }
     insert(lines, std::move(additions));
     drop_repeats(lines);
-    std::size_t kept = 0;
+    std::vector<char> is_gone(lines.size(), 0);
     for (std::size_t l = 0; l < lines.size(); ++l) {
-        RiverLine& line = lines[l];
+        RiverLine const& line = lines[l];
         if (line.vertices.size() > 1) {
-            if (kept != l) {
-                lines[kept] = std::move(line);
-            }
-            ++kept;
             continue;
         }
+        is_gone[l] = 1;
         left.secondary.push_back({line.feature, std::move(as_drawn[l]), "too short", line.feature, LeftOut::too_short});
         left.repairs.push_back({"removed", line.number(), in_plan(line.vertices.front()), 1.0,
                                 fmt::format("river {} is shorter than the snapping distance {:.3g} m; it is left out",
                                             line.number(), snap_m)});
     }
-    lines.resize(kept);
+    erase_marked(lines, is_gone);
 }
 
 namespace {

@@ -73,6 +73,9 @@ struct Left {
 /// Drops every line whose vertices are all within snap_m of those of an earlier one, in either direction.
 void drop_copies(std::vector<RiverLine>& lines, double snap_m, Left& left, Run const& run);
 
+/// Removes the lines that are marked.
+void erase_marked(std::vector<RiverLine>& lines, std::vector<char> const& is_gone);
+
 /// Drops every line of four cells or more of which nine tenths lie within a quarter of a cell of other lines: the last
 /// ones of the file first.
 void drop_near_copies(std::vector<RiverLine>& lines, double cell_m, Left& left, Run const& run);
@@ -80,8 +83,13 @@ void drop_near_copies(std::vector<RiverLine>& lines, double cell_m, Left& left, 
 /// Joins ends to other lines within snap_m, and drops lines that collapse to a point.
 void snap(std::vector<RiverLine>& lines, double snap_m, SnappedEnds snapped, Left& left, Run const& run);
 
+/// The finding on an end that is moved onto another line.
+Finding moved_onto(RiverLine const& line, bool is_start, Vec2 to, double moved_m, std::int64_t onto);
+
 /// Joins open ends of lines to other connected parts of the network as ImportParams::cell_m says.
-void close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
+/// \param lines split
+/// \return whether any may have been joined: then lines may meet anew
+bool close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
                 Run const& run);
 
 /// Inserts a vertex wherever lines meet, until they meet at common vertices only.
@@ -127,15 +135,12 @@ struct Evidence {
     char const* name; ///< "by NAME", for messages
 };
 
-/// Makes ranks fall downstream: where links, areas or, together, meeting lines as they are drawn say that they rise,
-/// they are counted from the other end, with a finding (turned_rank).
-void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string const& field,
-                std::vector<Finding>& repairs);
-
-/// Chooses the evidence to use, the most trusted first.
+/// Chooses the evidence to use, the most trusted first. Makes ranks fall downstream, unless these are asked for: where
+/// links, areas or, together, meeting lines as they are drawn say that they rise, they are counted from the other end,
+/// with a finding (turned_rank).
 /// \throws BadInput when the file lacks requested data
-std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine> const& lines, RiverLines const& file,
-                                  Orientation asked);
+std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine>& lines, RiverLines const& file,
+                                  Orientation asked, std::vector<Finding>& repairs);
 
 /// The pieces that are not in the network, and the known directions of all.
 struct Divided {
