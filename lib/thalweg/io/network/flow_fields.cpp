@@ -104,7 +104,7 @@ void FlowFields::read_direction(OGRFeature const& feature, Said& said) {
         if (!is_code(word)) {
             said.by_word = said.by_word == 0 ? runs : said.by_word;
         } else if (std::ranges::any_of(direction.with, is_code)) { // else a discharge, say
-            constexpr std::string_view codes = " -1 0 1 2 3 9 ";
+            constexpr std::string_view codes = " -1 0 1 2 3 4 9 "; // Esri: 4 flows both ways
             are_codes_ = are_codes_ && codes.find(fmt::format(" {} ", word)) != std::string_view::npos;
             said.by_code = said.by_code == 0 ? runs : said.by_code;
         }
