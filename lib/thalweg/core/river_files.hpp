@@ -8,6 +8,7 @@
 #include <variant>
 #include <vector>
 
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/vec.hpp>
 
@@ -39,7 +40,7 @@ enum class Channel : std::uint8_t { unknown, main, minor };
 
 /// A river line of a file, in the grid's coordinates.
 struct RiverLine {
-    std::int64_t feature = 0;   ///< number in its layer, from 1
+    std::int64_t feature = 0;   ///< number in its layer, from 1; 0: drawn by import_lines through a lake
     std::vector<Vec3> vertices; ///< [m], coordinates rounded to 1e-6 m; z is NaN where the file has none
     std::string type;           ///< river type (Rosgen) from the type field, or ""
     std::int64_t rank = 0;      ///< flow rank from the direction field, decreasing downstream; 0: none
@@ -93,6 +94,7 @@ struct RiverLines {
     std::vector<Finding> findings = {}; ///< left_out [vertices]: features without a line; not_a_line [shapes], by type
     AttributeTable attributes = {};     ///< of the features, record = feature
     std::string rank_field = {};        ///< name of the field of ranks, or ""
+    std::vector<Polygon> lakes = {};    ///< through which rivers run on that end at their shores; none overlap
 };
 
 /// A network file as read, before any check.

@@ -153,12 +153,20 @@ TEST_F(ReadRivers, ShapesThatAreNotLinesAreCounted) {
     EXPECT_EQ(read.lines[0].feature, 3);
     EXPECT_EQ(read.lines[1].feature, 4);
     EXPECT_EQ(read.attributes.rows.size(), 6U);
-    ASSERT_EQ(read.findings.size(), 3U);
+    ASSERT_EQ(read.lakes.size(), 1U);
+    EXPECT_EQ(read.lakes[0].feature, 2);
+    ASSERT_EQ(read.findings.size(), 2U);
     EXPECT_EQ(read.findings[0].kind, "not_a_line");
     EXPECT_EQ(read.findings[0].amount, 3.0);
     EXPECT_EQ(read.findings[0].where, (Vec2{1.0, 2.0}));
-    EXPECT_EQ(read.findings[1].text, "1 shape of type Polygon is not a line and is skipped; it is in feature 2");
-    EXPECT_EQ(read.findings[2].kind, "left_out");
+    EXPECT_EQ(read.findings[1].kind, "left_out");
+    ForeignLayer const catchments{.type = wkbUnknown,
+                                  .fields = "kind:s",
+                                  .rows = {{"POLYGON((0 0,1 0,1 1,0 0))", {"catchment"}}, {"LINESTRING(0 0,1 1)"}}};
+    auto const other = io::read_rivers({.path = write("b.gpkg", {catchments})});
+    EXPECT_TRUE(other.lakes.empty());
+    ASSERT_EQ(other.findings.size(), 1U);
+    EXPECT_EQ(other.findings[0].text, "1 shape of type Polygon is not a line and is skipped; it is in feature 1");
 }
 
 TEST_F(ReadRivers, OfSeveralLayersTheNameTells) {
@@ -289,12 +297,50 @@ TEST_F(ReadRivers, DirectionColumns) {
              Case{"flowDirection:s", {"inDirection", "inOppositeDirection"}, {1, -1}},     // INSPIRE
              Case{"flow_direction:s", {"in direction", "in opposite direction"}, {1, -1}}, // OS
              Case{"flow:s", {"both directions", "in direction"}, {0, 1}},
-             Case{"SensEcoul:s", {"Sens inverse", "Sens direct", "Double sens", "Inconnu"}, {-1, 1, 0, 0}}, // TOPAGE
-             Case{"FLOWDIRECTION", {"1", "2", "-1", "0"}, {1, -1, 0, 0}},                                   // NHN
+             Case{"sens_de_l_ecoulement:s", {"Sens inverse", "Sens direct", "Double sens", "Inconnu"}, {-1, 1, 0, 0}},
+             Case{"SensEcoulementTH:s", {"Dans direction tronçon", "Dans les deux directions"}, {1, 0}}, // BD TOPAGE
+             Case{"FlowDir", {"1", "2", "4"}, {1, -1, 0}},                                               // Esri
+             Case{"FLOWDIRECTION", {"1", "2", "-1", "0"}, {1, -1, 0, 0}},                                // NHN
              Case{"flow", {"1", "2"}, {0, 0}}, // a discharge, say
          }) {
         EXPECT_EQ(all(with_fields(field, values), &RiverLine::runs), runs) << field;
     }
+}
+
+TEST_F(ReadRivers, LakesAreThePolygonsThatSaySo) {
+    std::string const square = "POLYGON((500000 5000000,500010 5000000,500010 5000010,500000 5000010,500000 5000000))";
+    auto const layer = [&](char const* name, char const* fields, std::vector<std::string> const& values) {
+        ForeignLayer made{.name = name, .type = wkbUnknown, .fields = fields};
+        for (std::string const& value : values) {
+            std::string moved = square; // no two at one place
+            for (std::size_t at = moved.find("5000"); at != std::string::npos; at = moved.find("5000", at + 4)) {
+                moved[at + 3] = static_cast<char>('0' + made.rows.size());
+            }
+            made.rows.push_back({moved, {value}});
+        }
+        return made;
+    };
+    ForeignLayer const rivers{.name = "rivers", .rows = {{"LINESTRING(0 0,1 1)"}}};
+    auto const lakes = [&](ForeignLayer const& polygons) {
+        std::string features;
+        for (Polygon const& lake : io::read_rivers({.path = write("a.gpkg", {rivers, polygons})}).lakes) {
+            features += std::to_string(lake.feature);
+        }
+        return features;
+    };
+    EXPECT_EQ(lakes(layer("NHDWaterbody", "FTYPE", {"390", "436", "378", "493"})), "12");
+    EXPECT_EQ(lakes(layer("plan_d_eau", "nature:s", {"Lac", "Retenue"})), "12");
+    EXPECT_EQ(lakes(layer("catchments", "id", {"1", "2"})), "");
+    EXPECT_EQ(lakes(layer("multipolygons", "osm_id:s natural:s", {"1", "2"})), "") << "no natural = water";
+    EXPECT_EQ(lakes(layer("multipolygons", "natural:s osm_id:s", {"water", "wood", "water"})), "13");
+    // Among the lines.
+    ForeignLayer mixed{.name = "a", .type = wkbUnknown, .fields = "name:s"};
+    mixed.rows = {{"LINESTRING(0 0,1 1)", {"a"}}, {square, {"b"}}};
+    RiverLines const read = io::read_rivers({.path = write("b.gpkg", {mixed})});
+    ASSERT_EQ(read.lakes.size(), 1U);
+    EXPECT_EQ(read.lakes[0].feature, 2);
+    EXPECT_EQ(read.lakes[0].rings[0].size(), 4U);
+    EXPECT_TRUE(read.findings.empty()) << "nothing is passed over";
 }
 
 TEST_F(ReadRivers, ACrsThatIsMissingCanBeNamed) {

@@ -270,4 +270,23 @@ TEST(ReadPolygons, ARasterHoldsNone) {
     EXPECT_THROW(io::holds_polygons(folder / "none.tif"), BadInput);
 }
 
+TEST(United, TouchingPolygonsAreOneAndBowTiesAreMended) {
+    std::vector<Polygon> const apart =
+        io::united({{1, {{{0, 0}, {10, 0}, {10, 10}, {0, 10}}}}, {2, {{{20, 0}, {30, 0}, {30, 10}, {20, 10}}}}});
+    ASSERT_EQ(apart.size(), 2U);
+    EXPECT_EQ(apart[1].feature, 2);
+    std::vector<Polygon> const one = io::united({{1, {{{100, 0}, {110, 0}, {110, 10}}}},
+                                                 {5, {{{10, 0}, {20, 0}, {20, 10}, {10, 10}}}},
+                                                 {3, {{{0, 0}, {10, 0}, {10, 10}, {0, 10}}}}});
+    ASSERT_EQ(one.size(), 2U);
+    EXPECT_EQ(one[1].feature, 5) << "the first in the file";
+    EXPECT_DOUBLE_EQ(drawn({one[1]}).get_Area(), 200.0);
+    std::vector<Polygon> const bow_tie = io::united({{4, {{{0, 0}, {10, 10}, {10, 0}, {0, 10}}}}});
+    EXPECT_EQ(bow_tie.size(), 2U);
+    OGRMultiPolygon const mended = drawn(bow_tie);
+    EXPECT_TRUE(mended.IsValid());
+    EXPECT_DOUBLE_EQ(mended.get_Area(), 50.0);
+    EXPECT_TRUE(io::united({{6, {{{0, 0}, {1, 1}}}}}).empty());
+}
+
 } // namespace polygons_test

@@ -506,4 +506,56 @@ TEST(RiverFiles, SmallDefectsAreLeftOutAndReported) {
     EXPECT_EQ(features_in(place / "out/network.gpkg", "arcs"), (std::set<std::int64_t>{4}));
 }
 
+namespace {
+
+/// Two rivers that end at a lake and one that leaves it; with the lake's outline among the lines, or without.
+std::string around_a_lake(std::string const& properties_of_lake) {
+    Lines lines;
+    lines.add({{500000, 4405000}, {500000, 4403000}}, {{"id", 1}});
+    lines.add({{502500, 4403500}, {500300, 4402750}}, {{"id", 2}});
+    lines.add({{500000, 4402400}, {500100, 4400000}}, {{"id", 3}});
+    lines.add({{498000, 4401000}, {500050, 4401200}}, {{"id", 5}});
+    json file = json::parse(lines.text());
+    if (!properties_of_lake.empty()) {
+        json ring = json::array();
+        for (auto const& [x, y] : {Place{499700, 4402700}, Place{500000, 4402400}, Place{500300, 4402700},
+                                   Place{500300, 4402800}, Place{500000, 4403000}, Place{499700, 4402700}}) {
+            ring.push_back({x, y});
+        }
+        file["features"].push_back({{"type", "Feature"},
+                                    {"properties", json::parse(properties_of_lake)},
+                                    {"geometry", {{"type", "Polygon"}, {"coordinates", json::array({ring})}}}});
+    }
+    return file.dump();
+}
+
+} // namespace
+
+TEST(RiverFiles, RiversRunThroughLakesOfTheFile) {
+    Workplace const place;
+    place.write("bare.geojson", around_a_lake(""));
+    place.write("lake.geojson", around_a_lake(R"({"id": 4})"));
+    place.write("forest.geojson", around_a_lake(R"({"osm_id": "4", "natural": "wood"})"));
+    std::string const make = " --set grid.cell=25 --set surface.method=dilate -o ";
+    Outcome const bare =
+        expect_run(place, "make bare.geojson" + make + "bare", 0, "2 rivers end at 1 place", "[lake_without_outline]");
+    EXPECT_EQ(report_of(place / "bare")["network"]["outlets"], 3);
+    expect_run(place, "make forest.geojson" + make + "forest", 0, "[lake_without_outline]");
+    Outcome const lake = expect_run(place, "make lake.geojson" + make + "lake", 0);
+    EXPECT_EQ(lake.err.find("lake_without_outline"), std::string::npos) << lake.err;
+    json const report = report_of(place / "lake");
+    EXPECT_EQ(report["network"]["outlets"], 1);
+    expect_checks_hold(report);
+    expect_run(place, "check lake -q", 0);
+    expect_run(place, "replay lake --verify", 0);
+    // The outline of another file, which also lies level.
+    json only = json::parse(around_a_lake(R"({"id": 4})"));
+    only["features"] = json::array({only["features"].back()});
+    place.write("outline.geojson", only.dump());
+    expect_run(place, "make bare.geojson --set grid.cell=25 --set surface.lakes=outline.geojson -o level", 0);
+    EXPECT_EQ(report_of(place / "level")["network"]["outlets"], 1);
+    EXPECT_TRUE(fs::exists(place / "level/lakes.tif"));
+    expect_run(place, "replay level --verify", 0);
+}
+
 } // namespace river_files_test

@@ -33,7 +33,7 @@ constexpr std::string_view channel_words =
     "acequia zanja leat lock canalfeeder transfer bissesuone "
     "pipe pipeline conduit conduitbuse conduitforc conduitforce conduite aqueduct aqueduc acueducto rohr rohrleitung "
     "verrohrung druckleitung druckleitungeinfach druckleitungmehrfach druckstollen duiker leiding rioolleiding tubera "
-    "sewer sewerconnection penstock";
+    "sewer sewerconnection penstock vala canalencoberto canalnooperacional";
 
 struct CodeRow {
     std::string_view columns;
@@ -42,18 +42,21 @@ struct CodeRow {
 };
 
 // Columns of schemas besides OpenStreetMap's and NHD's.
-constexpr std::array<CodeRow, 5> code_rows{{
-    // OS Open Rivers; BD TOPO and BD TOPAGE; D-HYDRO; Geofabrik; Natural Earth; ATKIS; FKB; TOP10NL; swissTLM3D; and
-    // common names.
-    {"form watercourseform nature naturetron branchtype branch_type fclass featurecla featuretype feattype "
-     "feature_type objart_txt objtype objekttype objekttyp objektart typewater watertype description type typ kind "
+constexpr std::array<CodeRow, 7> code_rows{{
+    // OS Open Rivers; BD TOPO and BD TOPAGE; D-HYDRO; Geofabrik; Natural Earth; ATKIS; FKB; TOP10NL; swissTLM3D,
+    // swissTLMRegio, VECTOR25; EDGV and BC250; and common names.
+    {"form watercourseform nature natureth naturetron branchtype branch_type fclass featurecla featuretype feattype "
+     "feature_type objart_txt objtype objekttype objekttyp objektart typewater watertype objval objectval "
+     "tipotrechodrenagem tipo_trecho_drenagem tipotrecho description type typ kind "
      "class waterdefin "
      "waterdefinition",
      channel_words, "kystkontur coastline"},
-    {"origin origin_href origine", "manmade artificiel artificielle"}, // INSPIRE
-    {"dfdd f_code", "bh010 bh020 bh030 aq113", "ba010"},               // EU-Hydro, VMAP: codes of DFDD
-    {"objart", "44003"},                                               // ATKIS
-    {"waterdefin waterdefinition water_definition", "1 2 3"},          // NHN: canal, conduit, ditch
+    {"origin origin_href origine", "manmade artificiel artificielle"},     // INSPIRE
+    {"dfdd f_code", "bh010 bh020 bh030 bh060 bh065 bh110 aq113", "ba010"}, // EU-Hydro, VMAP: codes of DFDD
+    {"objart", "44003"},                                                   // ATKIS
+    {"fkt funktion", "8300 8400 8410"},                                    // its axes of canals and ditches
+    {"tipotrechodrenagem tipo_trecho_drenagem tipotrecho", "2 4 5 11"},    // EDGV
+    {"waterdefinition water_definition waterdefin definition", "1 2 3"},   // NHN: canal, conduit, ditch
 }};
 
 bool is_among(std::string_view words, std::string_view word) {
@@ -77,8 +80,13 @@ std::string nhd_type(std::string const& type) {
                                                    : "";
 }
 
-// The value of a key among others: "power"=>"line" (hstore) or "power": "line" (JSON). "": it is not there.
-std::string value_in(std::string_view tags, std::string_view key) {
+bool holds_tags(std::string const& value) {
+    return value.find("=>") != std::string::npos || value.starts_with('{');
+}
+
+} // namespace
+
+std::string value_of_tag(std::string_view tags, std::string_view key) {
     std::string const name = fmt::format("\"{}\"", key);
     for (std::size_t at = tags.find(name); at != std::string_view::npos; at = tags.find(name, at + 1)) {
         std::string_view rest = tags.substr(at + name.size());
@@ -98,12 +106,6 @@ std::string value_in(std::string_view tags, std::string_view key) {
     }
     return "";
 }
-
-bool holds_tags(std::string const& value) {
-    return value.find("=>") != std::string::npos || value.starts_with('{');
-}
-
-} // namespace
 
 NaturalFilter::NaturalFilter(OGRLayer& layer)
     : all_tags_(layer, {"other_tags", "all_tags", "tags"}, false),
@@ -127,7 +129,7 @@ NaturalFilter::NaturalFilter(OGRLayer& layer)
 std::string NaturalFilter::tag(OGRFeature const& feature, std::string_view key) const {
     auto const column = tags_.find(key);
     std::string value = column == tags_.end() ? "" : column->second.text(feature);
-    return lower_case(value.empty() && all_tags_.is_there() ? value_in(all_tags_.text(feature), key) : value);
+    return lower_case(value.empty() && all_tags_.is_there() ? value_of_tag(all_tags_.text(feature), key) : value);
 }
 
 bool NaturalFilter::is_way(OGRFeature const& feature) const {

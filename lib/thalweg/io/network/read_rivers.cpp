@@ -17,6 +17,7 @@
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 
 namespace thalweg::io {
 
@@ -34,7 +35,7 @@ public:
                         .to_node = column(params.to_field),
                         .direction = column(params.direction_field),
                         .rank = number_column(params.rank_field)}),
-          natural_(layer), attributes_(layer) {
+          natural_(layer), lake_(layer), attributes_(layer) {
         if (!params.where.empty()) {
             where_ = std::make_unique<OGRFeatureQuery>();
             refuse_if<BadInput>(where_->Compile(&layer, params.where.c_str(), TRUE, nullptr) != OGRERR_NONE,
@@ -80,6 +81,7 @@ public:
 
     std::vector<RiverLine> lines; ///< in coordinates of the layer
     std::vector<NotNatural> others;
+    std::vector<Polygon> lakes;
     std::vector<Finding> findings;
 
 private:
@@ -115,6 +117,9 @@ private:
         fields_.read(feature, line);
         flow_.read(feature, number_);
         attributes_.read(feature);
+        if (lake_.take(feature, number_, lakes)) {
+            return;
+        }
         Unnatural const why = filter_ == LineFilter::natural ? natural_.of(feature) : Unnatural();
         OGRGeometry const* const drawn = feature.GetGeometryRef();
         std::int64_t const other_shapes = shapes_.count();
@@ -188,6 +193,7 @@ private:
     RiverFields fields_;
     FlowFields flow_;
     NaturalFilter natural_;
+    LakeFilter lake_;
     AttributeReader attributes_;
     OtherShapes shapes_;
     std::int64_t number_ = 0; ///< of the feature in hand, from 1
@@ -268,6 +274,24 @@ void require_halves(ReadRiversParams const& params) {
 
 } // namespace
 
+namespace {
+
+/// The lakes of a file's other layers. Of OpenStreetMap one layer is read at a time.
+std::vector<Polygon> other_lakes(ReadRiversParams const& params, GDALDataset& data, std::vector<OGRLayer*> const& read,
+                                 IntoMetres const& metres, OGRSpatialReference const& own, Run const& run) {
+    if (data.GetDriver() == nullptr || !EQUAL(data.GetDriver()->GetDescription(), "OSM")) {
+        return lakes_of_layers(data, read, metres, own, run);
+    }
+    Dataset const again = open_unchanged(params.path, GDAL_OF_VECTOR);
+    if (!again) {
+        return {};
+    }
+    again->ReleaseResultSet(again->ExecuteSQL("SET interest_layers = multipolygons", nullptr, nullptr));
+    return lakes_of_layers(*again, {}, metres, own, run);
+}
+
+} // namespace
+
 RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     require_halves(params);
     std::string const& path = params.path.name();
@@ -332,6 +356,11 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         std::vector<Finding> const others = layers_not_read(*data, layers, metres.crs(), source_crs, rivers.name);
         rivers.findings.insert(rivers.findings.end(), others.begin(), others.end());
     }
+    rivers.lakes = into_metres(std::move(read.lakes), metres);
+    for (Polygon& lake : other_lakes(params, *data, layers, metres, own, run)) {
+        rivers.lakes.push_back(std::move(lake));
+    }
+    rivers.lakes = united(std::move(rivers.lakes));
     rivers.attributes = read.attributes();
     rivers.rank_field = read.rank_name();
     rivers.crs = metres.crs();

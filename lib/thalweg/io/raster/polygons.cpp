@@ -258,6 +258,117 @@ Polygons read_polygons_valued(Source const& source, std::string const& crs, std:
 
 namespace {
 
+std::unique_ptr<OGRGeometry> shape_of(Polygon const& polygon) {
+    auto shape = std::make_unique<OGRPolygon>();
+    for (std::vector<Vec2> const& ring : polygon.rings) {
+        if (ring.size() < 3) {
+            continue;
+        }
+        auto* const closed = new OGRLinearRing; // the polygon owns it
+        for (Vec2 const p : ring) {
+            closed->addPoint(p.x, p.y);
+        }
+        closed->closeRings();
+        shape->addRingDirectly(closed);
+    }
+    return shape;
+}
+
+/// By polygon: the first of those whose boxes overlap, directly or through others.
+std::vector<std::size_t> groups_by_box(std::vector<OGREnvelope> const& boxes) {
+    std::vector<std::size_t> order(boxes.size());
+    std::vector<std::size_t> root(boxes.size());
+    for (std::size_t i = 0; i < boxes.size(); ++i) {
+        order[i] = root[i] = i;
+    }
+    std::ranges::sort(order, {}, [&](std::size_t i) { return std::pair(boxes[i].MinX, i); });
+    auto const of = [&](std::size_t i) {
+        while (root[i] != i) {
+            i = root[i] = root[root[i]];
+        }
+        return i;
+    };
+    for (std::size_t a = 0; a < order.size(); ++a) {
+        for (std::size_t b = a + 1; b < order.size() && boxes[order[b]].MinX <= boxes[order[a]].MaxX; ++b) {
+            if (boxes[order[a]].Intersects(boxes[order[b]]) != 0) {
+                std::size_t const one = of(order[a]);
+                std::size_t const other = of(order[b]);
+                root[std::max(one, other)] = std::min(one, other);
+            }
+        }
+    }
+    for (std::size_t i = 0; i < root.size(); ++i) {
+        root[i] = of(i);
+    }
+    return root;
+}
+
+void take_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<Polygon>& polygons) {
+    auto const flat = wkbFlatten(shape.getGeometryType());
+    if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
+        for (auto const* const part : *shape.toGeometryCollection()) {
+            take_parts(*part, feature, polygons);
+        }
+    } else if (flat == wkbPolygon && shape.IsEmpty() == 0) {
+        Polygon& polygon = polygons.emplace_back(Polygon{feature, {}});
+        for (auto const* const ring : *shape.toPolygon()) {
+            add_ring(*ring, polygon, "united");
+        }
+    }
+}
+
+} // namespace
+
+std::vector<Polygon> united(std::vector<Polygon> polygons) {
+    Driver const driver;
+    std::vector<std::unique_ptr<OGRGeometry>> shapes;
+    std::vector<OGREnvelope> boxes(polygons.size());
+    for (std::size_t i = 0; i < polygons.size(); ++i) {
+        shapes.push_back(shape_of(polygons[i]));
+        shapes[i]->getEnvelope(&boxes[i]);
+    }
+    std::vector<std::size_t> const group = groups_by_box(boxes);
+    std::map<std::size_t, std::vector<std::size_t>> members;
+    for (std::size_t i = 0; i < group.size(); ++i) {
+        members[group[i]].push_back(i);
+    }
+    std::vector<Polygon> result;
+    for (auto const& [first, of] : members) {
+        if (of.size() == 1 && shapes[first]->IsValid() != 0) {
+            take_parts(*shapes[first], polygons[first].feature, result);
+            continue;
+        }
+        OGRMultiPolygon all;
+        for (std::size_t const i : of) {
+            std::unique_ptr<OGRGeometry> const mended(shapes[i]->IsValid() != 0 ? shapes[i]->clone()
+                                                                                : shapes[i]->MakeValid());
+            std::vector<Polygon> parts;
+            if (mended != nullptr) {
+                take_parts(*mended, polygons[i].feature, parts);
+            }
+            for (Polygon const& part : parts) {
+                all.addGeometryDirectly(shape_of(part).release());
+            }
+        }
+        std::unique_ptr<OGRGeometry> const whole(all.UnionCascaded());
+        if (whole == nullptr) {
+            continue;
+        }
+        std::vector<Polygon> parts;
+        take_parts(*whole, polygons[first].feature, parts);
+        for (Polygon& part : parts) { // the first feature in it
+            std::unique_ptr<OGRGeometry> const shape = shape_of(part);
+            auto const own =
+                std::ranges::find_if(of, [&](std::size_t i) { return shape->Intersects(shapes[i].get()) != 0; });
+            part.feature = own == of.end() ? part.feature : polygons[*own].feature;
+            result.push_back(std::move(part));
+        }
+    }
+    return result;
+}
+
+namespace {
+
 constexpr std::int32_t none = -1;
 
 void require_numbers(Raster<std::int32_t> const& numbers, std::int64_t count, std::string const& what) {

@@ -61,6 +61,13 @@ Polygons read_polygons(Source const& source, std::string const& crs, std::string
 Polygons read_polygons_valued(Source const& source, std::string const& crs, std::string const& field,
                               Run const& run = {});
 
+/// Unites polygons that overlap or touch, and mends those that cross themselves.
+/// \param polygons any; rings of fewer than three vertices are left out
+/// \return valid polygons, of which no two share more than a point; each with the lowest feature of its own
+///
+/// Source: GEOS, by GDAL.
+std::vector<Polygon> united(std::vector<Polygon> polygons);
+
 /// The catchment of an arc as a row.
 struct CatchmentRow {
     std::int64_t arc_id = 0;

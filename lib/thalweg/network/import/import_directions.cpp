@@ -612,7 +612,7 @@ Directions review_directions(Pieces const& p, std::vector<RiverLine> const& line
         }
         Piece const& piece = p.pieces[k];
         int const runs = piece.from == n ? 1 : -1;
-        tally->turned_m += runs < 0 ? piece.length_m : 0.0;
+        tally->turned_m += runs < 0 && lines[piece.line].feature != 0 ? piece.length_m : 0.0;
         if (found.said[k] != 0) {
             tally->said_m += piece.length_m;
             if (found.said[k] != runs) {

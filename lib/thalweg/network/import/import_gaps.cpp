@@ -19,16 +19,11 @@ constexpr double share_of_named = 0.1;  // of the shorter line: gap to the line 
 constexpr double much_as_drawn = 0.4;   // share above a half by which a drawing is sure
 constexpr double vertex_farther = 1.25; // times as far as a point between vertices, and still preferred
 
+} // namespace
+
 Vec2 end_of(RiverLine const& line, std::size_t e) {
     return in_plan(e % 2 == 0 ? line.vertices.front() : line.vertices.back());
 }
-
-/// How lines hang together before gaps are closed.
-struct Parts {
-    std::vector<std::size_t> of_line; ///< its connected part
-    std::vector<char> is_open;        ///< by end: it meets no other line
-    std::size_t most = 0;             ///< numbers are less
-};
 
 Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
     Parts parts{std::vector<std::size_t>(lines.size(), 0), std::vector<char>(2 * lines.size(), 0), pieces.nodes.size()};
@@ -48,7 +43,6 @@ Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
     return parts;
 }
 
-/// By end: 1: water leaves the line there, -1: it begins there, 0: that is not sure.
 std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
                           ImportParams const& params, Left& left, Run const& run) {
     std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation, left.repairs);
@@ -67,6 +61,8 @@ std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, R
     }
     return flows;
 }
+
+namespace {
 
 /// A place to which an end may be joined.
 struct Joint {

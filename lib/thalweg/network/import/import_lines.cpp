@@ -144,7 +144,7 @@ std::vector<char> vanishing(Flow const& flow, std::vector<Finding>& repairs) {
             continue;
         }
         result[n] = 1;
-        if (upper.feature != lower.feature) {
+        if (upper.feature != lower.feature && upper.feature != 0 && lower.feature != 0) {
             auto const& piece = flow.pieces.pieces[flow.leaves[n]];
             Vec2 const at = flow.pieces.nodes[n];
             repairs.push_back({"joined", upper.number(), at, piece.length_m,
@@ -211,10 +211,14 @@ public:
         std::vector<Stretch> stretches;
         double along_m = 0.0;
         for (std::size_t i = 1; i < line_.size(); ++i) {
-            if (stretches.empty() || stretches.back().feature != features_[i - 1]) {
-                stretches.push_back({features_[i - 1], along_m, along_m});
-            }
+            double const from_m = along_m;
             along_m += distance(line_[i - 1], line_[i]);
+            if (features_[i - 1] == 0) { // through a lake
+                continue;
+            }
+            if (stretches.empty() || stretches.back().feature != features_[i - 1] || stretches.back().to_m != from_m) {
+                stretches.push_back({features_[i - 1], from_m, from_m});
+            }
             stretches.back().to_m = along_m;
         }
         return stretches;
@@ -229,8 +233,11 @@ private:
     std::vector<std::int64_t> features_;
 };
 
-// The longest; of several the most upstream.
+// The longest; of several the most upstream. 0: none.
 std::int64_t longest_of(std::vector<Stretch> const& stretches) {
+    if (stretches.empty()) {
+        return 0;
+    }
     return std::ranges::max_element(stretches, {}, [](Stretch const& s) { return s.to_m - s.from_m; })->feature;
 }
 
@@ -283,6 +290,16 @@ void add_arcs(Imported& imported, Flow const& flow, std::vector<double> const& n
     imported.network = std::move(network);
 }
 
+/// Lines through lakes are not the file's: what is done to them is no repair, and what is left of them no river.
+void forget_lake_lines(Imported& imported, std::int64_t number) {
+    std::erase_if(imported.secondary, [](SecondaryLine const& line) { return line.feature == 0; });
+    std::erase_if(imported.repairs, [&](Finding const& f) {
+        return f.feature == number && (f.kind == FindingKind("split") || f.kind == FindingKind("reversed") ||
+                                       f.kind == FindingKind("secondary") || f.kind == FindingKind("duplicate") ||
+                                       f.kind == FindingKind("cut") || f.kind == FindingKind("height"));
+    });
+}
+
 } // namespace
 
 Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
@@ -326,6 +343,10 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     if (params.cell_m > 0.0 && import_steps::close_gaps(lines, file, params, left, run)) {
         import_steps::split(lines, run);
     }
+    bool const crosses_lakes = import_steps::cross_lakes(lines, file, params, left, run);
+    if (crosses_lakes) {
+        import_steps::split(lines, run);
+    }
     run.at(0.7, "adopt");
     double const near_m = std::min(snap_m, 1e-6 * import_steps::diagonal_of(file.lines));
     import_steps::drop_overshoots(lines, slip_in_near * near_m, left);
@@ -352,6 +373,9 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     }
     add_arcs(imported, flow, file.has_z ? node_heights(flow, repairs) : std::vector<double>(), params.join,
              {near_m, std::max(slip_in_near * near_m, params.cell_m)}, left);
+    if (crosses_lakes) {
+        forget_lake_lines(imported, -lines.front().id_shift);
+    }
     run.at(1.0, "adopt");
     return imported;
 }

@@ -407,7 +407,7 @@ RootScores::RootScores(Pieces const& p, std::vector<RiverLine> const& lines, Rea
     if (dem != nullptr) {
         measure_heights(*dem);
     }
-    measure_votes(certain, lines.size());
+    measure_votes(certain, lines);
     sample();
     for (std::size_t k = 0; k < graph.reaches.size(); ++k) {
         Reach const& r = graph.reaches[k];
@@ -471,9 +471,9 @@ void RootScores::measure_heights(Raster<float> const& dem) {
     }
 }
 
-/// A line that others meet on its way votes once, however many reaches that makes of it.
-void RootScores::measure_votes(Votes const& certain, std::size_t lines) {
-    std::vector<double> reaches_of_line(lines, 0.0);
+/// A line that others meet on its way votes once, however many reaches that makes of it; one through a lake does not.
+void RootScores::measure_votes(Votes const& certain, std::vector<RiverLine> const& lines) {
+    std::vector<double> reaches_of_line(lines.size(), 0.0);
     for (Reach const& r : graph_.reaches) {
         std::vector<std::size_t> seen;
         for (auto const& [k, runs] : r.steps) {
@@ -492,11 +492,15 @@ void RootScores::measure_votes(Votes const& certain, std::size_t lines) {
         for (auto const& [k, runs] : r.steps) {
             double const m = p_.pieces[k].length_m;
             double const share = 1.0 / reaches_of_line[p_.pieces[k].line];
+            bool const is_drawn = lines[p_.pieces[k].line].feature != 0;
             length_m += m;
+            certain_m += certain.empty() ? 0.0 : runs * certain[k] * m;
+            if (!is_drawn) {
+                continue;
+            }
             drawn_m += runs * m;
             vote_m += runs * m * share;
             weight_m += m * share;
-            certain_m += certain.empty() ? 0.0 : runs * certain[k] * m;
         }
         drawn_.push_back(drawn_m / length_m);
         vote_.push_back(vote_m / length_m);

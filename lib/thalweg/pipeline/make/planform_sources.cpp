@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <optional>
 
 #include <fmt/format.h>
@@ -321,17 +322,119 @@ std::vector<GapBelow> gaps_below(StreamNetwork const& network, Grid const& grid,
     return gaps;
 }
 
+/// A place that rivers end around, and where another one begins.
+struct Hollow {
+    NodeId source = 0;        ///< of the river that begins there
+    std::vector<NodeId> ends; ///< the nearest first
+    double farthest_m = 0.0;
+};
+
+/// Whether a line is met by the straight way between two places, other than at these.
+bool is_met(std::vector<Vec2> const& line, Vec2 from, Vec2 to) {
+    for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+        Vec2 const a = line[i];
+        Vec2 const b = line[i + 1];
+        if (a != from && b != from && a != to && b != to && (cross(from, to, a) > 0.0) != (cross(from, to, b) > 0.0) &&
+            (cross(a, b, from) > 0.0) != (cross(a, b, to) > 0.0)) {
+            return true;
+        }
+    }
+    return false;
+}
+
+/// The places that rivers of other basins run towards and end at, and one begins at that leads away: one within 50
+/// cells, or several nearer than to the border, with nothing drawn between.
+std::vector<Hollow> hollows(StreamNetwork const& network, Grid const& grid, Run const& run) {
+    double const least_m = 2.0 * grid.cell_m; // nearer ones are gaps
+    double const most_m = 50.0 * grid.cell_m;
+    std::vector<NodeId> sources;
+    for (NodeId n = 0; n < network.node_count(); ++n) {
+        if (network.in(n).empty() && network.out(n) != no_arc) {
+            sources.push_back(n);
+        }
+    }
+    std::map<NodeId, Hollow> found;
+    for (NodeId const outlet : network.outlets()) {
+        run.check();
+        Vec2 const at = network.node(outlet).at;
+        double const border_m = distance_to_border(at, grid);
+        auto const& last = network.arc(network.in(outlet).front()).line;
+        Vec2 const ahead = at - last[last.size() - 2];
+        std::optional<NodeId> nearest;
+        double nearest_m = border_m;
+        for (NodeId const source : sources) {
+            Vec2 const way = network.node(source).at - at;
+            double const m = norm(way);
+            auto const& first = network.arc(network.out(source)).line;
+            bool const leads_on = dot(way, ahead) > 0.0 && dot(way, first[1] - first[0]) > 0.0;
+            if (m > least_m && m < nearest_m && leads_on && network.basin(source) != network.basin(outlet)) {
+                nearest = source;
+                nearest_m = m;
+            }
+        }
+        bool const is_seen = nearest && std::ranges::none_of(network.arcs(), [&](Arc const& arc) {
+                                 return is_met(arc.line, at, network.node(*nearest).at);
+                             });
+        if (is_seen) {
+            Hollow& hollow = found[*nearest];
+            hollow.source = *nearest;
+            hollow.ends.push_back(outlet);
+            hollow.farthest_m = std::max(hollow.farthest_m, nearest_m);
+        }
+    }
+    std::vector<Hollow> result;
+    for (auto const& [source, hollow] : found) {
+        if (hollow.ends.size() > 1 || hollow.farthest_m <= most_m) {
+            result.push_back(hollow);
+        }
+    }
+    return result;
+}
+
+/// Warns where rivers end around a place at which another one begins, as at a lake without an outline.
+void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> const& found, StageLog& stage_log) {
+    if (found.empty()) {
+        return;
+    }
+    std::size_t ends = 0;
+    for (Hollow const& hollow : found) {
+        ends += hollow.ends.size();
+    }
+    Hollow const& most = *std::ranges::max_element(found, {}, [](Hollow const& h) { return h.ends.size(); });
+    Vec2 const at = network.node(most.source).at;
+    stage_log.find(
+        {.kind = "lake_without_outline",
+         .where = at,
+         .amount = static_cast<double>(ends),
+         .text = fmt::format("{} at {} as at the shore of a lake, from which another one leaves; so {} up to "
+                             "{:.3g} m from ({:.0f}, {:.0f}), where one begins",
+                             ends == 1 ? "1 river ends" : fmt::format("{} rivers end", ends),
+                             found.size() == 1 ? "1 place" : fmt::format("{} places", found.size()),
+                             most.ends.size() == 1 ? "does 1" : fmt::format("do {}", most.ends.size()), most.farthest_m,
+                             at.x, at.y),
+         .remedy = "Give the lake's outline, --set surface.lakes=FILE or as a polygon in the river file, or "
+                   "draw the river through it; if their water sinks there: --set network.inland=sink",
+         .key = "surface.lakes",
+         .numbers = {{"places", static_cast<double>(found.size())}}});
+}
+
 /// Warns where rivers end nearer to others than to the border, away from their mouths: they were probably meant to
 /// meet.
 /// \param snapped_m [m] the distance within which ends have been joined
-void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, bool has_sea, StageLog& stage_log,
-                  Run const& run) {
+/// \param around of these ends wide gaps are told already
+void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped_m, bool has_sea,
+                  std::vector<Hollow> const& around, StageLog& stage_log, Run const& run) {
     constexpr double small_cells = 3.0; // a larger snapping distance would move too much
+    double const enough_m = small_cells * grid.cell_m;
     std::vector<GapBelow> gaps = gaps_below(network, grid, has_sea, run);
+    std::erase_if(gaps, [&](GapBelow const& gap) {
+        return gap.gap_m > enough_m && std::ranges::any_of(around, [&](Hollow const& hollow) {
+                   return std::ranges::find(hollow.ends, gap.outlet) != hollow.ends.end();
+               });
+    });
     if (gaps.empty()) {
         return;
     }
-    double const enough_m = small_cells * grid.cell_m;
     bool const is_small =
         snapped_m < enough_m && std::ranges::any_of(gaps, [&](GapBelow const& gap) { return gap.gap_m <= enough_m; });
     if (is_small) {
@@ -481,7 +584,10 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     stage_log.find(direction_findings(imported.directions, params.dem != nullptr ? "" : "--set network.lines.dem=FILE",
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
-    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_coastlines(plan), stage_log, run);
+    bool const may_end = has_coastlines(plan) || plan.recipe.network->inland != InlandEnds::carry;
+    std::vector<Hollow> const around = may_end ? std::vector<Hollow>() : hollows(imported.network, rivers.grid, run);
+    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_coastlines(plan), around, stage_log, run);
+    warn_of_hollows(imported.network, around, stage_log);
     rivers.land = land_of_coastlines(plan, stage_log, run);
     rivers.file_heights = heights_of_file(plan, imported, stage_log);
     rivers.network = std::move(imported.network);

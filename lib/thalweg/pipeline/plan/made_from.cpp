@@ -36,6 +36,9 @@ Recipe of_rivers(Recipe recipe) {
         SurfaceRecipe surface;
         surface.method = recipe.surface->method;
         surface.source = recipe.surface->source; // rivers end at its holes
+        if (recipe.network && recipe.network->source == Source::lines) {
+            surface.equilibrium.lakes = recipe.surface->equilibrium.lakes; // and run through these
+        }
         recipe.surface = std::move(surface);
     }
     return recipe;
@@ -49,6 +52,9 @@ std::string lines_made_from(Recipe const& recipe) {
     decisive.network.emplace().source = recipe.network->source;
     decisive.network->lines = recipe.network->lines;
     decisive.folder = recipe.folder;
+    if (recipe.surface && !recipe.surface->equilibrium.lakes.empty()) {
+        decisive.surface.emplace().equilibrium.lakes = recipe.surface->equilibrium.lakes;
+    }
     return state_in_words(decisive) + fmt::format("\n{}", recipe.network->slope); // of lines without heights
 }
 

@@ -258,6 +258,23 @@ double usual_slope_deg(double cell_m) {
     return std::max(0.5, std::round(2.0 * degrees) / 2.0);
 }
 
+namespace {
+
+/// Adds the lakes of surface.lakes, through which rivers run on.
+RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run const& run) {
+    if (!recipe.surface || recipe.surface->equilibrium.lakes.empty()) {
+        return lines;
+    }
+    Polygons lakes = io::read_polygons(file_in(recipe, recipe.surface->equilibrium.lakes), lines.crs, run);
+    for (Polygon& lake : lakes.polygons) {
+        lines.lakes.push_back(std::move(lake));
+    }
+    lines.lakes = io::united(std::move(lines.lakes));
+    return lines;
+}
+
+} // namespace
+
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
@@ -275,6 +292,7 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
                                         .where = wanted.where,
                                         .source_crs = wanted.source_crs},
                                        run);
+    lines = with_lakes_of_surface(std::move(lines), recipe, run);
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
     network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));

@@ -14,6 +14,7 @@
 #include <vector>
 
 #include <thalweg/core/by_enum.hpp>
+#include <thalweg/core/features.hpp>
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -25,9 +26,11 @@
 class OGRFeature;
 class OGRGeometry;
 class OGRLayer;
+class OGRSpatialReference;
 
 namespace thalweg::io {
 
+class IntoMetres;
 class Notes;
 
 // Names.
@@ -271,6 +274,42 @@ private:
     };
     std::vector<Code> codes_; ///< columns of other schemas
 };
+
+/// The value of a key among other tags: "power"=>"line" (hstore) or "power": "line" (JSON). "": it is not there.
+std::string value_of_tag(std::string_view tags, std::string_view key);
+
+// Lakes.
+
+/// The fields by which OpenStreetMap, NHD and others tell lakes from other polygons.
+class LakeFilter {
+public:
+    explicit LakeFilter(OGRLayer& layer);
+
+    /// Takes a feature's polygons where it is a lake: all polygons of a layer that says nothing of what they are.
+    /// \param number of the feature, from 1
+    /// \return false: it is none
+    bool take(OGRFeature const& feature, std::int64_t number, std::vector<Polygon>& lakes) const;
+
+private:
+    std::string tag(OGRFeature const& feature, std::string_view key) const;
+    bool is_lake(OGRFeature const& feature) const;
+
+    std::vector<std::pair<std::string, FileColumn>> tags_; ///< columns of single keys
+    FileColumn all_tags_;
+    FileColumn ftype_;
+    std::vector<FileColumn> kinds_;
+    bool is_named_ = false; ///< the layer is, for lakes
+    bool is_tagged_ = false;
+};
+
+/// The lakes of layers that are named for them, in the CRS of the rivers.
+/// \param read layers of rivers, which are passed over
+/// \param own CRS of the file's rivers; layers in another are passed over
+std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> const& read, IntoMetres const& metres,
+                                     OGRSpatialReference const& own, Run const& run);
+
+/// Without those of which a vertex cannot be reprojected.
+std::vector<Polygon> into_metres(std::vector<Polygon> lakes, IntoMetres const& metres);
 
 // Lines.
 

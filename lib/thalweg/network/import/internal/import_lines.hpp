@@ -135,6 +135,30 @@ struct Evidence {
     char const* name; ///< "by NAME", for messages
 };
 
+/// An end of a line: 2 l is the first vertex of line l, 2 l + 1 its last.
+Vec2 end_of(RiverLine const& line, std::size_t e);
+
+/// How lines hang together.
+struct Parts {
+    std::vector<std::size_t> of_line; ///< its connected part
+    std::vector<char> is_open;        ///< by end: it meets no other line
+    std::size_t most = 0;             ///< numbers are less
+};
+
+Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines);
+
+/// By end: 1: water leaves the line there, -1: it begins there, 0: that is not sure.
+std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
+                          ImportParams const& params, Left& left, Run const& run);
+
+/// Leads rivers that end at a lake through it: from their open ends, within half a cell of its shore (two where water
+/// arrives) or inside, to its outflow, or to the river that passes through it. Straight where that way is in the water,
+/// else along the medial lines between the pieces of shore from one mouth to the next. The lines added have feature 0.
+/// \param lines split
+/// \return whether any were added
+bool cross_lakes(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
+                 Run const& run);
+
 /// Chooses the evidence to use, the most trusted first. Makes ranks fall downstream, unless these are asked for: where
 /// links, areas or, together, meeting lines as they are drawn say that they rise, they are counted from the other end,
 /// with a finding (turned_rank).

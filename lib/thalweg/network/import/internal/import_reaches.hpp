@@ -115,7 +115,7 @@ private:
     void measure_angles();
     void measure_heights(Raster<float> const& dem);
     double lines_split(std::size_t node, std::size_t left_by) const;
-    void measure_votes(Votes const& certain, std::size_t lines);
+    void measure_votes(Votes const& certain, std::vector<RiverLine> const& lines);
     void sample();
     double leaf_terms(std::size_t node, Vec2 low, Vec2 high) const;
     bool is_free_ahead(std::size_t node) const;

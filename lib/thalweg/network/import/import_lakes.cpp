@@ -1,0 +1,779 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
+#include <map>
+#include <optional>
+#include <queue>
+#include <tuple>
+#include <utility>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/diagram.hpp>
+#include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/polylines.hpp>
+#include <thalweg/network/import/internal/import_lines.hpp>
+
+namespace thalweg::network::import_steps {
+namespace {
+
+constexpr double shore_cells = 0.5;     // an end lies at a shore that is within
+constexpr double inflow_cells = 2.0;    // or within this, where water leaves its line
+constexpr double apart_m = 0.05;        // places on a shore, at least
+constexpr double tolerance_cells = 0.1; // of a line through a lake
+
+/// A place on the outer ring of a lake.
+struct ShorePlace {
+    std::size_t segment = 0;
+    double along = 0.0;
+    Vec2 at;
+    double distance_m = std::numeric_limits<double>::infinity();
+};
+
+/// [0, 1] where segment ab meets segment cd, if it does; parallel ones do not.
+std::optional<double> meeting_along(Vec2 a, Vec2 b, Vec2 c, Vec2 d) {
+    double const of_c = cross(a, b, c);
+    double const of_d = cross(a, b, d);
+    double const of_a = cross(c, d, a);
+    double const of_b = cross(c, d, b);
+    if (of_a == of_b || (of_c > 0.0) == (of_d > 0.0) || of_a * of_b > 0.0) {
+        return std::nullopt;
+    }
+    return std::clamp(of_a / (of_a - of_b), 0.0, 1.0);
+}
+
+/// The outline of a lake: its shore, and its islands.
+class Outline {
+public:
+    explicit Outline(Polygon const& lake) : rings_(lake.rings) {
+        for (Vec2 const p : rings_.front()) {
+            low_ = {std::min(low_.x, p.x), std::min(low_.y, p.y)};
+            high_ = {std::max(high_.x, p.x), std::max(high_.y, p.y)};
+        }
+    }
+
+    Vec2 low() const { return low_; }
+    Vec2 high() const { return high_; }
+    std::vector<Vec2> const& shore() const { return rings_.front(); }
+    std::vector<std::vector<Vec2>> const& rings() const { return rings_; }
+
+    bool is_about(Vec2 p, double m) const {
+        return p.x >= low_.x - m && p.x <= high_.x + m && p.y >= low_.y - m && p.y <= high_.y + m;
+    }
+
+    bool contains(Vec2 p) const {
+        bool inside = false;
+        for (std::vector<Vec2> const& ring : rings_) {
+            inside = inside != geometry::contains(ring, p);
+        }
+        return inside;
+    }
+
+    ShorePlace nearest(Vec2 p) const {
+        ShorePlace best;
+        for (std::size_t i = 0; i < shore().size(); ++i) {
+            geometry::Foot const foot = geometry::foot_on(shore()[i], shore()[(i + 1) % shore().size()], p);
+            if (double const d = distance(p, foot.at); d < best.distance_m) {
+                best = {i, foot.along, foot.at, d};
+            }
+        }
+        return best;
+    }
+
+    /// Where a segment from within the lake first meets the outer shore.
+    std::optional<ShorePlace> way_out(Vec2 from, Vec2 to) const {
+        std::optional<ShorePlace> first;
+        for (std::size_t i = 0; i < shore().size(); ++i) {
+            Vec2 const c = shore()[i];
+            Vec2 const d = shore()[(i + 1) % shore().size()];
+            if (auto const along = meeting_along(from, to, c, d)) {
+                Vec2 const at = from + *along * (to - from);
+                if (!first || distance(from, at) < first->distance_m) {
+                    first = ShorePlace{i, geometry::foot_on(c, d, at).along, at, distance(from, at)};
+                }
+            }
+        }
+        return first;
+    }
+
+    /// Whether the straight way between two places is in the water; the first may lie on the shore.
+    bool sees(Vec2 a, Vec2 b) const {
+        for (std::vector<Vec2> const& ring : rings_) {
+            for (std::size_t i = 0; i < ring.size(); ++i) {
+                auto const along = meeting_along(a, b, ring[i], ring[(i + 1) % ring.size()]);
+                if (along && *along * distance(a, b) > apart_m) {
+                    return false;
+                }
+            }
+        }
+        return contains(a + 0.5 * (b - a));
+    }
+
+private:
+    std::vector<std::vector<Vec2>> const& rings_;
+    Vec2 low_{std::numeric_limits<double>::infinity(), std::numeric_limits<double>::infinity()};
+    Vec2 high_{-std::numeric_limits<double>::infinity(), -std::numeric_limits<double>::infinity()};
+};
+
+/// Where a river meets the shore of a lake.
+struct Mouth {
+    std::size_t line = 0;
+    Vec2 tip;                 ///< end of the line
+    int flow = 0;             ///< 1: water leaves the line there, -1: it begins there, 0: unknown
+    ShorePlace shore;         ///< where the line crosses the shore
+    std::vector<Vec2> inside; ///< the line from its tip to the shore, both included; where it ends ashore the shore
+    std::optional<Insertion> on = {}; ///< of a river that passes through: its own vertex at the shore
+
+    /// Where the way through the lake begins.
+    Vec2 begin() const { return inside.front(); }
+};
+
+/// The medial lines of a lake between the pieces of shore from one mouth to the next: a tree whose leaves are mouths.
+class MiddleTree {
+public:
+    /// \param mouths along the shore, two or more
+    MiddleTree(Outline const& lake, std::vector<Mouth> const& mouths, double tolerance_m, Run const& run) {
+        std::vector<geometry::LabelledLine> shores = pieces_of_shore(lake, mouths);
+        append_islands(lake, shores);
+        double const margin_m = 1.0 + 0.01 * distance(lake.low(), lake.high());
+        geometry::Bounds const bounds{lake.low().x - margin_m, lake.low().y - margin_m, lake.high().x + margin_m,
+                                      lake.high().y + margin_m};
+        diagram_ = geometry::medial_lines(shores, bounds, {tolerance_m}, run);
+        at_.resize(diagram_.vertices.size());
+        for (std::size_t e = 0; e < diagram_.edges.size(); ++e) {
+            geometry::Diagram::Edge const& edge = diagram_.edges[e];
+            std::size_t const half = edge.line.size() / 2;
+            if (edge.from != edge.to &&
+                lake.contains(edge.line[half - 1] + 0.5 * (edge.line[half] - edge.line[half - 1]))) {
+                at_[edge.from].push_back(e);
+                at_[edge.to].push_back(e);
+            }
+        }
+        for (Mouth const& mouth : mouths) {
+            leaf_.push_back(nearest_leaf(mouth.begin()));
+        }
+    }
+
+    /// Ways from every mouth to one of them.
+    void root_at(std::size_t mouth) {
+        using Entry = std::pair<double, std::size_t>;
+        std::vector<double> way_m(at_.size(), std::numeric_limits<double>::infinity());
+        towards_.assign(at_.size(), no_edge);
+        std::priority_queue<Entry, std::vector<Entry>, std::greater<>> queue;
+        way_m[leaf_[mouth]] = 0.0;
+        queue.emplace(0.0, leaf_[mouth]);
+        while (!queue.empty()) {
+            auto const [m, v] = queue.top();
+            queue.pop();
+            if (m > way_m[v]) {
+                continue;
+            }
+            for (std::size_t const e : at_[v]) {
+                std::size_t const to = other_end(e, v);
+                if (double const next_m = m + length_of(e); next_m < way_m[to]) {
+                    way_m[to] = next_m;
+                    towards_[to] = e;
+                    queue.emplace(next_m, to);
+                }
+            }
+        }
+        is_taken_.assign(at_.size(), 0);
+    }
+
+    /// A way to the root, as far as no other has been taken.
+    struct Way {
+        std::vector<Vec2> line;
+        std::vector<std::pair<std::size_t, std::size_t>> vertices; ///< of the tree, and their places in the line
+        bool ends_at_root = false;
+    };
+
+    /// The way from a mouth's leaf.
+    Way way_from(std::size_t mouth) const {
+        std::size_t v = leaf_[mouth];
+        Way way{{diagram_.vertices[v].at}, {{v, 0}}};
+        while (is_taken_[v] == 0 && towards_[v] != no_edge) {
+            geometry::Diagram::Edge const& edge = diagram_.edges[towards_[v]];
+            if (edge.from == v) {
+                way.line.insert(way.line.end(), edge.line.begin() + 1, edge.line.end());
+            } else {
+                way.line.insert(way.line.end(), edge.line.rbegin() + 1, edge.line.rend());
+            }
+            v = other_end(towards_[v], v);
+            way.vertices.emplace_back(v, way.line.size() - 1);
+        }
+        way.ends_at_root = is_taken_[v] == 0;
+        return way;
+    }
+
+    /// Takes the first vertices of a way's line.
+    void take(Way const& way, std::size_t vertices) {
+        for (auto const& [v, place] : way.vertices) {
+            is_taken_[v] = is_taken_[v] != 0 || place < vertices ? 1 : 0;
+        }
+    }
+
+    bool is_whole() const {
+        return std::ranges::all_of(leaf_, [&](std::size_t v) { return v != no_edge; });
+    }
+
+private:
+    static constexpr double gap_m = 0.02; ///< between the pieces of shore at a mouth, half of it
+    static constexpr std::size_t no_edge = std::numeric_limits<std::size_t>::max();
+
+    std::size_t other_end(std::size_t e, std::size_t v) const {
+        return diagram_.edges[e].from == v ? diagram_.edges[e].to : diagram_.edges[e].from;
+    }
+
+    double length_of(std::size_t e) const {
+        double length_m = 0.0;
+        std::vector<Vec2> const& line = diagram_.edges[e].line;
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            length_m += distance(line[i - 1], line[i]);
+        }
+        return length_m;
+    }
+
+    /// One label a piece; what a river has in the lake belongs to both sides. At a mouth the pieces end a little before
+    /// it, and a point behind it that belongs to both keeps the middle between them in the lake.
+    static std::vector<geometry::LabelledLine> pieces_of_shore(Outline const& lake, std::vector<Mouth> const& mouths) {
+        std::vector<std::vector<Vec2>> lines;
+        for (std::size_t i = 0; i < mouths.size(); ++i) {
+            lines.push_back(shore_between(lake.shore(), mouths[i], mouths[(i + 1) % mouths.size()]));
+        }
+        double const outward = geometry::signed_area(lake.shore()) > 0.0 ? 1.0 : -1.0;
+        std::vector<geometry::LabelledLine> pieces;
+        std::vector<geometry::LabelledLine> behind;
+        for (std::size_t i = 0; i < mouths.size(); ++i) {
+            if (mouths[i].inside.size() > 1) {
+                continue;
+            }
+            std::size_t const last = (i + mouths.size() - 1) % mouths.size();
+            Vec2 const at = mouths[i].shore.at;
+            Vec2 const before = moved_back(lines[last], false);
+            Vec2 const after = moved_back(lines[i], true);
+            Vec2 const along = after - before;
+            double const m = norm(along);
+            Vec2 const out = m > 0.0 ? (outward * gap_m / m) * Vec2{along.y, -along.x} : Vec2{};
+            if (m > 0.0) {
+                behind.push_back({{at + out}, static_cast<std::int64_t>(last)});
+                behind.push_back({{at + out}, static_cast<std::int64_t>(i)});
+            }
+        }
+        for (std::size_t i = 0; i < lines.size(); ++i) {
+            pieces.push_back({std::move(lines[i]), static_cast<std::int64_t>(i)});
+        }
+        pieces.insert(pieces.end(), behind.begin(), behind.end());
+        return pieces;
+    }
+
+    /// Moves an end of a line back along it. \return where it is then
+    static Vec2 moved_back(std::vector<Vec2>& line, bool is_start) {
+        Vec2& end = is_start ? line.front() : line.back();
+        Vec2 const next = is_start ? line[1] : line[line.size() - 2];
+        double const m = distance(end, next);
+        end = end + (std::min(gap_m, 0.4 * m) / m) * (next - end);
+        return end;
+    }
+
+    static std::vector<Vec2> shore_between(std::vector<Vec2> const& shore, Mouth const& from, Mouth const& to) {
+        std::vector<Vec2> line = from.inside;
+        auto const add = [&](Vec2 p) {
+            if (distance(p, line.back()) > same_point_m) {
+                line.push_back(p);
+            }
+        };
+        std::size_t segment = from.shore.segment;
+        bool const is_around =
+            to.shore.segment < segment || (to.shore.segment == segment && to.shore.along <= from.shore.along);
+        std::size_t const vertices = to.shore.segment + (is_around ? shore.size() : std::size_t{0}) - segment;
+        for (std::size_t k = 0; k < vertices; ++k) {
+            segment = (segment + 1) % shore.size();
+            if (distance(shore[segment], to.inside.back()) > same_point_m) {
+                add(shore[segment]);
+            }
+        }
+        for (auto p = to.inside.rbegin(); p != to.inside.rend(); ++p) {
+            add(*p);
+        }
+        return line;
+    }
+
+    /// An island belongs to what is nearest to it, so that the tree stays one: the piece of shore, or an island that
+    /// belongs to it. Of many the largest count.
+    static void append_islands(Outline const& lake, std::vector<geometry::LabelledLine>& shores) {
+        constexpr std::size_t most_islands = 200;
+        std::vector<std::vector<Vec2>> islands(lake.rings().begin() + 1, lake.rings().end());
+        std::erase_if(islands, [](std::vector<Vec2> const& island) { return island.size() < 3; });
+        std::ranges::stable_sort(islands, std::greater(), [](std::vector<Vec2> const& island) {
+            return std::fabs(geometry::signed_area(island));
+        });
+        islands.resize(std::min(islands.size(), most_islands));
+        struct Nearest {
+            double m = std::numeric_limits<double>::infinity();
+            std::int64_t label = 0;
+        };
+        std::vector<Nearest> nearest(islands.size());
+        for (std::vector<Vec2>& island : islands) {
+            island.push_back(island.front());
+        }
+        auto const look_at = [&](geometry::LabelledLine const& line) {
+            for (std::size_t k = 0; k < islands.size(); ++k) {
+                if (double const m = distance_between(islands[k], line.line); m < nearest[k].m) {
+                    nearest[k] = {m, line.label};
+                }
+            }
+        };
+        std::ranges::for_each(shores, look_at);
+        while (!islands.empty()) {
+            auto const k = std::ranges::min_element(nearest, {}, &Nearest::m) - nearest.begin();
+            shores.push_back(
+                {std::move(islands[static_cast<std::size_t>(k)]), nearest[static_cast<std::size_t>(k)].label});
+            islands.erase(islands.begin() + k);
+            nearest.erase(nearest.begin() + k);
+            look_at(shores.back());
+        }
+    }
+
+    /// [m] Between lines that do not meet.
+    static double distance_between(std::vector<Vec2> const& one, std::vector<Vec2> const& other) {
+        double least_m = std::numeric_limits<double>::infinity();
+        auto const look = [&](std::vector<Vec2> const& points, std::vector<Vec2> const& line) {
+            for (Vec2 const p : points) {
+                for (std::size_t i = 0; i + 1 < line.size(); ++i) {
+                    least_m = std::min(least_m, distance(p, geometry::foot_on(line[i], line[i + 1], p).at));
+                }
+            }
+        };
+        look(one, other);
+        look(other, one);
+        return least_m;
+    }
+
+    std::size_t nearest_leaf(Vec2 p) const {
+        std::size_t best = no_edge;
+        double least_m = std::numeric_limits<double>::infinity();
+        for (std::size_t v = 0; v < at_.size(); ++v) {
+            double const d = distance(diagram_.vertices[v].at, p);
+            if (at_[v].size() == 1 && d < least_m) {
+                best = v;
+                least_m = d;
+            }
+        }
+        return best;
+    }
+
+    geometry::Diagram diagram_;
+    std::vector<std::vector<std::size_t>> at_; ///< by vertex: edges within the lake
+    std::vector<std::size_t> leaf_;            ///< by mouth
+    std::vector<std::size_t> towards_;         ///< by vertex: edge towards the root
+    std::vector<char> is_taken_;               ///< by vertex
+};
+
+/// Joins the parts of a network that meet lakes.
+class Lakes {
+public:
+    Lakes(std::vector<RiverLine>& lines, Parts parts, std::vector<int> flows, ImportParams const& params, bool has_z,
+          Left& left)
+        : lines_(lines), parts_(std::move(parts)), flows_(std::move(flows)), has_z_(has_z), left_(left),
+          joined_(parts_.most), near_m_(params.cell_m > 0.0 ? shore_cells * params.cell_m : params.snap_m),
+          far_m_(params.cell_m > 0.0 ? inflow_cells * params.cell_m : params.snap_m),
+          tolerance_m_(tolerance_cells * std::max(params.cell_m, params.snap_m)) {
+        for (RiverLine const& line : lines) {
+            Vec2 low = in_plan(line.vertices.front());
+            Vec2 high = low;
+            for (Vec3 const& v : line.vertices) {
+                low = {std::min(low.x, v.x), std::min(low.y, v.y)};
+                high = {std::max(high.x, v.x), std::max(high.y, v.y)};
+            }
+            boxes_.emplace_back(low, high);
+        }
+        for (std::size_t e = 0; e < parts_.is_open.size(); ++e) {
+            if (parts_.is_open[e] != 0) {
+                open_.emplace_back(end_of(lines[e / 2], e).x, e);
+            }
+        }
+        std::ranges::sort(open_);
+    }
+
+    void cross(Polygon const& lake, Run const& run) {
+        if (lake.rings.empty() || lake.rings.front().size() < 3) {
+            return;
+        }
+        Outline const outline(lake);
+        std::vector<Mouth> mouths = mouths_of(outline);
+        if (mouths.empty()) {
+            return;
+        }
+        std::vector<std::size_t> const passing = lines_through(outline, mouths);
+        std::size_t const first = added_.size();
+        added_m_ = 0.0;
+        rivers_ = 0;
+        out_ = nowhere;
+        if (!passing.empty()) {
+            std::erase_if(mouths, [](Mouth const& mouth) { return mouth.flow < 0; });
+            join_to(outline, passing, mouths);
+        } else if (std::ranges::all_of(mouths, [](Mouth const& mouth) { return mouth.flow > 0; })) {
+            return; // all its water sinks in it
+        }
+        try {
+            join_along_middle(outline, passing, mouths, run);
+        } catch (BadInput const& cannot) {
+            left_.repairs.push_back(
+                {"lake_left_out", lake.feature, mouths.front().tip, 0.0,
+                 fmt::format("rivers do not run through lake {}: {}", lake.feature, cannot.what())});
+        }
+        simplify_from(first);
+        if (rivers_ > 0) {
+            left_.repairs.push_back(
+                {"lake_crossed", lake.feature, out_, added_m_,
+                 fmt::format("lake {}: {} at its shore run on through it, to ({:.0f}, {:.0f}), over {:.0f} m",
+                             lake.feature,
+                             rivers_ == 1 ? "1 river that ends" : fmt::format("{} rivers that end", rivers_), out_.x,
+                             out_.y, added_m_)});
+        }
+    }
+
+    bool finish() {
+        if (added_.empty()) {
+            return false;
+        }
+        insert(lines_, std::move(insertions_));
+        lines_.insert(lines_.end(), std::make_move_iterator(added_.begin()), std::make_move_iterator(added_.end()));
+        drop_repeats(lines_);
+        return true;
+    }
+
+private:
+    std::size_t part(std::size_t line) { return joined_.of(parts_.of_line[line]); }
+
+    /// The open ends at a shore or within a lake, along its shore; of several at one place the first.
+    std::vector<Mouth> mouths_of(Outline const& lake) {
+        std::vector<Mouth> mouths;
+        auto at = std::ranges::lower_bound(open_, lake.low().x - far_m_, {}, &std::pair<double, std::size_t>::first);
+        for (; at != open_.end() && at->first <= lake.high().x + far_m_; ++at) {
+            std::size_t const e = at->second;
+            Vec2 const tip = end_of(lines_[e / 2], e);
+            if (parts_.is_open[e] == 0 || !lake.is_about(tip, far_m_)) {
+                continue;
+            }
+            Mouth mouth{e / 2, tip, flows_[e], lake.nearest(tip), {}};
+            bool const is_inside = mouth.shore.distance_m > same_point_m && lake.contains(tip);
+            if (is_inside && !goes_ashore(lake, e, mouth)) {
+                continue;
+            }
+            if (!is_inside && mouth.shore.distance_m > (mouth.flow < 0 ? near_m_ : far_m_)) {
+                continue;
+            }
+            if (!is_inside) {
+                mouth.shore.at = mouth.shore.distance_m <= same_point_m ? tip : rounded(mouth.shore.at);
+                mouth.inside = {mouth.shore.at};
+            }
+            mouths.push_back(std::move(mouth));
+        }
+        along_shore(mouths);
+        return mouths;
+    }
+
+    static void along_shore(std::vector<Mouth>& mouths) {
+        std::ranges::sort(mouths, {},
+                          [](Mouth const& m) { return std::tuple(m.shore.segment, m.shore.along, m.tip.x, m.tip.y); });
+        auto const repeats = std::ranges::unique(
+            mouths, [](Mouth const& a, Mouth const& b) { return distance(a.shore.at, b.shore.at) <= apart_m; });
+        mouths.erase(repeats.begin(), repeats.end());
+        if (mouths.size() > 1 && distance(mouths.front().shore.at, mouths.back().shore.at) <= apart_m) {
+            mouths.pop_back();
+        }
+    }
+
+    /// Follows a line from its end in the lake to the shore. \return false: all of it is in the lake
+    bool goes_ashore(Outline const& lake, std::size_t e, Mouth& mouth) const {
+        std::vector<Vec2> line = in_plan(lines_[e / 2].vertices);
+        if (e % 2 == 1) {
+            std::ranges::reverse(line);
+        }
+        mouth.inside = {line.front()};
+        for (std::size_t i = 1; i < line.size(); ++i) {
+            if (auto const out = lake.way_out(line[i - 1], line[i])) {
+                mouth.shore = *out;
+                mouth.shore.at = rounded(out->at);
+                if (distance(mouth.inside.back(), mouth.shore.at) > same_point_m) {
+                    mouth.inside.push_back(mouth.shore.at);
+                }
+                return true;
+            }
+            mouth.inside.push_back(line[i]);
+        }
+        return false;
+    }
+
+    /// The lines in a lake that do not end in it.
+    std::vector<std::size_t> lines_through(Outline const& lake, std::vector<Mouth> const& mouths) {
+        std::vector<std::size_t> through;
+        for (std::size_t l = 0; l < boxes_.size(); ++l) {
+            auto const& [low, high] = boxes_[l];
+            bool const is_about =
+                low.x <= lake.high().x && high.x >= lake.low().x && low.y <= lake.high().y && high.y >= lake.low().y;
+            if (!is_about || std::ranges::any_of(mouths, [&](Mouth const& m) { return part(m.line) == part(l); })) {
+                continue;
+            }
+            auto const& v = lines_[l].vertices;
+            for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+                Vec2 const a = in_plan(v[i]);
+                Vec2 const b = in_plan(v[i + 1]);
+                if (lake.contains(a + 0.5 * (b - a)) || lake.contains(b) || lake.way_out(a, b)) {
+                    through.push_back(l);
+                    break;
+                }
+            }
+        }
+        return through;
+    }
+
+    /// Joins mouths straight to the rivers that pass through, where the way is in the water; these mouths are removed.
+    void join_to(Outline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths) {
+        std::erase_if(mouths, [&](Mouth const& mouth) {
+            std::optional<Insertion> goal;
+            double least_m = std::numeric_limits<double>::infinity();
+            for (std::size_t const l : passing) {
+                auto const& v = lines_[l].vertices;
+                for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+                    geometry::Foot const foot = geometry::foot_on(in_plan(v[i]), in_plan(v[i + 1]), mouth.begin());
+                    double const m = distance(mouth.begin(), foot.at);
+                    if (m < least_m && lake.contains(foot.at) && lake.sees(mouth.begin(), foot.at)) {
+                        least_m = m;
+                        goal = Insertion{l, i, foot.along, foot.at};
+                    }
+                }
+            }
+            if (!goal || part(mouth.line) == part(goal->line)) {
+                return false;
+            }
+            add(mouth, {mouth.begin(), end_on(*goal)}, height_on(*goal));
+            joined_.join(part(mouth.line), part(goal->line));
+            return true;
+        });
+    }
+
+    /// The place on a line as a vertex, which is inserted where there is none.
+    Vec2 end_on(Insertion goal) {
+        auto const& v = lines_[goal.line].vertices;
+        for (std::size_t const i : {goal.segment, goal.segment + 1}) {
+            if (distance(in_plan(v[i]), goal.at) <= apart_m) {
+                return in_plan(v[i]);
+            }
+        }
+        goal.at = rounded(goal.at);
+        insertions_.push_back(goal);
+        return goal.at;
+    }
+
+    double height_on(Insertion const& goal) const {
+        auto const& v = lines_[goal.line].vertices;
+        return v[goal.segment].z + goal.along * (v[goal.segment + 1].z - v[goal.segment].z);
+    }
+
+    double height_at(Mouth const& mouth) const {
+        auto const& v = lines_[mouth.line].vertices;
+        return in_plan(v.front()) == mouth.tip ? v.front().z : v.back().z;
+    }
+
+    /// Joins what is still apart along the lake's medial lines, to its outflow or to a river that passes through.
+    void join_along_middle(Outline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths,
+                           Run const& run) {
+        if (mouths.empty()) {
+            return;
+        }
+        std::vector<std::size_t> parts;
+        for (std::size_t const l : passing) {
+            if (std::ranges::find(parts, part(l)) == parts.end() && append_passing(lake, l, mouths)) {
+                parts.push_back(part(l));
+            }
+        }
+        along_shore(mouths);
+        if (mouths.size() < 2) {
+            return;
+        }
+        auto const rank = [](Mouth const& m) { return m.on ? -2 : m.flow; };
+        auto const root = static_cast<std::size_t>(std::ranges::min_element(mouths, {}, rank) - mouths.begin());
+        MiddleTree tree(lake, mouths, tolerance_m_, run);
+        double z = height_at(mouths[root]);
+        if (mouths[root].on) {
+            z = height_on(*mouths[root].on);
+        }
+        bool const has_middle = tree.is_whole();
+        if (has_middle) {
+            tree.root_at(root);
+        }
+        for (std::size_t m = 0; m < mouths.size(); ++m) {
+            Mouth const& mouth = mouths[m];
+            if (m == root || mouth.on || part(mouth.line) == part(mouths[root].line)) {
+                continue;
+            }
+            MiddleTree::Way way;
+            if (has_middle) {
+                way = tree.way_from(m);
+            } else if (lake.sees(mouth.begin(), mouths[root].begin())) { // both end far within a small lake
+                way.ends_at_root = true;
+            } else {
+                throw BadInput("no line lies between its shores");
+            }
+            bool const is_stopped = stop_at(passing, way.line);
+            if (has_middle) {
+                tree.take(way, is_stopped ? way.line.size() - 1 : way.line.size());
+            }
+            way.line.insert(way.line.begin(), mouth.begin());
+            if (!is_stopped && way.ends_at_root) {
+                way.line.push_back(mouths[root].on ? end_on(*mouths[root].on) : mouths[root].begin());
+                if (!mouths[root].on && mouths[root].tip != mouths[root].begin()) {
+                    way.line.push_back(mouths[root].tip);
+                }
+            }
+            add(mouth, std::move(way.line), z);
+            joined_.join(part(mouth.line), part(mouths[root].line));
+            out_ = mouths[root].begin();
+            if (!mouths[root].on) {
+                close(mouths[root]);
+            }
+        }
+    }
+
+    /// Where a river that passes through crosses the shore, as a mouth.
+    bool append_passing(Outline const& lake, std::size_t l, std::vector<Mouth>& mouths) const {
+        auto const& v = lines_[l].vertices;
+        for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+            Vec2 const a = in_plan(v[i]);
+            Vec2 const b = in_plan(v[i + 1]);
+            if (auto out = lake.way_out(a, b)) {
+                out->at = rounded(out->at);
+                double const along = distance(a, out->at) / distance(a, b);
+                mouths.push_back({l, out->at, -1, *out, {out->at}, Insertion{l, i, along, out->at}});
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Ends a way where it first meets a river that passes through.
+    bool stop_at(std::vector<std::size_t> const& passing, std::vector<Vec2>& way) {
+        for (std::size_t k = 0; k + 1 < way.size(); ++k) {
+            std::optional<Insertion> first;
+            for (std::size_t const l : passing) {
+                auto const& v = lines_[l].vertices;
+                for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+                    auto const along = meeting_along(way[k], way[k + 1], in_plan(v[i]), in_plan(v[i + 1]));
+                    if (along) {
+                        Vec2 const at = way[k] + *along * (way[k + 1] - way[k]);
+                        if (!first || distance(way[k], at) < distance(way[k], first->at)) {
+                            double const on = geometry::foot_on(in_plan(v[i]), in_plan(v[i + 1]), at).along;
+                            first = Insertion{l, i, on, at};
+                        }
+                    }
+                }
+            }
+            if (first) {
+                way.resize(k + 1);
+                way.push_back(end_on(*first));
+                return true;
+            }
+        }
+        return false;
+    }
+
+    /// Adds the way from a mouth, or to it where water leaves the lake there.
+    void add(Mouth const& mouth, std::vector<Vec2> way, double z) {
+        if (mouth.tip != way.front()) {
+            way.insert(way.begin(), mouth.tip);
+        }
+        for (Vec2& p : way) { // those of the file are
+            p = rounded(p);
+        }
+        RiverLine& line = added_.emplace_back();
+        line.type = lines_[mouth.line].type;
+        line.id_shift = lines_.front().id_shift;
+        line.size.assign(lines_.front().size.size(), 0.0);
+        if (mouth.flow < 0) {
+            std::ranges::reverse(way);
+        }
+        for (Vec2 const p : way) {
+            line.vertices.push_back({p.x, p.y, has_z_ ? z : std::numeric_limits<double>::quiet_NaN()});
+        }
+        rivers_ += mouth.flow < 0 ? 0 : 1;
+        out_ = way.back();
+        close(mouth);
+    }
+
+    /// Leaves out vertices of the lines through a lake, but none where they meet.
+    void simplify_from(std::size_t first) {
+        std::vector<Vec2> ends;
+        for (std::size_t l = first; l < added_.size(); ++l) {
+            ends.push_back(in_plan(added_[l].vertices.front()));
+            ends.push_back(in_plan(added_[l].vertices.back()));
+        }
+        for (std::size_t l = first; l < added_.size(); ++l) {
+            std::vector<Vec3>& v = added_[l].vertices;
+            double const z = v.front().z;
+            std::vector<Vec2> section;
+            std::vector<Vec3> kept{v.front()};
+            for (Vec3 const& p : v) {
+                section.push_back(in_plan(p));
+                bool const is_joint = section.size() > 1 && std::ranges::find(ends, section.back()) != ends.end();
+                if (is_joint || &p == &v.back()) {
+                    for (Vec2 const q : geometry::simplify(section, tolerance_m_)) {
+                        if (q != in_plan(kept.back())) {
+                            kept.push_back({q.x, q.y, z});
+                        }
+                    }
+                    section = {section.back()};
+                }
+            }
+            v = std::move(kept);
+            added_m_ += length_in_plan(v);
+        }
+    }
+
+    void close(Mouth const& mouth) {
+        auto const& v = lines_[mouth.line].vertices;
+        parts_.is_open[2 * mouth.line + (in_plan(v.front()) == mouth.tip ? 0 : 1)] = 0;
+    }
+
+    std::vector<RiverLine>& lines_;
+    Parts parts_;
+    std::vector<int> flows_;
+    bool has_z_;
+    Left& left_;
+    Sets joined_;
+    double near_m_;
+    double far_m_;
+    double tolerance_m_;
+    std::vector<std::pair<Vec2, Vec2>> boxes_;         ///< by line
+    std::vector<std::pair<double, std::size_t>> open_; ///< x and number of open ends, sorted
+    std::vector<RiverLine> added_;
+    std::vector<Insertion> insertions_;
+    double added_m_ = 0.0;
+    std::int64_t rivers_ = 0;
+    Vec2 out_ = nowhere;
+};
+
+} // namespace
+
+bool cross_lakes(std::vector<RiverLine>& lines, RiverLines const& file, ImportParams const& params, Left& left,
+                 Run const& run) {
+    if (file.lakes.empty()) {
+        return false;
+    }
+    std::vector<Finding> notes;
+    std::vector<SecondaryLine> secondary;
+    Left nothing{notes, secondary};
+    Pieces const pieces = cut(lines, nothing);
+    Lakes lakes(lines, parts_of(pieces, lines), flows_of(pieces, lines, file, params, left, run), params, file.has_z,
+                left);
+    for (Polygon const& lake : file.lakes) {
+        run.check();
+        lakes.cross(lake, run);
+    }
+    return lakes.finish();
+}
+
+} // namespace thalweg::network::import_steps

@@ -1,0 +1,218 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+// Rivers that end at lakes and run on through them.
+#include <thalweg/network/import/import_lines.hpp>
+
+#include <algorithm>
+#include <cmath>
+#include <numbers>
+
+#include <gtest/gtest.h>
+#include <network/rivers.hpp>
+#include <rapidcheck/gtest.h>
+#include <support.hpp>
+#include <thalweg/geometry/polylines.hpp>
+
+namespace import_lakes_test {
+
+using namespace thalweg;
+using network::import_lines;
+using network::Imported;
+using network::ImportParams;
+
+namespace {
+
+constexpr ImportParams on_cells{.cell_m = 10.0};
+using Line = std::vector<Vec2>;
+
+/// Lines with a direction column, and lakes.
+RiverLines with_lakes(std::vector<Line> const& lines, std::vector<std::vector<Line>> const& lakes, int runs = 1) {
+    RiverLines rivers = test::flats(lines);
+    for (RiverLine& line : rivers.lines) {
+        line.runs = runs;
+    }
+    for (std::vector<Line> const& rings : lakes) {
+        rivers.lakes.push_back({static_cast<std::int64_t>(rivers.lakes.size()) + 7, rings});
+    }
+    return rivers;
+}
+
+Line const square{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
+
+std::vector<Finding> crossed(Imported const& imported) {
+    std::vector<Finding> found = imported.repairs;
+    std::erase_if(found, [](Finding const& f) { return !(f.kind == FindingKind("lake_crossed")); });
+    return found;
+}
+
+/// [m] Of arcs, what no feature of the file is.
+double added_m(Imported const& imported) {
+    double sum = 0.0;
+    for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
+        sum += imported.network.length_m(a);
+        for (Stretch const& s : imported.stretches[a]) {
+            sum -= s.to_m - s.from_m;
+        }
+    }
+    return sum;
+}
+
+} // namespace
+
+TEST(ImportLakes, AnInflowRunsOnToTheOutflow) {
+    RiverLines const lines = with_lakes({{{100, 500}, {100, 200}}, {{100, 0}, {100, -300}}}, {{square}});
+    RiverLines none = lines;
+    none.lakes.clear();
+    EXPECT_EQ(import_lines(none, on_cells).network.outlets().size(), 2U);
+    Imported const imported = import_lines(lines, on_cells);
+    ASSERT_EQ(imported.network.arc_count(), 1U) << "one arc from spring to mouth";
+    EXPECT_EQ(imported.network.arc(0).line.front(), (Vec2{100, 500}));
+    EXPECT_EQ(imported.network.arc(0).line.back(), (Vec2{100, -300}));
+    EXPECT_NEAR(imported.network.length_m(0), 800.0, 1e-6);
+    EXPECT_NEAR(added_m(imported), 200.0, 1e-6);
+    ASSERT_EQ(crossed(imported).size(), 1U);
+    EXPECT_EQ(crossed(imported)[0].feature, 7);
+    EXPECT_NEAR(crossed(imported)[0].amount, 200.0, 1e-6);
+    EXPECT_EQ(imported.repairs.size(), 1U) << "the line through the lake is not the file's";
+    EXPECT_TRUE(imported.secondary.empty());
+}
+
+TEST(ImportLakes, EndsMayLieBesideTheShoreOrInTheLake) {
+    // 15 m before the shore; 60 m into the lake; an outflow that begins 4 m beyond the shore.
+    RiverLines const lines = with_lakes(
+        {{{100, 500}, {100, 215}}, {{-300, 100}, {60, 100}}, {{500, 120}, {202, 120}}, {{100, -4}, {100, -300}}},
+        {{square}});
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.outlets().size(), 1U);
+    ASSERT_EQ(crossed(imported).size(), 1U);
+    EXPECT_EQ(crossed(imported)[0].where, (Vec2{100, 0}));
+    for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
+        EXPECT_TRUE(imported.network.arc(a).feature != 1 || imported.network.arc(a).line.front() == (Vec2{100, 500}));
+    }
+    // An outflow that begins 15 m away is none; nor is an inflow that ends 25 m away.
+    EXPECT_TRUE(
+        crossed(import_lines(with_lakes({{{100, 500}, {100, 215}}, {{100, -15}, {100, -300}}}, {{square}}), on_cells))
+            .empty());
+    EXPECT_TRUE(
+        crossed(import_lines(with_lakes({{{100, 500}, {100, 225}}, {{100, 0}, {100, -300}}}, {{square}}), on_cells))
+            .empty());
+}
+
+TEST(ImportLakes, LinesDrawnFarIntoIt) {
+    RiverLines const lines = with_lakes({{{100, 500}, {100, 130}}, {{100, 70}, {100, -300}}}, {{square}});
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.arc_count(), 1U);
+    EXPECT_NEAR(added_m(imported), 60.0, 1e-6);
+}
+
+TEST(ImportLakes, WithoutAnOutflowTheWaterStays) {
+    RiverLines const lines = with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}}, {{square}});
+    EXPECT_EQ(import_lines(lines, on_cells).network.outlets().size(), 2U);
+}
+
+TEST(ImportLakes, TheRiverThatPassesThroughIsJoinedStraight) {
+    RiverLines const lines = with_lakes(
+        {{{100, 500}, {100, 100}, {100, -300}}, {{-300, 60}, {0, 60}}, {{500, 150}, {200, 150}}}, {{square}});
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_NEAR(added_m(imported), 200.0, 1e-6);
+    ASSERT_EQ(crossed(imported).size(), 1U);
+    EXPECT_TRUE(test::has(crossed(imported)[0].text, "2 rivers that end at its shore")) << crossed(imported)[0].text;
+}
+
+TEST(ImportLakes, AroundTheCornerItIsJoinedAlongTheMiddle) {
+    // A lake like an L; the river passes through the end of one arm, another ends at the end of the other.
+    Line const arms{{0, 0}, {600, 0}, {600, 100}, {100, 100}, {100, 600}, {0, 600}};
+    RiverLines const lines = with_lakes({{{550, 400}, {550, 50}, {550, -300}}, {{50, 900}, {50, 600}}}, {{arms}});
+    Imported const imported = import_lines(lines, on_cells);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_NEAR(added_m(imported), 550.0 + 500.0, 120.0);
+    for (Arc const& arc : imported.network.arcs()) {
+        for (Vec2 const p : arc.line) {
+            bool const is_ashore = p.y > 100.0 && p.y < 600.0 && p.x > 100.0 && p.x < 500.0;
+            EXPECT_FALSE(is_ashore) << p.x << " " << p.y;
+        }
+    }
+}
+
+TEST(ImportLakes, OneAfterTheOther) {
+    Line below = square;
+    for (Vec2& p : below) {
+        p.y -= 600.0;
+    }
+    RiverLines const lines = with_lakes({{{100, 500}, {100, 200}}, {{100, 0}, {100, -400}}, {{100, -600}, {100, -900}}},
+                                        {{square}, {below}});
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.arc_count(), 1U);
+    EXPECT_EQ(crossed(imported).size(), 2U);
+}
+
+TEST(ImportLakes, DrawnUpstreamItIsTheSame) {
+    RiverLines const lines =
+        with_lakes({{{100, 200}, {100, 500}}, {{0, 100}, {-300, 100}}, {{100, -300}, {100, 0}}}, {{square}}, -1);
+    Imported const imported = import_lines(lines, on_cells);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
+}
+
+TEST(ImportLakes, HeightsAreThoseOfTheOutflow) {
+    RiverLines lines =
+        with_lakes({{{100, 500}, {100, 200}}, {{0, 100}, {-300, 100}}, {{100, 0}, {100, -300}}}, {{square}});
+    lines.lines.erase(lines.lines.begin() + 1);
+    lines.has_z = true;
+    for (Vec3& v : lines.lines[0].vertices) {
+        v.z = v.y > 300.0 ? 90.0 : 50.0;
+    }
+    for (Vec3& v : lines.lines[1].vertices) {
+        v.z = v.y > -100.0 ? 48.0 : 20.0;
+    }
+    Imported const imported = import_lines(lines, on_cells);
+    ASSERT_EQ(imported.arc_z.size(), 1U);
+    for (double const z : imported.arc_z[0]) {
+        EXPECT_TRUE(z == 90.0 || z == 50.0 || z == 48.0 || z == 20.0) << z;
+    }
+    EXPECT_TRUE(std::ranges::is_sorted(imported.arc_z[0], std::greater()));
+}
+
+// Lakes of any shape around a middle, with islands; one outflow.
+RC_GTEST_PROP(ImportLakes, AllInflowsReachTheOutflow, ()) {
+    auto const corners = *rc::gen::inRange(5, 40);
+    std::vector<int> const far =
+        *rc::gen::container<std::vector<int>>(static_cast<std::size_t>(corners), rc::gen::inRange(150, 400));
+    auto const islands = *rc::gen::inRange(0, 4);
+    auto const at = [](double turn, double m) {
+        double const angle = 2.0 * std::numbers::pi * turn;
+        return Vec2{m * std::cos(angle), m * std::sin(angle)};
+    };
+    Line shore;
+    for (int i = 0; i < corners; ++i) {
+        shore.push_back(rounded(at(static_cast<double>(i) / corners, far[static_cast<std::size_t>(i)])));
+    }
+    std::vector<Line> lake{shore};
+    for (int i = 0; i < islands; ++i) {
+        Vec2 const middle = at(0.1 + static_cast<double>(i) / 4.0, 60.0);
+        lake.push_back({middle + Vec2{-15, -15}, middle + Vec2{15, -12}, middle + Vec2{2, 20}});
+    }
+    auto const mouths = *rc::gen::inRange(2, std::min(corners, 8));
+    std::vector<Line> lines;
+    for (int m = 0; m < mouths; ++m) {
+        auto const i = static_cast<std::size_t>(m * corners / mouths);
+        Vec2 const outside = rounded((1000.0 / norm(shore[i])) * shore[i]);
+        lines.push_back(m == 0 ? Line{shore[i], outside} : Line{outside, shore[i]});
+    }
+    RiverLines const rivers = with_lakes(lines, {lake});
+    Imported const imported = import_lines(rivers, on_cells);
+    RC_ASSERT(imported.network.outlets().size() == 1U);
+    RC_ASSERT(imported.network.node(imported.network.outlets()[0]).at == lines[0].back());
+    for (Arc const& arc : imported.network.arcs()) {
+        for (Vec2 const p : arc.line) {
+            for (std::size_t r = 1; r < lake.size(); ++r) {
+                RC_ASSERT(!geometry::contains(lake[r], p));
+            }
+        }
+    }
+    RC_ASSERT(crossed(imported).size() == 1U);
+    RC_ASSERT(std::fabs(crossed(imported)[0].amount - added_m(imported)) < 1e-3);
+}
+
+} // namespace import_lakes_test
