@@ -25,11 +25,15 @@ nlohmann::ordered_json json_of(pipeline::TinResult const& made, std::string cons
                                 {"triangles", made.tin.triangles.size()},
                                 {"merged", made.merged},
                                 {"merged_dz_m", made.merged_dz_m},
+                                {"without_height", made.without_height},
                                 {"averaged", made.averaged},
                                 {"averaged_dz_m", made.averaged_dz_m},
                                 {"crossings", made.crossings},
                                 {"crossings_dz_m", made.crossings_dz_m},
                                 {"left_out", made.left_out}};
+    if (made.flat) {
+        json["flat"] = *made.flat;
+    }
     if (made.error_m) {
         json["error_m"] = *made.error_m;
     }
@@ -43,6 +47,13 @@ std::string tin_in_words(pipeline::TinResult const& made) {
     }
     if (made.left_out > 0) {
         words += fmt::format("; {} isolated cells are left out", made.left_out);
+    }
+    if (made.flat.value_or(0.0) >= 0.005) {
+        words += fmt::format("; {:.1f} % of the area is flat", 100.0 * *made.flat);
+    }
+    if (made.without_height > 0) {
+        words += fmt::format("; {} point{} of no data left out", made.without_height,
+                             made.without_height == 1 ? " is" : "s are");
     }
     // arcs of a network always share vertices
     if (made.merged > 0 && (made.source == "points" || made.merged_dz_m > 0.0)) {
@@ -80,6 +91,9 @@ Command add_tin(CLI::App& app, Session& session) {
     app.add_option("-o,--output", params->output, "Write this file.")->required();
     app.add_option("--error", params->error_m, "Limit the vertical error of a DEM's TIN [m]. Default: 1.");
     app.add_option("--breaklines", params->breaklines, "Use these lines with heights as edges, in addition to points.");
+    app.add_option("--height-column", params->height_column,
+                   "Take the heights of points or lines from this field, as of contours.")
+        ->type_name("NAME");
     app.add_option("--crs", params->crs, "Set the CRS of text points, or reproject points and lines to this CRS.");
     app.add_option("--source-crs", params->source_crs,
                    "Read text points, and files that have no CRS, in this one; --crs is the CRS of the TIN.")

@@ -15,6 +15,7 @@ namespace thalweg {
 struct FeaturePoints {
     std::vector<Vec3> points;   ///< [m]
     std::string crs;            ///< as in Grid; "" for none
+    std::int64_t left_out = 0;  ///< points whose height stood for no data
     std::int64_t averaged = 0;  ///< places where points had unequal heights and took their mean
     double averaged_dz_m = 0.0; ///< [m] the largest difference of heights at one of them
 };

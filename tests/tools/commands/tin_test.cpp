@@ -3,6 +3,7 @@
 #include <iterator>
 #include <string>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <support.hpp>
 
@@ -73,6 +74,8 @@ TEST(Tin, PointsTakeACrsColumnsAndAMeanOfDuplicates) {
     EXPECT_EQ(zone["crs"], "EPSG:32632");
     EXPECT_TRUE(test::has(file_bytes(place / "a.2dm"), " 500000 4982950.4"));
 
+    expect_run(place, "tin degrees.csv --crs EPSG:4326 -o no.2dm", 2, "--source-crs EPSG:4326");
+
     place.write("bare.csv", "1,5000000.0,500000.0,210.5\n2,5000100.0,500900.0,180.2\n3,5000800.0,500300.0,240.1\n");
     expect_run(place, "tin bare.csv -o a.xyz --columns pnezd", 0);
     EXPECT_EQ(file_bytes(place / "a.xyz"), "500000 5000000 210.5\n500900 5000100 180.2\n500300 5000800 240.1\n");
@@ -87,6 +90,88 @@ TEST(Tin, PointsTakeACrsColumnsAndAMeanOfDuplicates) {
     expect_refused(
         place, "tin -o c.2dm",
         {"bare.csv", "bare.csv --columns 1,2", "twice.csv --duplicates error", "twice.csv --duplicates none"});
+}
+
+TEST(Tin, HeightsMayStandInAColumn) {
+    Workplace const place;
+    auto const point = [](int x, int y, double z, double quota) {
+        return fmt::format(R"({{"type":"Feature","properties":{{"id":{0},"quota":{3}}},)"
+                           R"("geometry":{{"type":"Point","coordinates":[{0},{1},{2}]}}}})",
+                           500000 + x, 4000000 + y, z, quota);
+    };
+    place.write("zero.geojson",
+                test::geojson(point(0, 0, 0, 195.5) + "," + point(90, 0, 0, 248.8) + "," + point(0, 90, 0, 210)));
+    expect_run(place, "tin zero.geojson -o a.xyz", 2, "all heights", "--height-column id or quota");
+    auto const json = expect_run(place, "tin zero.geojson --height-column QUOTA -o a.xyz --json", 0).json();
+    EXPECT_EQ(json["vertices"], 3);
+    EXPECT_EQ(file_bytes(place / "a.xyz"), "500000 4000000 195.5\n500090 4000000 248.8\n500000 4000090 210\n");
+    expect_run(place, "tin zero.geojson --height-column quotta -o b.xyz", 2, "Did you mean 'quota'");
+    place.write("text.csv", "x,y,z,quota\n0,0,0,7.5\n9,0,0,8\n0,9,0,9\n");
+    expect_run(place, "tin text.csv --height-column quota -o c.xyz", 0);
+    EXPECT_EQ(file_bytes(place / "c.xyz"), "0 0 7.5\n9 0 8\n0 9 9\n");
+    // Contours.
+    auto const contour = [](int y, int elev) {
+        return fmt::format(R"({{"type":"Feature","properties":{{"elev":{1}}},)"
+                           R"("geometry":{{"type":"LineString","coordinates":[[500000,{0}],[500100,{0}]]}}}})",
+                           4000000 + y, elev);
+    };
+    place.write("contours.geojson", test::geojson(contour(0, 100) + "," + contour(50, 120)));
+    expect_run(place, "tin contours.geojson -o d.xyz", 2, "no heights", "--height-column elev");
+    expect_run(place, "tin contours.geojson --height-column elev -o d.xyz", 0);
+    EXPECT_TRUE(test::has(file_bytes(place / "d.xyz"), "500000 4000050 120\n"));
+    place.write("bend.geojson",
+                test::geojson(R"({"type":"Feature","properties":{"elev":100},"geometry":)"
+                              R"({"type":"LineString","coordinates":[[500000,4000000],[500100,4000000],)"
+                              R"([500100,4000100]]}},)" +
+                              contour(200, 120)));
+    auto const bend = expect_run(place, "tin bend.geojson --height-column elev -o e.xyz --json", 0).json();
+    EXPECT_NEAR(bend["flat"].get<double>(), 5000.0 / 20000.0, 1e-9);
+}
+
+TEST(Tin, PointsOfNoDataAreNoPoints) {
+    Workplace const place;
+    place.write("p.csv", "x,y,z\n0,0,101\n10,0,102\n10,10,-9999\n0,10,104\n5,5,109\n");
+    expect_run(place, "tin p.csv -o a.xyz", 2, "1 of 5 points", "--nodata -9999 leaves them out");
+    Outcome const left = expect_run(place, "tin p.csv --nodata -9999 -o a.xyz", 0);
+    EXPECT_TRUE(test::has(left.err, "1 point is of no data left out") || test::has(left.err, "left out")) << left.err;
+    EXPECT_EQ(file_bytes(place / "a.xyz"), "0 0 101\n10 0 102\n0 10 104\n5 5 109\n");
+    expect_run(place, "tin p.csv --nodata nan -o b.xyz", 0);
+    EXPECT_TRUE(test::has(file_bytes(place / "b.xyz"), "10 10 -9999\n"));
+    place.write("sea.csv", "x,y,z\n0,0,-9800\n10,0,-9900\n10,10,-9999\n0,10,-10050\n");
+    expect_run(place, "tin sea.csv -o c.xyz", 0);
+    // In skeleton.points too, where no option can keep them.
+    expect_run(place,
+               "make --set grid.width=160 --set grid.height=128 --set grid.cell=30 --set surface.method=diffuse "
+               "--set skeleton.points=p.csv -o out",
+               2, "-9999", "Remove these points");
+}
+
+TEST(Tin, ShoresAreLevelBreaklines) {
+    Workplace const place;
+    place.write("p.csv", "x,y,z\n500000,4000000,101\n500100,4000000,102\n500100,4000100,103\n500000,4000100,104\n");
+    auto const shore = [](std::string const& z) {
+        return test::geojson(test::line("[500040,4000040" + z + "],[500060,4000040" + z + "],[500050,4000060" + z +
+                                        "],[500040,4000040" + z + "]"));
+    };
+    place.write("shore.geojson", shore(",100.25"));
+    auto const json =
+        expect_run(place, "tin p.csv --crs EPSG:32631 --breaklines shore.geojson -o a.xyz --json", 0).json();
+    EXPECT_EQ(json["vertices"], 7);
+    EXPECT_TRUE(test::has(file_bytes(place / "a.xyz"), "500050 4000060 100.25\n"));
+    std::string polygon = shore(",100.25"); // the same as a polygon
+    polygon.replace(polygon.find("LineString"), 10, "Polygon");
+    polygon.replace(polygon.find("[["), 2, "[[[");
+    polygon.replace(polygon.find("]]"), 2, "]]]");
+    place.write("lake.geojson", polygon);
+    expect_run(place, "tin p.csv --crs EPSG:32631 --breaklines lake.geojson -o lake.xyz", 0);
+    EXPECT_EQ(file_bytes(place / "lake.xyz"), file_bytes(place / "a.xyz"));
+    place.shell("ogr2ogr lake.gpkg lake.geojson -nlt POLYGONZ");
+    expect_run(place, "tin p.csv --crs EPSG:32631 --breaklines lake.gpkg -o gpkg.xyz", 0);
+    EXPECT_EQ(file_bytes(place / "gpkg.xyz"), file_bytes(place / "a.xyz"));
+    for (char const* const none : {"", ",0"}) {
+        place.write("none.geojson", shore(none));
+        expect_run(place, "tin p.csv --crs EPSG:32631 --breaklines none.geojson -o b.xyz", 2, "no heights");
+    }
 }
 
 TEST(Tin, NothingIsOverwrittenUnasked) {

@@ -35,6 +35,12 @@ struct ReadPointsParams {
                                ///< a file without one, text included, is taken to be in it unless source_crs says
     PointHeights heights = PointHeights::wanted;
     DuplicatePoints duplicates = DuplicatePoints::refused;
+    /// Column of the heights of all points, of text too; "": their Z or z_field; nothing: the user has no option to
+    /// name it
+    std::optional<std::string> height_column = {};
+    /// A height that stands for no data: such points are left out. NaN: none does. Nothing: those that are known to
+    /// (-9999, ...) are refused where no other height is near
+    std::optional<double> nodata = {};
     /// Text: the columns of x, y and z, as names in a first line or numbers from 1 ("3,2,4"), or "pnezd" (number,
     /// northing, easting, height, description). "": a first line names them x, y and z, or there are exactly these
     /// three; nothing: the user has no option to name them

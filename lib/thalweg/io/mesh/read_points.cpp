@@ -20,14 +20,17 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
+#include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/raster/internal/undeclared_nodata.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -83,7 +86,8 @@ std::string lowered_text(std::string_view text) {
 class PointText {
 public:
     PointText(ReadPointsParams const& params, std::string const& name)
-        : name_(name), wanted_(params.heights == PointHeights::wanted ? 3 : 2), offered_(params.columns.has_value()) {
+        : name_(name), wanted_(params.heights == PointHeights::wanted ? 3 : 2), offered_(params.columns.has_value()),
+          height_(lowered_text(params.height_column.value_or(""))) {
         std::string const columns = params.columns.value_or("");
         if (columns.empty()) {
             return;
@@ -105,7 +109,11 @@ public:
     /// Reads the first line.
     /// \return whether it has names
     bool begin(std::vector<std::string_view> const& fields) {
-        return names_.empty() ? begin_unnamed(fields) : begin_named(fields);
+        bool const has_names = names_.empty() ? begin_unnamed(fields) : begin_named(fields);
+        if (!height_.empty()) {
+            columns_[2] = column_of(height_, fields);
+        }
+        return has_names;
     }
 
     Vec3 point(std::vector<std::string_view> const& fields, std::int64_t line) const {
@@ -131,6 +139,14 @@ public:
     }
 
 private:
+    std::size_t column_of(std::string const& word, std::vector<std::string_view> const& fields) const {
+        auto const at = std::ranges::find_if(fields, [&](std::string_view f) { return lowered_text(f) == word; });
+        if (at == fields.end()) {
+            refuse_points(fmt::format("{}, first line: no column '{}' ({})", name_, word, fmt::join(fields, ", ")));
+        }
+        return static_cast<std::size_t>(at - fields.begin());
+    }
+
     std::string offer() const {
         return offered_ ? ", or by number (--columns 3,2,4; --columns pnezd for number, northing, easting, height, "
                           "description)"
@@ -142,7 +158,7 @@ private:
             is_bare_ = true;
             return false;
         }
-        for (std::size_t k = 0; k < wanted_; ++k) {
+        for (std::size_t k = 0; k < (height_.empty() ? wanted_ : 2); ++k) {
             auto const is_it = [&](std::string_view f) { return f.size() == 1 && lowered(f[0]) == "xyz"[k]; };
             auto const at = std::ranges::find_if(names, is_it);
             if (at == names.end()) {
@@ -165,11 +181,7 @@ private:
                 columns_[k] = number - 1;
                 continue;
             }
-            auto const at = std::ranges::find_if(fields, [&](std::string_view f) { return lowered_text(f) == word; });
-            if (at == fields.end()) {
-                refuse_points(fmt::format("{}, first line: no column '{}' ({})", name_, word, fmt::join(fields, ", ")));
-            }
-            columns_[k] = static_cast<std::size_t>(at - fields.begin());
+            columns_[k] = column_of(word, fields);
             by_name = true;
         }
         // If columns are given as numbers, a first line may still have names.
@@ -182,6 +194,7 @@ private:
     std::string const& name_;
     std::size_t wanted_;
     bool offered_;
+    std::string height_; ///< name of the column of heights; "": none is named
     std::vector<std::string> names_;
     PointColumns columns_{0, 1, 2};
     bool is_bare_ = false; ///< columns are neither named nor numbered
@@ -245,12 +258,12 @@ OGRLayer& choose_layer(GDALDataset& data, std::string const& wanted, std::string
     return *found.front();
 }
 
-void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std::string const& name,
+void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std::string const& name, bool by_field,
          std::vector<Vec3>& points) {
     auto const flat = wkbFlatten(geometry.getGeometryType());
     if (flat == wkbMultiPoint) {
         for (auto const* const part : *geometry.toMultiPoint()) {
-            add(*part, field_z, feature, name, points);
+            add(*part, field_z, feature, name, by_field, points);
         }
         return;
     }
@@ -259,7 +272,7 @@ void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std:
                                   geometry.IsEmpty() != 0 ? "empty" : OGRGeometryTypeToName(flat)));
     }
     auto const& p = *geometry.toPoint();
-    double const z = p.Is3D() != 0 ? p.getZ() : field_z;
+    double const z = p.Is3D() != 0 && !by_field ? p.getZ() : field_z;
     if (!std::isfinite(p.getX()) || !std::isfinite(p.getY()) || !std::isfinite(z)) {
         refuse_points(fmt::format("feature {} of {} lies at ({}, {}, {}): finite coordinates and a height are required",
                                   feature, name, p.getX(), p.getY(), z));
@@ -267,10 +280,37 @@ void add(OGRGeometry const& geometry, double field_z, std::int64_t feature, std:
     points.push_back({p.getX(), p.getY(), z});
 }
 
+/// The fields of a layer that hold numbers, whole or not.
+std::vector<std::string> number_fields(OGRLayer& layer) {
+    std::vector<std::string> names;
+    for (int i = 0; i < layer.GetLayerDefn()->GetFieldCount(); ++i) {
+        OGRFieldDefn const& field = *layer.GetLayerDefn()->GetFieldDefn(i);
+        if (field.GetType() == OFTReal || field.GetType() == OFTInteger || field.GetType() == OFTInteger64) {
+            names.emplace_back(field.GetNameRef());
+        }
+    }
+    return names;
+}
+
+/// How to name a column of heights, where a user can and there is one; "": not.
+std::string offered_columns(OGRLayer& layer, ReadPointsParams const& params) {
+    std::vector<std::string> const names = number_fields(layer);
+    return !params.height_column || names.empty()
+               ? ""
+               : fmt::format("; if one of its fields holds heights, name it: --height-column {}",
+                             fmt::join(names, " or "));
+}
+
 std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::string const& name, Run const& run) {
-    std::string const& z_field = params.z_field;
+    std::string const column = params.height_column.value_or("");
+    std::string const& z_field = column.empty() ? params.z_field : column;
     bool const in_plan = params.heights == PointHeights::passed_over;
     int const field = in_plan ? -1 : layer.GetLayerDefn()->GetFieldIndex(z_field.c_str());
+    if (!column.empty() && field < 0) {
+        std::vector<std::string> const names = number_fields(layer);
+        refuse_points(fmt::format("layer {} of {} has no field '{}'.{} (Fields with numbers: {})", layer.GetName(),
+                                  name, column, did_you_mean(column, names), fmt::join(names, ", ")));
+    }
     std::vector<Vec3> points;
     std::int64_t number = 0; // of the feature, from 1, as in other files: numbers of some formats begin with 0
     for (auto const& feature : layer) {
@@ -281,9 +321,11 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
             refuse_points(fmt::format("feature {} of {} has no point; remove it", number, name));
         }
         bool const has_field = field >= 0 && feature->IsFieldSetAndNotNull(field) != 0;
-        if (!has_field && !in_plan && geometry->Is3D() == 0) {
-            refuse_points(
-                fmt::format("feature {} of {} has no height: neither Z nor a field '{}'", number, name, z_field));
+        if (!has_field && !in_plan && (geometry->Is3D() == 0 || !column.empty())) {
+            refuse_points(column.empty()
+                              ? fmt::format("feature {} of {} has no height: neither Z nor a field '{}'{}", number,
+                                            name, z_field, offered_columns(layer, params))
+                              : fmt::format("feature {} of {} has no value in its field '{}'", number, name, column));
         }
         std::optional<double> field_z = 0.0;
         if (has_field) {
@@ -296,8 +338,61 @@ std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::str
             refuse_points(fmt::format("feature {} of {}: {} is '{}', not a number", number, name, z_field,
                                       feature->GetFieldAsString(field)));
         }
-        add(*geometry, *field_z, number, name, points);
+        add(*geometry, *field_z, number, name, !column.empty(), points);
     }
+    bool const all_zero = std::ranges::all_of(points, [](Vec3 const& p) { return p.z == 0.0; });
+    if (std::string const offer = offered_columns(layer, params);
+        !in_plan && column.empty() && all_zero && !offer.empty()) {
+        refuse_points(fmt::format("all heights of layer {} of {} are 0{}", layer.GetName(), name, offer));
+    }
+    return points;
+}
+
+/// A height that stands for no data in other files, and no point near it: nothing, or where it is first.
+std::optional<std::size_t> sentinel_among(std::vector<Vec3> const& points) {
+    constexpr double coast_m = 300.0; // heights continue up to it, else
+    for (double const sentinel : no_terrain) {
+        auto const first = std::ranges::find(points, sentinel, &Vec3::z);
+        bool const is_alone = first != points.end() && std::ranges::none_of(points, [&](Vec3 const& p) {
+                                  return p.z != sentinel && std::fabs(p.z - sentinel) <= coast_m;
+                              });
+        if (is_alone) {
+            return static_cast<std::size_t>(first - points.begin());
+        }
+    }
+    auto const huge = std::ranges::find_if(points, [](Vec3 const& p) { return std::fabs(p.z) > 1e30; });
+    return huge == points.end() ? std::nullopt : std::optional(static_cast<std::size_t>(huge - points.begin()));
+}
+
+void refuse_nodata(std::vector<Vec3> const& points, ReadPointsParams const& params, std::string const& name) {
+    if (params.nodata || params.heights == PointHeights::passed_over) {
+        return;
+    }
+    if (auto const at = sentinel_among(points)) {
+        double const z = points[*at].z;
+        refuse_points(fmt::format("{} of {} points of {} have the height {:.9g}, the first at ({:.10g}, {:.10g}), and "
+                                  "none is near it: does it stand for no data? {}",
+                                  std::ranges::count(points, z, &Vec3::z), points.size(), name, z, points[*at].x,
+                                  points[*at].y,
+                                  params.height_column ? fmt::format("--nodata {:.9g} leaves them out, --nodata nan "
+                                                                     "keeps them",
+                                                                     z)
+                                                       : "Remove these points"));
+    }
+}
+
+/// Leaves out the points whose height, as it is in the file, stands for no data.
+std::vector<Vec3> without_nodata(std::vector<Vec3> points, ReadPointsParams const& params, std::string const& name,
+                                 std::int64_t& left_out) {
+    refuse_nodata(points, params, name);
+    std::size_t const all = points.size();
+    if (params.nodata && params.heights == PointHeights::wanted) {
+        std::erase_if(points, [&](Vec3 const& p) { return stands_for(p.z, *params.nodata); });
+    }
+    left_out = static_cast<std::int64_t>(all - points.size());
+    refuse_if<BadInput>(all > 0 && points.empty(),
+                        "io.read_points: all points of {} have the height {:.9g} of --nodata", name,
+                        params.nodata.value_or(0.0));
     return points;
 }
 
@@ -329,7 +424,7 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     Dataset const data = open_file(params.path, GDAL_OF_VECTOR, "io.read_points: " + params.path.path);
     OGRLayer& layer = choose_layer(*data, params.layer, name);
     FeaturePoints read;
-    read.points = take(layer, params, name, run);
+    read.points = without_nodata(take(layer, params, name, run), params, name, read.left_out);
     driver.check("io.read_points: " + params.path.path);
     if (read.points.empty()) {
         return read;
@@ -351,7 +446,8 @@ FeaturePoints read_point_text(ReadPointsParams const& params, std::string const&
     constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
     Driver const driver;
     FeaturePoints read;
-    read.points = parse(read_text(params.path.path, most_bytes), params, name, run);
+    read.points =
+        without_nodata(parse(read_text(params.path.path, most_bytes), params, name, run), params, name, read.left_out);
     OGRSpatialReference const own = crs_of_layer(nullptr, params.source_crs.value_or(""));
     if (own.IsEmpty() == 0 && !read.points.empty()) {
         reproject_points(read, own, params.crs, name, driver);
@@ -446,6 +542,11 @@ FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
     refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path.path),
                             "io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns to name",
                             name);
+    if (params.source_crs && !params.crs.empty() && read_reference(params.crs).IsGeographic() != 0) {
+        refuse_points(fmt::format("{0} is in degrees, and the result lies in metres: if {1} is in it, name it by "
+                                  "--source-crs {0}; --crs names the CRS of the result",
+                                  params.crs, name));
+    }
     FeaturePoints read;
     if (is_text_of_points(params.path.path)) {
         require_allowed(params.path);

@@ -9,6 +9,7 @@
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/files/internal/files.hpp>
@@ -148,6 +149,17 @@ std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> c
         layer->ResetReading();
     }
     return into_metres(std::move(lakes), metres);
+}
+
+std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& what) {
+    std::vector<OGRLayer*> const all = layers_of(data);
+    std::vector<OGRLayer*> areas = all;
+    std::erase_if(areas, [](OGRLayer* layer) {
+        return wkbFlatten(layer->GetGeomType()) != wkbUnknown && !is_area(layer->GetGeomType());
+    });
+    refuse_if<BadInput>(areas.size() != 1, "{} has {} layers of polygons ({}): extract the one you mean (ogr2ogr)",
+                        what, areas.size(), listed(layer_names(all)));
+    return areas;
 }
 
 std::vector<Polygon> into_metres(std::vector<Polygon> lakes, IntoMetres const& metres) {

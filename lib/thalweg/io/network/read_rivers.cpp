@@ -23,12 +23,40 @@ namespace thalweg::io {
 
 namespace {
 
+/// The rings of polygons as lines; null for other shapes.
+std::unique_ptr<OGRGeometry> rings_of(OGRGeometry const& shape) {
+    auto const flat = wkbFlatten(shape.getGeometryType());
+    bool const is_area = OGR_GT_IsSubClassOf(flat, wkbSurface) != 0 || OGR_GT_IsSubClassOf(flat, wkbMultiSurface) != 0;
+    if (!is_area) {
+        return nullptr;
+    }
+    std::unique_ptr<OGRGeometry> const straight(shape.getLinearGeometry());
+    auto rings = std::make_unique<OGRMultiLineString>();
+    auto const add = [&](OGRGeometry const& part) {
+        if (wkbFlatten(part.getGeometryType()) == wkbPolygon) {
+            for (auto const* const ring : *part.toPolygon()) {
+                OGRLineString line(*ring);
+                rings->addGeometry(&line);
+            }
+        }
+    };
+    if (OGR_GT_IsSubClassOf(wkbFlatten(straight->getGeometryType()), wkbGeometryCollection) != 0) {
+        for (auto const* const part : *straight->toGeometryCollection()) {
+            add(*part);
+        }
+    } else {
+        add(*straight);
+    }
+    return rings;
+}
+
 // The columns that a user may name, and the features of a layer as lines.
 class LineReader {
 public:
     LineReader(OGRLayer& layer, ReadRiversParams const& params, std::string const& name)
-        : layer_(layer), name_(name), filter_(params.filter), type_(column(params.type_field, "rosgen")),
-          lambda_(column(params.lambda_field, "lambda")), fields_(layer),
+        : layer_(layer), name_(name), filter_(params.filter), rings_(params.rings),
+          type_(column(params.type_field, "rosgen")), lambda_(column(params.lambda_field, "lambda")),
+          height_(column(params.height_field)), fields_(layer),
           flow_(layer, {.id = column(params.id_field),
                         .down = column(params.down_field),
                         .from_node = column(params.from_field),
@@ -36,6 +64,9 @@ public:
                         .direction = column(params.direction_field),
                         .rank = number_column(params.rank_field)}),
           natural_(layer), lake_(layer), attributes_(layer) {
+        refuse_if<BadInput>(height_.is_there() && !height_.is_number(),
+                            "io.read_rivers: field {} of {} is not a number field: it holds no heights",
+                            params.height_field, name);
         if (!params.where.empty()) {
             where_ = std::make_unique<OGRFeatureQuery>();
             refuse_if<BadInput>(where_->Compile(&layer, params.where.c_str(), TRUE, nullptr) != OGRERR_NONE,
@@ -117,7 +148,7 @@ private:
         fields_.read(feature, line);
         flow_.read(feature, number_);
         attributes_.read(feature);
-        if (lake_.take(feature, number_, lakes)) {
+        if (!rings_ && lake_.take(feature, number_, lakes)) {
             return;
         }
         Unnatural const why = filter_ == LineFilter::natural ? natural_.of(feature) : Unnatural();
@@ -125,7 +156,13 @@ private:
         std::int64_t const other_shapes = shapes_.count();
         std::vector<RiverLine> parts;
         if (drawn != nullptr && drawn->IsEmpty() == 0) {
-            parts = lines_of(*drawn, line);
+            std::unique_ptr<OGRGeometry> const outline(rings_ ? rings_of(*drawn) : nullptr);
+            parts = lines_of(outline ? *outline : *drawn, line);
+        }
+        if (height_.is_there()) {
+            for (RiverLine& part : parts) {
+                std::ranges::for_each(part.vertices, [&](Vec3& v) { v.z = height_.real(feature); });
+            }
         }
         raised_ += parts.size() == 1 && flow_.raise(feature, parts.front().vertices) ? 1 : 0;
         if (parts.empty() && shapes_.count() == other_shapes) {
@@ -187,9 +224,11 @@ private:
     OGRLayer& layer_;
     std::string const& name_;
     LineFilter filter_;
+    bool rings_;
     std::unique_ptr<OGRFeatureQuery> where_;
     FileColumn type_;
     FileColumn lambda_;
+    FileColumn height_;
     RiverFields fields_;
     FlowFields flow_;
     NaturalFilter natural_;
@@ -306,7 +345,9 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
                             "io.read_rivers: there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")");
         throw BadInput(fmt::format("io.read_rivers: {} is not a vector file that GDAL can read ({})", path, words));
     }
-    std::vector<OGRLayer*> const layers = rivers_layers(*data, params.layer, "io.read_rivers: " + rivers.name);
+    std::vector<OGRLayer*> const layers = params.rings && params.layer.empty()
+                                              ? layers_of_areas(*data, "io.read_rivers: " + rivers.name)
+                                              : rivers_layers(*data, params.layer, "io.read_rivers: " + rivers.name);
     ChosenLayer const chosen = as_one(layers, "io.read_rivers: " + rivers.name);
     OGRLayer& layer = *chosen.layer;
     std::string const what = fmt::format("io.read_rivers: layer {} of {}", chosen.name, rivers.name);

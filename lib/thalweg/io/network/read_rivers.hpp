@@ -50,6 +50,8 @@ struct ReadRiversParams {
     std::string from_field = {};          ///< node from which the water of a line comes, and
     std::string to_field = {};            ///< that to which it goes; "" takes the known ones. Both or none
     std::string direction_field = {};     ///< whether a line runs as it is drawn, in words of a known data set
+    std::string height_field = {};        ///< height of all of a line, as of contours; "": heights of its vertices
+    bool rings = false;                   ///< the rings of polygons are lines too, and polygons no lakes
     std::string where = {};               ///< condition on fields, as SQL's after WHERE: other features are not read
     /// CRS of a file that has none ("": such a file is refused); nothing where the user has no option to name it
     std::optional<std::string> source_crs = {};

@@ -12,9 +12,6 @@
 namespace thalweg::io {
 namespace {
 
-// The smallest normal float is what GDAL's HF2 driver writes for no-data.
-constexpr double smallest_float = std::numeric_limits<float>::min();
-constexpr std::array<double, 7> no_terrain{-9999.0, -32767.0, -32768.0, -99999.0, smallest_float, 32767.0, 65535.0};
 constexpr double highest_land_m = 30000.0; // of any planet
 constexpr double deepest_sea = -12000.0;
 constexpr std::int32_t block_side = 3;
@@ -125,7 +122,7 @@ void UndeclaredNodata::add_row(std::span<double const> stored) {
     for (std::size_t col = 0; col < stored.size(); ++col) {
         double const z = stored[col];
         auto const at = static_cast<std::int64_t>(col);
-        if (z < deep || z == smallest_float || z > highest_) {
+        if (z < deep || z == std::numeric_limits<float>::min() || z > highest_) {
             note_sentinel(at, z);
         }
         if (is_height_) { // NaN is skipped by both

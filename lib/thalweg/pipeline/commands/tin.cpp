@@ -2,10 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/commands/tin.hpp>
 
+#include <array>
+#include <cmath>
+#include <cstdint>
+#include <filesystem>
+#include <string>
 #include <utility>
 #include <vector>
 
 #include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
@@ -13,6 +19,7 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
+#include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
@@ -28,15 +35,52 @@ struct Breaklines {
     std::string crs;
 };
 
-Breaklines read_lines(std::string const& path, std::string const& crs, std::string const& source_crs, Run const& run) {
-    io::FileContent const content = io::content_of(path);
+/// Whether lines may be all of a TIN, or go with points or other lines, and may then be level, as shores are.
+enum class LinesAre : std::uint8_t { all, more };
+
+bool have_any_heights(RiverLines const& lines, LinesAre are) {
+    bool complete = true;
+    bool zero = true;
+    for (RiverLine const& line : lines.lines) {
+        for (Vec3 const& v : line.vertices) {
+            complete = complete && std::isfinite(v.z);
+            zero = zero && v.z == 0.0;
+        }
+    }
+    return lines.has_z || (are == LinesAre::more && complete && !zero);
+}
+
+/// How to name a column of heights, where there are columns of numbers.
+std::string offered_columns(AttributeTable const& attributes) {
+    std::vector<std::string> names;
+    for (AttributeTable::Column const& column : attributes.columns) {
+        using Type = AttributeTable::Type;
+        if (column.type == Type::real || column.type == Type::integer || column.type == Type::integer64) {
+            names.push_back(column.name);
+        }
+    }
+    return names.empty()
+               ? ""
+               : fmt::format("; if a field holds heights, name it: --height-column {}", fmt::join(names, " or "));
+}
+
+Breaklines read_lines(std::string const& path, TinParams const& params, std::string const& crs, LinesAre are,
+                      Run const& run) {
+    bool const has_rings = are == LinesAre::more && !std::filesystem::is_directory(path) && io::holds_polygons(path);
+    io::FileContent const content = has_rings ? io::FileContent{Kind::lines, path, ""} : io::content_of(path);
     refuse_if<BadInput>(content.kind != Kind::lines, "pipeline.run_tin: {} holds no lines", path);
-    RiverLines rivers =
-        io::read_rivers({.path = content.path, .layer = content.layer, .crs = crs, .source_crs = source_crs}, run);
-    refuse_if<BadInput>(!rivers.has_z,
+    bool const has_column = are == LinesAre::all && !params.height_column.empty();
+    RiverLines rivers = io::read_rivers({.path = content.path,
+                                         .layer = content.layer,
+                                         .crs = crs,
+                                         .height_field = has_column ? params.height_column : "",
+                                         .rings = has_rings,
+                                         .source_crs = params.source_crs},
+                                        run);
+    refuse_if<BadInput>(!have_any_heights(rivers, are),
                         "pipeline.run_tin: the lines of {} have no heights (or all the same): a TIN takes lines with "
-                        "Z, such as layer arcs of a network.gpkg",
-                        content.path);
+                        "Z, such as layer arcs of a network.gpkg{}",
+                        content.path, are == LinesAre::all ? offered_columns(rivers.attributes) : "");
     Breaklines read{{}, rivers.crs};
     for (RiverLine& line : rivers.lines) {
         read.lines.push_back(std::move(line.vertices));
@@ -61,6 +105,19 @@ TinResult of_dem(std::string const& path, TinParams const& params, Run const& ru
     return made;
 }
 
+/// The share of a TIN's area in triangles whose corners are at one height, as within the bends of contours.
+double level_share(Tin const& tin) {
+    double level_m2 = 0.0;
+    double all_m2 = 0.0;
+    for (auto const& t : tin.triangles) {
+        std::array<Vec3, 3> const v{tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]};
+        double const m2 = 0.5 * std::fabs(cross(in_plan(v[0]), in_plan(v[1]), in_plan(v[2])));
+        all_m2 += m2;
+        level_m2 += v[0].z == v[1].z && v[1].z == v[2].z ? m2 : 0.0;
+    }
+    return all_m2 > 0.0 ? level_m2 / all_m2 : 0.0;
+}
+
 TinResult of_points(std::vector<Vec3> const& points, Breaklines const& breaklines, char const* source, Run const& run) {
     auto triangulation = geometry::triangulate(points, breaklines.lines, run);
     TinResult made;
@@ -71,6 +128,7 @@ TinResult of_points(std::vector<Vec3> const& points, Breaklines const& breakline
     made.merged_dz_m = triangulation.merged_dz_m;
     made.crossings = triangulation.crossings;
     made.crossings_dz_m = triangulation.crossings_dz_m;
+    made.flat = level_share(made.tin);
     return made;
 }
 
@@ -86,36 +144,44 @@ TinResult tin_of(TinParams const& params, Run const& run) {
     }
     if (content.kind == Kind::raster) {
         refuse_if<BadParameter>(
-            !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty(),
-            "pipeline.run_tin: --breaklines, --crs and --source-crs apply to points and lines, not to a DEM");
+            !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty() ||
+                !params.height_column.empty(),
+            "pipeline.run_tin: --breaklines, --height-column, --crs and --source-crs apply to points and lines, not to "
+            "a DEM");
         return of_dem(content.path, params, run);
     }
     for (auto const& [option, given] :
          {std::pair{"--error", params.error_m.has_value()},
-          std::pair{"--nodata, --band or --encoding", params.reading != io::ReadDemParams{}}}) {
+          std::pair{"--band or --encoding",
+                    !params.reading.band.empty() || params.reading.encoding != io::HeightEncoding::none}}) {
         if (given) {
             throw BadParameter(fmt::format("pipeline.run_tin: {} applies to a DEM only; {} holds {}", option,
                                            content.path, content.kind == Kind::points ? "points" : "lines"));
         }
     }
+    refuse_if<BadParameter>(params.reading.nodata && content.kind == Kind::lines,
+                            "pipeline.run_tin: --nodata applies to a DEM or points; {} holds lines", content.path);
     if (content.kind == Kind::points) {
         FeaturePoints const points =
             io::read_points({.path = content.path,
                              .crs = params.crs,
                              .duplicates = params.duplicates.value_or(io::DuplicatePoints::averaged),
+                             .height_column = params.height_column,
+                             .nodata = params.reading.nodata,
                              .columns = params.columns,
                              .source_crs = params.source_crs},
                             run);
         Breaklines breaklines{{}, points.crs};
         if (!params.breaklines.empty()) {
-            breaklines = read_lines(params.breaklines, points.crs, params.source_crs, run);
+            breaklines = read_lines(params.breaklines, params, points.crs, LinesAre::more, run);
         }
         TinResult made = of_points(points.points, breaklines, "points", run);
+        made.without_height = points.left_out;
         made.averaged = points.averaged;
         made.averaged_dz_m = points.averaged_dz_m;
         return made;
     }
-    Breaklines network = read_lines(content.path, params.crs, params.source_crs, run);
+    Breaklines network = read_lines(content.path, params, params.crs, LinesAre::all, run);
     if (content.layer == "arcs" && io::has_layer(content.path, "ridges")) {
         RiverLines ridges = io::read_rivers(
             {.path = content.path, .layer = "ridges", .crs = network.crs, .source_crs = params.source_crs}, run);
@@ -124,7 +190,7 @@ TinResult tin_of(TinParams const& params, Run const& run) {
         }
     }
     if (!params.breaklines.empty()) {
-        Breaklines more = read_lines(params.breaklines, network.crs, params.source_crs, run);
+        Breaklines more = read_lines(params.breaklines, params, network.crs, LinesAre::more, run);
         network.lines.insert(network.lines.end(), more.lines.begin(), more.lines.end());
     }
     return of_points({}, network, "network", run);

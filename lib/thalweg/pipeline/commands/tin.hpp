@@ -23,13 +23,14 @@ struct TinParams {
     io::Existing existing = io::Existing::refuse;
     std::string format = {};            ///< a name of io::tin_formats(); "": by the output's extension
     std::string breaklines = {};        ///< lines with heights, for points and lines; "": none
+    std::string height_column = {};     ///< of points or lines; "": their Z, of points without one a column z
     std::string crs = {};               ///< of the result, projected, in metres; "": the file's own
     std::optional<double> error_m = {}; ///< [m] > 0, for a DEM; 1 if not set
     std::string source_crs = {};        ///< of points and lines whose file has no CRS; "": none
     /// for points; averaged if not set
     std::optional<io::DuplicatePoints> duplicates = {};
     std::string columns = {};       ///< of text with points, as io::ReadPointsParams; "": none
-    io::ReadDemParams reading = {}; ///< how the DEM is read
+    io::ReadDemParams reading = {}; ///< how the DEM is read; nodata also applies to points
 };
 
 /// A TIN and the statistics of its construction.
@@ -41,10 +42,12 @@ struct TinResult {
     std::int64_t left_out = 0;     ///< cells of a DEM in no triangle
     std::int64_t merged = 0;       ///< as in geometry::Triangulation
     double merged_dz_m = 0.0;
-    std::int64_t averaged = 0; ///< as in FeaturePoints
+    std::int64_t averaged = 0;       ///< as in FeaturePoints
+    std::int64_t without_height = 0; ///< points that stand for no data, left out
     double averaged_dz_m = 0.0;
     std::int64_t crossings = 0;
     double crossings_dz_m = 0.0;
+    std::optional<double> flat = {};    ///< [0, 1] share of the area in level triangles, for lines and points
     std::vector<Finding> findings = {}; ///< how a DEM was read
 };
 

@@ -308,6 +308,11 @@ private:
 std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> const& read, IntoMetres const& metres,
                                      OGRSpatialReference const& own, Run const& run);
 
+/// The only layer that may hold polygons.
+/// \param what begins messages
+/// \throws BadInput that lists the layers when there are several or none
+std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& what);
+
 /// Without those of which a vertex cannot be reprojected.
 std::vector<Polygon> into_metres(std::vector<Polygon> lakes, IntoMetres const& metres);
 

@@ -21,6 +21,10 @@ namespace thalweg::io {
 /// No landscape is so high; a damaged DEFLATE tile is read without an error and contains such numbers.
 inline constexpr double implausible_height = 1e30;
 
+/// What no height is, and often stands for none. The smallest normal float is what GDAL's HF2 driver writes.
+inline constexpr std::array<double, 7> no_terrain{
+    -9999.0, -32767.0, -32768.0, -99999.0, std::numeric_limits<float>::min(), 32767.0, 65535.0};
+
 /// Whether a stored value equals the one given by a user: floats in files have more digits than people type.
 bool stands_for(double stored, double named);
 
