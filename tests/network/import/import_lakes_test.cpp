@@ -110,6 +110,23 @@ TEST(ImportLakes, WithoutAnOutflowTheWaterStays) {
     EXPECT_EQ(import_lines(lines, on_cells).network.outlets().size(), 2U);
 }
 
+TEST(ImportLakes, OfSeveralOutflowsByHeightsTheLowestTakesItsWater) {
+    RiverLines lines =
+        with_lakes({{{100, 500}, {100, 200}}, {{0, 100}, {-300, 100}}, {{100, 0}, {100, -900}}}, {{square}});
+    lines.has_z = true;
+    for (RiverLine& line : lines.lines) {
+        line.runs = 0;
+        for (Vec3& v : line.vertices) {
+            v.z = v.y > 300.0 ? 90.0 : v.x < -100.0 || v.y < -100.0 ? 20.0 : v.x == 0.0 ? 52.0 : 50.0;
+        }
+    }
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.outlets().size(), 2U) << "the other one keeps beginning at the shore";
+    EXPECT_NEAR(added_m(imported), 200.0, 1.0);
+    lines.lines[0].vertices.back().z = 40.0; // that far below the lake nothing runs into it
+    EXPECT_TRUE(crossed(import_lines(lines, on_cells)).empty());
+}
+
 TEST(ImportLakes, TheRiverThatPassesThroughIsJoinedStraight) {
     RiverLines const lines = with_lakes(
         {{{100, 500}, {100, 100}, {100, -300}}, {{-300, 60}, {0, 60}}, {{500, 150}, {200, 150}}}, {{square}});

@@ -55,8 +55,9 @@ TEST(Nodata, EveryCommandRefusesWhatIsNotDeclared) {
     EXPECT_GT(stats["min"]["z"].get<double>(), 99.0);
     EXPECT_EQ(thalweg_run("stats dem.asc --json --nodata nan", place.path()).json()["cells"], 1200);
     expect_refused(place, "stats dem.asc", {"--nodata x"});
-    place.write("p.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,3\n");
-    expect_refused(place, "tin p.csv -o t2.2dm", {"--nodata -9999"});
+    place.write("p.csv", "x,y,z\n0,0,1\n1,0,2\n0,1,3\n1,1,-9999\n");
+    expect_refused(place, "tin p.csv -o t2.2dm", {"", "--nodata x"});
+    expect_run(place, "tin p.csv -o t2.2dm --nodata -9999", 0, "1 point is of no data left out");
 }
 
 TEST(Nodata, CheckTakesTheSameOption) {

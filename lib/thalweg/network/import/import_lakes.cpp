@@ -416,6 +416,8 @@ public:
             join_to(outline, passing, mouths);
         } else if (std::ranges::all_of(mouths, [](Mouth const& mouth) { return mouth.flow > 0; })) {
             return; // all its water sinks in it
+        } else {
+            keep_one_outflow(mouths);
         }
         try {
             join_along_middle(outline, passing, mouths, run);
@@ -531,6 +533,26 @@ private:
         return through;
     }
 
+    /// Of several rivers that begin at a lake by heights or ranks its water takes the lowest, else the first: by these
+    /// nothing may leave a place twice. Others keep beginning there.
+    void keep_one_outflow(std::vector<Mouth>& mouths) const {
+        bool const has_ranks = std::ranges::any_of(lines_, [](RiverLine const& line) { return line.rank != 0; });
+        if (!has_z_ && !has_ranks) {
+            return;
+        }
+        auto const rank = [&](Mouth const& m) {
+            return std::pair(m.flow < 0 ? 0 : 1, has_z_ && m.flow < 0 ? height_at(m) : 0.0);
+        };
+        Vec2 const kept = std::ranges::min_element(mouths, {}, rank)->tip;
+        std::erase_if(mouths, [&](Mouth const& mouth) { return mouth.flow < 0 && mouth.tip != kept; });
+    }
+
+    /// Whether water runs from a mouth to a height, by the file's.
+    bool runs_down(Mouth const& mouth, double to_z) const {
+        constexpr double noise_m = 1.0;
+        return !has_z_ || mouth.flow < 0 || height_at(mouth) >= to_z - noise_m;
+    }
+
     /// Joins mouths straight to the rivers that pass through, where the way is in the water; these mouths are removed.
     void join_to(Outline const& lake, std::vector<std::size_t> const& passing, std::vector<Mouth>& mouths) {
         std::erase_if(mouths, [&](Mouth const& mouth) {
@@ -547,7 +569,7 @@ private:
                     }
                 }
             }
-            if (!goal || part(mouth.line) == part(goal->line)) {
+            if (!goal || part(mouth.line) == part(goal->line) || !runs_down(mouth, height_on(*goal))) {
                 return false;
             }
             add(mouth, {mouth.begin(), end_on(*goal)}, height_on(*goal));
@@ -608,7 +630,7 @@ private:
         }
         for (std::size_t m = 0; m < mouths.size(); ++m) {
             Mouth const& mouth = mouths[m];
-            if (m == root || mouth.on || part(mouth.line) == part(mouths[root].line)) {
+            if (m == root || mouth.on || part(mouth.line) == part(mouths[root].line) || !runs_down(mouth, z)) {
                 continue;
             }
             MiddleTree::Way way;

@@ -300,9 +300,7 @@ void forget_lake_lines(Imported& imported, std::int64_t number) {
     });
 }
 
-} // namespace
-
-Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
+Imported imported_with_lakes(RiverLines const& file, ImportParams const& params, Run const& run) {
     refuse_if<BadParameter>(!(params.snap_m >= 0.0) || !std::isfinite(params.snap_m),
                             "network.import_lines: snap_m = {}, it is a distance [m] >= 0", params.snap_m);
     refuse_if<BadParameter>(!(params.cell_m >= 0.0) || !std::isfinite(params.cell_m),
@@ -378,6 +376,25 @@ Imported import_lines(RiverLines const& file, ImportParams const& params, Run co
     }
     run.at(1.0, "adopt");
     return imported;
+}
+
+} // namespace
+
+Imported import_lines(RiverLines const& file, ImportParams const& params, Run const& run) {
+    if (file.lakes.empty()) {
+        return imported_with_lakes(file, params, run);
+    }
+    try {
+        return imported_with_lakes(file, params, run);
+    } catch (BadInput const& cannot) { // by heights, say, a lake that rivers run through has two outflows
+        RiverLines bare = file;
+        bare.lakes.clear();
+        Imported imported = imported_with_lakes(bare, params, run);
+        imported.repairs.push_back({"lake_left_out", file.lakes.front().feature,
+                                    file.lakes.front().rings.front().front(), 0.0,
+                                    fmt::format("no river runs through a lake: {}", cannot.what())});
+        return imported;
+    }
 }
 
 namespace {
