@@ -333,7 +333,48 @@ TEST_F(ReadRivers, LakesAreThePolygonsThatSaySo) {
     EXPECT_EQ(lakes(layer("catchments", "id", {"1", "2"})), "");
     EXPECT_EQ(lakes(layer("multipolygons", "osm_id:s natural:s", {"1", "2"})), "") << "no natural = water";
     EXPECT_EQ(lakes(layer("multipolygons", "natural:s osm_id:s", {"water", "wood", "water"})), "13");
-    // Among the lines.
+    for (char const* name : {"A05_Vodni_nadrze", "stehende_gewaesser", "jezera", "sjö", "Seen", "plan_d_eau"}) {
+        EXPECT_EQ(lakes(layer(name, "id", {"1"})), "1") << name;
+    }
+    for (char const* name : {"lake_catchments", "lake_district", "lake_shore_buffer", "see_einzugsgebiete"}) {
+        EXPECT_EQ(lakes(layer(name, "id", {"1"})), "") << name;
+    }
+    // Among the lines: what says that it is something else is no lake, what says nothing is one.
+    auto const among = [&](std::string const& field, std::string const& value) {
+        ForeignLayer both{.name = "a", .type = wkbUnknown, .fields = (field + ":s").c_str()};
+        both.rows = {{"LINESTRING(0 0,1 1)", {""}}, {square, {value}}};
+        return io::read_rivers({.path = write("m.gpkg", {both})}).lakes.size();
+    };
+    for (auto const& [field, value] :
+         std::vector<std::pair<std::string, std::string>>{{"boundary", "administrative"},
+                                                          {"natural", "wood"},
+                                                          {"natural", "glacier"},
+                                                          {"landuse", "forest"},
+                                                          {"place", "island"},
+                                                          {"building", "yes"},
+                                                          {"leisure", "park"},
+                                                          {"featuretype", "watershed"},
+                                                          {"description", "drainage basin"},
+                                                          {"admin_level", "2"},
+                                                          {"ISO_A3", "CHE"},
+                                                          {"HYBAS_ID", "2060000001"},
+                                                          {"huc12", "010100020101"},
+                                                          {"kind", "Einzugsgebiet"},
+                                                          {"water", "river"},
+                                                          {"waterway", "riverbank"}}) {
+        EXPECT_EQ(among(field, value), 0U) << field << " = " << value;
+        EXPECT_EQ(among(field, ""), 1U) << field;
+    }
+    EXPECT_EQ(among("natural", "water"), 1U);
+    EXPECT_EQ(among("water", "pond"), 1U);
+    EXPECT_EQ(among("name", "Lake District Pond"), 1U);
+    // A polygon around the rivers is no lake.
+    ForeignLayer around{.name = "a", .type = wkbUnknown, .fields = "name:s"};
+    around.rows = {{"LINESTRING(0 0,1 1,2 1)", {"a"}}, {"POLYGON((-9 -9,9 -9,9 9,-9 9,-9 -9))", {"b"}}};
+    RiverLines const in_it = io::read_rivers({.path = write("r.gpkg", {around})});
+    EXPECT_TRUE(in_it.lakes.empty());
+    ASSERT_EQ(in_it.findings.size(), 1U);
+    EXPECT_TRUE(test::has(in_it.findings[0].text, "polygon 2 is no lake")) << in_it.findings[0].text;
     ForeignLayer mixed{.name = "a", .type = wkbUnknown, .fields = "name:s"};
     mixed.rows = {{"LINESTRING(0 0,1 1)", {"a"}}, {square, {"b"}}};
     RiverLines const read = io::read_rivers({.path = write("b.gpkg", {mixed})});

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 
 #include <algorithm>
@@ -287,6 +288,16 @@ TEST(United, TouchingPolygonsAreOneAndBowTiesAreMended) {
     EXPECT_TRUE(mended.IsValid());
     EXPECT_DOUBLE_EQ(mended.get_Area(), 50.0);
     EXPECT_TRUE(io::united({{6, {{{0, 0}, {1, 1}}}}}).empty());
+    // Half a metre apart, and at a corner.
+    std::vector<Polygon> const two{{1, {{{0, 0}, {100, 0}, {100, 100}, {0, 100}}}},
+                                   {2, {{{100.5, 0}, {200, 0}, {200, 100}, {100.5, 100}}}},
+                                   {3, {{{200, 100}, {300, 100}, {300, 200}, {200, 200}}}}};
+    EXPECT_EQ(io::united(two).size(), 3U);
+    std::vector<Polygon> const sheets = io::united(two, 1.0);
+    ASSERT_EQ(sheets.size(), 1U);
+    EXPECT_EQ(sheets[0].feature, 1);
+    EXPECT_NEAR(std::fabs(geometry::signed_area(sheets[0].rings[0])), 29'950.0 + 50.0, 2.0);
+    EXPECT_EQ(io::united(two, 0.2).size(), 2U) << "the corner alone";
 }
 
 } // namespace polygons_test

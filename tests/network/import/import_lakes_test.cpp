@@ -89,10 +89,16 @@ TEST(ImportLakes, EndsMayLieBesideTheShoreOrInTheLake) {
     for (ArcId a = 0; a < imported.network.arc_count(); ++a) {
         EXPECT_TRUE(imported.network.arc(a).feature != 1 || imported.network.arc(a).line.front() == (Vec2{100, 500}));
     }
-    // An outflow that begins 15 m away is none; nor is an inflow that ends 25 m away.
-    EXPECT_TRUE(
-        crossed(import_lines(with_lakes({{{100, 500}, {100, 215}}, {{100, -15}, {100, -300}}}, {{square}}), on_cells))
-            .empty());
+    // One that begins 15 m away is the outflow if no other is; an inflow that ends 25 m away is none.
+    RiverLines const beside = with_lakes({{{100, 500}, {100, 215}}, {{100, -15}, {100, -300}}}, {{square}});
+    EXPECT_EQ(crossed(import_lines(beside, on_cells)).size(), 1U);
+    RiverLines with_other = beside;
+    with_other.lines.push_back(beside.lines.back());
+    with_other.lines.back().feature = 3;
+    with_other.lines.back().vertices = {{200, 100, 0}, {500, 100, 0}};
+    Imported const two = import_lines(with_other, on_cells);
+    ASSERT_EQ(crossed(two).size(), 1U);
+    EXPECT_EQ(crossed(two)[0].where, (Vec2{200, 100}));
     EXPECT_TRUE(
         crossed(import_lines(with_lakes({{{100, 500}, {100, 225}}, {{100, 0}, {100, -300}}}, {{square}}), on_cells))
             .empty());
@@ -123,7 +129,9 @@ TEST(ImportLakes, OfSeveralOutflowsByHeightsTheLowestTakesItsWater) {
     Imported const imported = import_lines(lines, on_cells);
     EXPECT_EQ(imported.network.outlets().size(), 2U) << "the other one keeps beginning at the shore";
     EXPECT_NEAR(added_m(imported), 200.0, 1.0);
-    lines.lines[0].vertices.back().z = 40.0; // that far below the lake nothing runs into it
+    lines.lines[0].vertices.back().z = 40.0; // as noise
+    EXPECT_EQ(crossed(import_lines(lines, on_cells)).size(), 1U);
+    lines.lines[0].vertices.back().z = 25.0; // that far below the lake nothing runs into it
     EXPECT_TRUE(crossed(import_lines(lines, on_cells)).empty());
 }
 
@@ -170,6 +178,166 @@ TEST(ImportLakes, DrawnUpstreamItIsTheSame) {
     Imported const imported = import_lines(lines, on_cells);
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
+}
+
+TEST(ImportLakes, AllDrawnUpstreamIsTurnedAsAWhole) {
+    // Nothing is said but the drawing, which forks at the lake.
+    RiverLines lines =
+        with_lakes({{{100, 200}, {100, 500}}, {{0, 100}, {-300, 100}}, {{100, -300}, {100, 0}}}, {{square}}, 0);
+    Imported const imported = import_lines(lines, on_cells);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
+    // The same with a river that passes through.
+    lines = with_lakes({{{100, -300}, {100, 60}, {100, 500}}, {{0, 100}, {-300, 100}}, {{200, 80}, {500, 80}}},
+                       {{square}}, 0);
+    Imported const through = import_lines(lines, on_cells);
+    ASSERT_EQ(through.network.outlets().size(), 1U);
+    EXPECT_EQ(through.network.node(through.network.outlets()[0]).at, (Vec2{100, -300}));
+}
+
+TEST(ImportLakes, ASecondOutflowBeginsAtTheShore) {
+    RiverLines lines = with_lakes(
+        {{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 0}, {100, -300}}, {{200, 100}, {500, 100}}},
+        {{square}}, 0);
+    for (auto const asked : {network::Orientation::automatic, network::Orientation::as_drawn}) {
+        Imported const imported = import_lines(lines, {.orientation = asked, .cell_m = 10.0});
+        EXPECT_EQ(imported.network.outlets().size(), 2U);
+        EXPECT_TRUE(imported.secondary.empty());
+        EXPECT_EQ(std::ranges::count_if(imported.repairs,
+                                        [](Finding const& f) { return f.kind == FindingKind("lake_outflows"); }),
+                  1);
+    }
+    for (RiverLine& line : lines.lines) { // no doubt then
+        line.runs = 1;
+    }
+    Imported const said = import_lines(lines, on_cells);
+    EXPECT_EQ(said.network.outlets().size(), 2U);
+    ASSERT_EQ(said.repairs.size(), 1U);
+    EXPECT_TRUE(test::has(said.repairs[0].text, "another one begins at its shore")) << said.repairs[0].text;
+}
+
+// Whatever the drawing says.
+TEST(ImportLakes, LinksNodesColumnsHeightsAndRanksDecide) {
+    std::vector<Line> const lines{{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 0}, {100, -300}}};
+    using Say = void (*)(RiverLines&);
+    Say const says[] = {[](RiverLines& rivers) { rivers.lines[0].down = rivers.lines[1].down = 3; },
+                        [](RiverLines& rivers) {
+                            for (RiverLine& line : rivers.lines) {
+                                line.from_node = 10 + line.feature;
+                                line.to_node = 2;
+                            }
+                            rivers.lines[2].from_node = 2;
+                            rivers.lines[2].to_node = 20;
+                        },
+                        [](RiverLines& rivers) {
+                            for (RiverLine& line : rivers.lines) {
+                                line.rank = line.feature == 3 ? 1 : 2;
+                            }
+                        },
+                        [](RiverLines& rivers) {
+                            rivers.has_z = true;
+                            for (RiverLine& line : rivers.lines) {
+                                line.vertices[0].z = line.feature == 3 ? 50 : 90;
+                                line.vertices[1].z = line.feature == 3 ? 20 : 50;
+                            }
+                        },
+                        [](RiverLines& rivers) {
+                            for (RiverLine& line : rivers.lines) {
+                                line.runs = 1;
+                            }
+                        }};
+    for (std::size_t by = 0; by < std::size(says); ++by) {
+        for (std::size_t turned = 0; turned < 8; ++turned) {
+            RiverLines rivers = with_lakes(lines, {{square}}, 0);
+            says[by](rivers);
+            for (std::size_t l = 0; l < 3; ++l) {
+                if ((turned >> l & 1U) != 0) {
+                    std::ranges::reverse(rivers.lines[l].vertices);
+                    rivers.lines[l].runs = -rivers.lines[l].runs;
+                }
+            }
+            Imported const imported = import_lines(rivers, on_cells);
+            ASSERT_EQ(imported.network.outlets().size(), 1U) << by << " " << turned;
+            EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}))
+                << by << " " << turned;
+            EXPECT_TRUE(imported.secondary.empty()) << by << " " << turned;
+        }
+    }
+}
+
+TEST(ImportLakes, ALakeWithoutAnOutflowIsNamed) {
+    RiverLines const lines =
+        with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, -45}, {100, -300}}}, {{square}});
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.outlets().size(), 3U);
+    ASSERT_EQ(imported.repairs.size(), 1U);
+    EXPECT_TRUE(test::has(imported.repairs[0].text, "2 rivers end at the shore of a lake that no river leaves"))
+        << imported.repairs[0].text;
+    EXPECT_TRUE(test::has(imported.repairs[0].text, "begins 45 m from its shore")) << imported.repairs[0].text;
+    EXPECT_TRUE(test::has(imported.repairs[0].remedy, "network.lines.snap=45")) << imported.repairs[0].remedy;
+}
+
+TEST(ImportLakes, ItsWaterMayLeaveItWhereTheBorderIsNearest) {
+    RiverLines const lines =
+        with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 900}, {200, 150}}}, {{square}});
+    Grid grid;
+    grid.cell_m = 10.0;
+    grid.west = -400.0;
+    grid.north = 1000.0;
+    grid.width = 100;
+    grid.height = 110;
+    Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at.y, 0.0);
+    EXPECT_EQ(crossed(imported).size(), 1U);
+}
+
+TEST(ImportLakes, ARiverFarBelowItIsNamed) {
+    RiverLines lines =
+        with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 0}, {100, -300}}}, {{square}}, 0);
+    lines.has_z = true;
+    double const z[3][2] = {{90, 50}, {80, 10}, {50, 20}};
+    for (std::size_t l = 0; l < 3; ++l) {
+        lines.lines[l].vertices[0].z = z[l][0];
+        lines.lines[l].vertices[1].z = z[l][1];
+    }
+    Imported const imported = import_lines(lines, on_cells);
+    EXPECT_EQ(imported.network.outlets().size(), 2U);
+    auto const below =
+        std::ranges::find_if(imported.repairs, [](Finding const& f) { return f.kind == FindingKind("below_lake"); });
+    ASSERT_NE(below, imported.repairs.end());
+    EXPECT_EQ(below->feature, 2);
+    EXPECT_NEAR(below->amount, 40.0, 1e-9);
+}
+
+TEST(ImportLakes, RiversOfIslandsAndLinesAfloatReachTheWater) {
+    Line const island{{80, 80}, {120, 80}, {120, 120}, {80, 120}};
+    RiverLines const lines = with_lakes({{{100, 500}, {100, 200}},
+                                         {{100, 0}, {100, -300}},
+                                         {{100, 100}, {80, 100}}, // to the island's shore
+                                         {{160, 20}, {160, 40}}}, // all of it in the lake
+                                        {{square, island}});
+    Imported const imported = import_lines(lines, on_cells);
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at, (Vec2{100, -300}));
+}
+
+TEST(ImportLakes, ALakeMayLieBeyondTheGrid) {
+    Line const large{{0, 0}, {200, 0}, {2000, 200}, {0, 200}};
+    RiverLines const lines = with_lakes({{{20, 500}, {20, 200}}, {{20, 0}, {20, -300}}}, {{large}});
+    Grid grid;
+    grid.cell_m = 10.0;
+    grid.west = -10.0;
+    grid.north = 520.0;
+    grid.width = 12;
+    grid.height = 90;
+    Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid});
+    ASSERT_EQ(imported.network.outlets().size(), 1U);
+    for (Arc const& arc : imported.network.arcs()) {
+        for (Vec2 const p : arc.line) {
+            EXPECT_LE(p.x, 110.0 - 20.0);
+        }
+    }
 }
 
 TEST(ImportLakes, HeightsAreThoseOfTheOutflow) {

@@ -435,6 +435,32 @@ TEST(RiverFiles, OfAnExtractOfOpenStreetMapTheRiversAreRead) {
     EXPECT_EQ(std::distance(fs::directory_iterator(place.path()), fs::directory_iterator()), 2);
 }
 
+TEST(RiverFiles, RiversRunThroughLakesOfAnExtract) {
+    // Two ways along one meridian, and between their ends a square of water; a wood beside it.
+    Workplace const place;
+    std::vector<std::pair<double, double>> const nodes{{47.20, 9.01},  {47.16, 9.011}, {47.12, 9.01}, {47.10, 9.01},
+                                                       {47.06, 9.011}, {47.02, 9.01},  {47.12, 9.00}, {47.10, 9.00},
+                                                       {47.10, 9.02},  {47.12, 9.02},  {47.10, 9.03}};
+    std::string extract = R"(<?xml version="1.0"?><osm version="0.6">)";
+    for (std::size_t i = 0; i < nodes.size(); ++i) {
+        extract += "<node id=\"" + std::to_string(i + 1) + "\" version=\"1\" lat=\"" + std::to_string(nodes[i].first) +
+                   "\" lon=\"" + std::to_string(nodes[i].second) + "\"/>";
+    }
+    auto const way = [](char const* id, std::vector<int> const& of, char const* tag) {
+        std::string text = "<way id=\"" + std::string(id) + "\" version=\"1\">";
+        for (int const node : of) {
+            text += "<nd ref=\"" + std::to_string(node) + "\"/>";
+        }
+        return text + "<tag " + tag + "/></way>";
+    };
+    extract += way("1", {1, 2, 3}, R"(k="waterway" v="river")") + way("2", {4, 5, 6}, R"(k="waterway" v="river")") +
+               way("3", {3, 7, 8, 4, 9, 10, 3}, R"(k="natural" v="water")") +
+               way("4", {9, 11, 10, 9}, R"(k="natural" v="wood")") + "</osm>";
+    place.write("extract.osm", extract);
+    expect_run(place, "make extract.osm -o out" + std::string(coarse), 0, "1 arcs");
+    expect_run(place, "replay out --verify", 0);
+}
+
 TEST(RiverFiles, WaysInSeveralPartsAreMended) {
     Workplace const place;
     place.write("parts.geojson", test::geojson(test::feature("MultiLineString",

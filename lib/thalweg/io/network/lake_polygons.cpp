@@ -6,11 +6,13 @@
 #include <memory>
 #include <string_view>
 
+#include <fmt/format.h>
 #include <gdal_priv.h>
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
@@ -19,8 +21,8 @@ namespace thalweg::io {
 namespace {
 
 // OpenStreetMap's values of `water` that are no lakes: rivers run in them as lines.
-constexpr std::array running_water{"river", "canal", "stream",     "ditch",   "drain",
-                                   "moat",  "lock",  "wastewater", "fountain"};
+constexpr std::array running_water{"river", "canal",  "stream",     "ditch",    "drain",    "moat",
+                                   "lock",  "rapids", "wastewater", "fountain", "fish_pass"};
 // NHD's FTYPE: lakes, reservoirs, playas, swamps, and areas of rivers.
 constexpr std::array types_of_nhd{"390",      "436",       "361",   "466",        "460",
                                   "lakepond", "reservoir", "playa", "swampmarsh", "streamriver"};
@@ -30,11 +32,58 @@ constexpr std::array lake_words{"lake",     "lakes",     "lakepond", "reservoir"
                                 "meerplas", "meer",      "plas",     "innsj",      "innsjregulert", "sj",
                                 "lago",     "laguna",    "embalse",  "represa",    "lagoalagoa",    "lagoa",
                                 "44006",    "waterbody", "aude",     "massadagua", "water",         "inlandwater"};
-constexpr std::array lake_names{
-    "lake",      "waterbod",       "reservoir",     "pond",        "plan_d_eau",       "plandeau",      "lagos",
-    "laghi",     "lagoa",          "laguna",        "embalse",     "massadagua",       "innsj",         "jarvi",
-    "waterarea", "waterdeel_vlak", "waterdeelvlak", "stehgewsser", "stehendesgewsser", "standingwater", "surfacewater",
-    "hydroarea", "hydropoly",      "jezior"};
+// Parts of names of layers, as simple_name() makes them.
+constexpr std::array lake_names{"lake",
+                                "waterbod",
+                                "reservoir",
+                                "pond",
+                                "plandeau",
+                                "lagos",
+                                "laghi",
+                                "lagoa",
+                                "laguna",
+                                "embalse",
+                                "massadagua",
+                                "innsj",
+                                "jarvi",
+                                "waterarea",
+                                "stehgew",
+                                "stehende",
+                                "waterdeelvlak",
+                                "sjoar",
+                                "stehendesgewsser",
+                                "standingwater",
+                                "surfacewater",
+                                "hydroarea",
+                                "hydropoly",
+                                "jezior",
+                                "jezer",
+                                "nadrz",
+                                "nhdarea"};
+constexpr std::array whole_lake_names{"see", "seen", "lac", "lacs", "water", "sjo", "sj", "sjar", "meren", "plassen"};
+// Layers of land around lakes are named for these as well.
+constexpr std::array land_names{"catchment", "watershed", "basin",  "bassin", "einzugsgebiet", "cuenca", "bacia",
+                                "district",  "buffer",    "region", "park",   "landuse",       "county", "municipal"};
+// Names and descriptions of land.
+constexpr std::array land_words{"catchment",  "watershed",     "drainagebasin",
+                                "riverbasin", "bassinversant", "einzugsgebiet"};
+// Keys of OpenStreetMap whose values say that a polygon is something on land.
+constexpr std::array land_keys{"boundary", "admin_level", "place",     "building", "leisure",
+                               "amenity",  "highway",     "landcover", "man_made", "military",
+                               "tourism",  "railway",     "power",     "aeroway",  "barrier",
+                               "historic", "geological",  "office",    "shop",     "area:highway"};
+// Columns of units of land, by their names or how these begin, as simple_name() makes them.
+constexpr std::array land_columns{"isoa2",   "isoa3",   "adm0a3",  "admin",     "country",   "nutsid",    "hybasid",
+                                  "mainbas", "basinid", "catchid", "catchment", "watershed", "sovereignt"};
+constexpr std::array land_column_starts{"huc", "gid0", "gid1", "gid2"};
+
+bool has_part(std::string_view text, auto const& parts) {
+    return std::ranges::any_of(parts, [&](std::string_view part) { return text.find(part) != std::string::npos; });
+}
+
+bool is_one_of(std::string_view word, auto const& words) {
+    return std::ranges::find(words, word) != words.end();
+}
 
 bool is_area(OGRwkbGeometryType type) {
     auto const flat = wkbFlatten(type);
@@ -43,8 +92,7 @@ bool is_area(OGRwkbGeometryType type) {
 
 bool is_named_for_lakes(OGRLayer& layer) {
     std::string const own = simple_name(layer.GetName());
-    return own == "see" || own == "seen" || own == "lac" || own == "lacs" || own == "water" ||
-           std::ranges::any_of(lake_names, [&](std::string_view part) { return own.find(part) != std::string::npos; });
+    return (is_one_of(own, whole_lake_names) || has_part(own, lake_names)) && !has_part(own, land_names);
 }
 
 void add_areas(OGRGeometry const& shape, std::int64_t feature, std::vector<Polygon>& lakes) {
@@ -77,14 +125,29 @@ void add_areas(OGRGeometry const& shape, std::int64_t feature, std::vector<Polyg
 
 LakeFilter::LakeFilter(OGRLayer& layer)
     : all_tags_(layer, {"other_tags", "all_tags", "tags"}, false), ftype_(layer, {"ftype"}, false),
-      is_named_(is_named_for_lakes(layer)) {
+      is_named_(is_named_for_lakes(layer)), is_of_land_(has_part(simple_name(layer.GetName()), land_names)) {
     for (char const* key : {"natural", "water", "waterway", "landuse"}) {
         tags_.emplace_back(key, FileColumn(layer, {key}, false));
     }
+    for (char const* key : land_keys) {
+        tags_.emplace_back(key, FileColumn(layer, {key}, false));
+    }
     for (char const* name : {"featurecla", "fclass", "nature", "objart", "objektart", "objtype", "typewater", "type",
-                             "waterdefinition", "class", "kind"}) {
+                             "waterdefinition", "class", "kind", "featuretype", "category"}) {
         if (FileColumn column(layer, {name}, false); column.is_there()) {
             kinds_.push_back(std::move(column));
+        }
+    }
+    for (char const* name : {"description", "name", "title", "label"}) {
+        if (FileColumn column(layer, {name}, false); column.is_there()) {
+            words_.push_back(std::move(column));
+        }
+    }
+    for (std::string const& name : field_names(layer)) {
+        std::string const own = simple_name(name);
+        if (is_one_of(own, land_columns) ||
+            std::ranges::any_of(land_column_starts, [&](std::string_view start) { return own.starts_with(start); })) {
+            units_.emplace_back(layer, std::vector<std::string>{name}, false);
         }
     }
     is_tagged_ = all_tags_.is_there() || FileColumn(layer, {"osm_id", "osm_way_id", "@id"}, false).is_there();
@@ -96,25 +159,40 @@ std::string LakeFilter::tag(OGRFeature const& feature, std::string_view key) con
     return lower_case(own.empty() && all_tags_.is_there() ? value_of_tag(all_tags_.text(feature), key) : own);
 }
 
+// What is said of a polygon comes first; one of which nothing is said is a lake.
 bool LakeFilter::is_lake(OGRFeature const& feature) const {
-    if (is_tagged_) {
-        std::string const water = tag(feature, "water");
-        std::string const landuse = tag(feature, "landuse");
-        bool const runs = std::ranges::find(running_water, water) != running_water.end();
-        return (tag(feature, "natural") == "water" && !runs) || landuse == "reservoir";
+    if (std::string const type = simple_name(ftype_.text(feature)); !type.empty() && !is_tagged_) {
+        return is_one_of(type, types_of_nhd);
     }
-    auto const is_among = [](auto const& list, std::string const& word) {
-        return std::ranges::find(list, word) != list.end();
-    };
-    if (std::string const type = simple_name(ftype_.text(feature)); !type.empty()) {
-        return is_among(types_of_nhd, type);
+    std::string const natural = tag(feature, "natural");
+    std::string const water = tag(feature, "water");
+    std::string const landuse = tag(feature, "landuse");
+    bool const runs = is_one_of(water, running_water) || !tag(feature, "waterway").empty();
+    bool const is_water = natural == "water" || (natural.empty() && !water.empty() && water != "no");
+    if (landuse == "reservoir" || (is_water && !runs)) {
+        return true;
     }
+    bool const is_land = std::ranges::any_of(land_keys, [&](char const* key) { return !tag(feature, key).empty(); });
+    if (is_tagged_ || runs || is_land || !natural.empty() || !landuse.empty()) {
+        return false;
+    }
+    bool says_other = false;
     for (FileColumn const& kind : kinds_) {
-        if (is_among(lake_words, simple_name(kind.text(feature)))) {
+        std::string const word = simple_name(kind.text(feature));
+        if (is_one_of(word, lake_words)) {
             return true;
         }
+        says_other = says_other || !kind.text(feature).empty();
     }
-    return is_named_ || kinds_.empty();
+    if (is_named_) {
+        return true;
+    }
+    auto const is_unit = [&](FileColumn const& unit) { return !unit.text(feature).empty(); };
+    auto const speaks_of_land = [&](FileColumn const& words) {
+        return has_part(simple_name(words.text(feature)), land_words);
+    };
+    return !says_other && !is_of_land_ && std::ranges::none_of(units_, is_unit) &&
+           std::ranges::none_of(words_, speaks_of_land);
 }
 
 bool LakeFilter::take(OGRFeature const& feature, std::int64_t number, std::vector<Polygon>& lakes) const {
@@ -127,13 +205,16 @@ bool LakeFilter::take(OGRFeature const& feature, std::int64_t number, std::vecto
     return true;
 }
 
+bool may_hold_lakes(OGRLayer& layer) {
+    return (wkbFlatten(layer.GetGeomType()) == wkbUnknown || is_area(layer.GetGeomType())) && is_named_for_lakes(layer);
+}
+
 std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> const& read, IntoMetres const& metres,
                                      OGRSpatialReference const& own, Run const& run) {
     std::vector<Polygon> lakes;
     for (OGRLayer* const layer : layers_of(data)) {
         bool const is_osm = EQUAL(layer->GetName(), "multipolygons");
-        bool const may_hold = wkbFlatten(layer->GetGeomType()) == wkbUnknown || is_area(layer->GetGeomType());
-        if (std::ranges::find(read, layer) != read.end() || !may_hold || !(is_osm || is_named_for_lakes(*layer))) {
+        if (std::ranges::find(read, layer) != read.end() || !(is_osm || may_hold_lakes(*layer))) {
             continue;
         }
         OGRSpatialReference const crs = crs_of_layer(layer->GetSpatialRef(), "");
@@ -160,6 +241,40 @@ std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& wha
     refuse_if<BadInput>(areas.size() != 1, "{} has {} layers of polygons ({}): extract the one you mean (ogr2ogr)",
                         what, areas.size(), listed(layer_names(all)));
     return areas;
+}
+
+void drop_surroundings(std::vector<Polygon>& lakes, std::vector<RiverLine> const& lines,
+                       std::vector<Finding>& findings) {
+    std::size_t vertices = 0;
+    for (RiverLine const& line : lines) {
+        vertices += line.vertices.size();
+    }
+    std::erase_if(lakes, [&](Polygon const& lake) {
+        Vec2 low = lake.rings.front().front();
+        Vec2 high = low;
+        for (Vec2 const p : lake.rings.front()) {
+            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
+            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
+        }
+        std::vector<Vec2> about;
+        for (RiverLine const& line : lines) {
+            for (Vec3 const& v : line.vertices) {
+                if (v.x >= low.x && v.x <= high.x && v.y >= low.y && v.y <= high.y) {
+                    about.push_back(in_plan(v));
+                }
+            }
+        }
+        if (2 * about.size() <= vertices) {
+            return false;
+        }
+        auto const in = std::ranges::count_if(about, [&](Vec2 p) { return geometry::contains(lake.rings.front(), p); });
+        bool const is_around = 2 * static_cast<std::size_t>(in) > vertices;
+        if (is_around) {
+            findings.push_back({"lake_left_out", lake.feature, lake.rings.front().front(), 0.0,
+                                fmt::format("polygon {} is no lake: most of the rivers lie in it", lake.feature)});
+        }
+        return is_around;
+    });
 }
 
 std::vector<Polygon> into_metres(std::vector<Polygon> lakes, IntoMetres const& metres) {

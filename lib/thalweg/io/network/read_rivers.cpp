@@ -401,7 +401,8 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     for (Polygon& lake : other_lakes(params, *data, layers, metres, own, run)) {
         rivers.lakes.push_back(std::move(lake));
     }
-    rivers.lakes = united(std::move(rivers.lakes));
+    drop_surroundings(rivers.lakes, rivers.lines, rivers.findings);
+    rivers.lakes = united(std::move(rivers.lakes), gap_between_sheets_m);
     rivers.attributes = read.attributes();
     rivers.rank_field = read.rank_name();
     rivers.crs = metres.crs();

@@ -303,6 +303,32 @@ std::vector<std::size_t> groups_by_box(std::vector<OGREnvelope> const& boxes) {
     return root;
 }
 
+OGREnvelope widened(OGREnvelope box, double by) {
+    box.MinX -= by;
+    box.MinY -= by;
+    box.MaxX += by;
+    box.MaxY += by;
+    return box;
+}
+
+int parts_in(OGRGeometry const& shape) {
+    auto const flat = wkbFlatten(shape.getGeometryType());
+    return flat == wkbMultiPolygon ? shape.toMultiPolygon()->getNumGeometries() : 1;
+}
+
+/// The shape with gaps up to a width closed, where that joins parts.
+std::unique_ptr<OGRGeometry> closed(std::unique_ptr<OGRGeometry> shape, double gap_m) {
+    constexpr int segments = 2; // of a quarter of a circle
+    if (shape == nullptr || !(gap_m > 0.0) || parts_in(*shape) < 2) {
+        return shape;
+    }
+    double const half_m = 0.51 * gap_m;
+    std::unique_ptr<OGRGeometry> const wide(shape->Buffer(half_m, segments));
+    std::unique_ptr<OGRGeometry> narrow(wide == nullptr ? nullptr : wide->Buffer(-half_m, segments));
+    return narrow != nullptr && narrow->IsEmpty() == 0 && parts_in(*narrow) < parts_in(*shape) ? std::move(narrow)
+                                                                                               : std::move(shape);
+}
+
 void take_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<Polygon>& polygons) {
     auto const flat = wkbFlatten(shape.getGeometryType());
     if (OGR_GT_IsSubClassOf(flat, wkbGeometryCollection) != 0) {
@@ -319,13 +345,16 @@ void take_parts(OGRGeometry const& shape, std::int64_t feature, std::vector<Poly
 
 } // namespace
 
-std::vector<Polygon> united(std::vector<Polygon> polygons) {
+std::vector<Polygon> united(std::vector<Polygon> polygons, double gap_m) {
     Driver const driver;
     std::vector<std::unique_ptr<OGRGeometry>> shapes;
     std::vector<OGREnvelope> boxes(polygons.size());
     for (std::size_t i = 0; i < polygons.size(); ++i) {
         shapes.push_back(shape_of(polygons[i]));
         shapes[i]->getEnvelope(&boxes[i]);
+        if (boxes[i].IsInit() != 0) {
+            boxes[i] = widened(boxes[i], 0.5 * gap_m);
+        }
     }
     std::vector<std::size_t> const group = groups_by_box(boxes);
     std::map<std::size_t, std::vector<std::size_t>> members;
@@ -350,7 +379,7 @@ std::vector<Polygon> united(std::vector<Polygon> polygons) {
                 all.addGeometryDirectly(shape_of(part).release());
             }
         }
-        std::unique_ptr<OGRGeometry> const whole(all.UnionCascaded());
+        std::unique_ptr<OGRGeometry> const whole = closed(std::unique_ptr<OGRGeometry>(all.UnionCascaded()), gap_m);
         if (whole == nullptr) {
             continue;
         }

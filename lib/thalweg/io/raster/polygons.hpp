@@ -61,12 +61,17 @@ Polygons read_polygons(Source const& source, std::string const& crs, std::string
 Polygons read_polygons_valued(Source const& source, std::string const& crs, std::string const& field,
                               Run const& run = {});
 
+/// [m] Between the parts of a lake on two sheets of a map.
+inline constexpr double gap_between_sheets_m = 1.0;
+
 /// Unites polygons that overlap or touch, and mends those that cross themselves.
 /// \param polygons any; rings of fewer than three vertices are left out
+/// \param gap_m [m] >= 0: those of the same group of boxes that are nearer, or touch in a point, become one too; their
+/// outlines may then move by less than that
 /// \return valid polygons, of which no two share more than a point; each with the lowest feature of its own
 ///
 /// Source: GEOS, by GDAL.
-std::vector<Polygon> united(std::vector<Polygon> polygons);
+std::vector<Polygon> united(std::vector<Polygon> polygons, double gap_m = 0.0);
 
 /// The catchment of an arc as a row.
 struct CatchmentRow {

@@ -229,9 +229,13 @@ Dataset copy_raster(GDALDataset& source, std::string const& path, GdalProgress& 
         path.c_str(), &source, FALSE, options.List(), &GdalProgress::step, &gdal_progress));
 }
 
+/// \param more options of ogr2ogr
 Dataset copy_layers(GDALDataset& source, std::vector<std::string> const& layers, std::string const& path,
-                    GdalProgress& gdal_progress) {
+                    GdalProgress& gdal_progress, std::vector<std::string> const& more = {}) {
     CPLStringList words;
+    for (std::string const& word : more) {
+        words.AddString(word.c_str());
+    }
     // The columns for ids and geometries must not collide with the source's.
     for (char const* const word : {"-f", "GPKG", "-lco", "FID=thalweg_fid", "-lco", "GEOMETRY_NAME=thalweg_shape"}) {
         words.AddString(word);
@@ -250,10 +254,34 @@ Dataset copy_layers(GDALDataset& source, std::vector<std::string> const& layers,
 
 /// The names of the layers to copy; none: all.
 std::vector<std::string> names_to_copy(GDALDataset& source, std::string const& wanted, std::string const& path) {
-    if (wanted.empty() || source.GetLayerByName(wanted.c_str()) != nullptr) {
-        return wanted.empty() ? std::vector<std::string>() : std::vector{wanted};
+    if (wanted.empty()) {
+        return {};
     }
-    return layer_names(rivers_layers(source, wanted, "io.plain_copy: " + path));
+    bool const is_one = source.GetLayerByName(wanted.c_str()) != nullptr;
+    std::vector<std::string> names =
+        is_one ? std::vector{wanted} : layer_names(rivers_layers(source, wanted, "io.plain_copy: " + path));
+    for (OGRLayer* const layer : layers_of(source)) { // rivers run on through them
+        bool const is_there = std::ranges::find(names, layer->GetName()) != names.end();
+        if (!is_there && may_hold_lakes(*layer)) {
+            names.emplace_back(layer->GetName());
+        }
+    }
+    return names;
+}
+
+bool is_osm_file(GDALDataset& data) {
+    return data.GetDriver() != nullptr && EQUAL(data.GetDriver()->GetDescription(), "OSM");
+}
+
+/// Adds the lakes of OpenStreetMap to a copy of its ways. Of its layers one is read at a time.
+bool append_osm_lakes(std::string const& source, std::string const& path, GdalProgress& gdal_progress) {
+    Dataset const data = open_unchanged(source, GDAL_OF_VECTOR);
+    if (!data) {
+        return false;
+    }
+    data->ReleaseResultSet(data->ExecuteSQL("SET interest_layers = multipolygons", nullptr, nullptr));
+    return copy_layers(*data, {"multipolygons"}, path, gdal_progress,
+                       {"-update", "-where", "natural = 'water' OR landuse = 'reservoir'"}) != nullptr;
 }
 
 std::string stem_of(std::string const& source, std::string const& layer) {
@@ -288,8 +316,11 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
     Dataset copy =
         is_raster ? copy_raster(*data, raster.path(), gdal_progress) : copy_layers(*data, names, path, gdal_progress);
     gdal_progress.settle();
-    bool const done = copy != nullptr;
+    bool done = copy != nullptr;
     copy.reset();
+    if (done && layer == "lines" && is_osm_file(*data)) {
+        done = append_osm_lakes(source, path, gdal_progress);
+    }
     if (std::string const words = driver.take(); !done || !words.empty()) {
         throw BadInput(fmt::format("io.plain_copy: {} cannot be copied: {}", source, words));
     }

@@ -33,6 +33,12 @@ double height_at(Raster<float> const& dem, Vec2 p) {
 
 } // namespace
 
+double noise_of_heights(double low_m, double high_m) {
+    constexpr double least_m = 20.0;
+    constexpr double share = 0.05;
+    return std::max(least_m, share * (high_m - low_m));
+}
+
 Lowered lower_rises(StreamNetwork const& network, std::vector<std::vector<double>> const& arc_z) {
     require_trees(network, "network.lower_rises");
     bool whole = arc_z.size() == network.arc_count();

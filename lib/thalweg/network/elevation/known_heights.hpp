@@ -37,6 +37,10 @@ ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& c
 /// \throws BadInput when a vertex without a height has none upstream either
 ElevatedNetwork keep_heights(StreamNetwork const& network, ElevatedNetwork const& known);
 
+/// [m] By how much heights between two limits may rise downstream by noise: 20 m, or 5 % of their range where that is
+/// more. A river that is drawn uphill rises by more.
+double noise_of_heights(double low_m, double high_m);
+
 /// What lower_rises() returns.
 struct Lowered {
     ElevatedNetwork network;

@@ -10,6 +10,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
@@ -167,6 +168,15 @@ public:
         reached_.assign(p_.nodes.size(), 0);
         state_.assign(p_.nodes.size(), 0);
         border_m_ = border_distances(p_, lines);
+        double low_m = std::numeric_limits<double>::infinity();
+        double high_m = -low_m;
+        for (RiverLine const& line : lines) {
+            for (Vec3 const& v : line.vertices) {
+                low_m = std::min(low_m, v.z);
+                high_m = std::max(high_m, v.z);
+            }
+        }
+        noise_m_ = network::noise_of_heights(low_m, high_m);
     }
 
     Divided divide(Run const& run) {
@@ -325,8 +335,8 @@ private:
             return std::tuple<std::vector<double> const&, double>(size_of(k), p_.pieces[k].length_m);
         });
         for (std::size_t const k : others) {
-            if (certain != nullptr && (certain->votes[k] != 0 || ends_the_links(k, *certain))) {
-                refuse_pit(k, *certain);
+            bool const is_certain = certain != nullptr && (certain->votes[k] != 0 || ends_the_links(k, *certain));
+            if (is_certain && !leads_into_shallow_pit(k, *certain)) {
                 leave_out(k, minor_channel);
             } else if (!kept_.join(p_.pieces[k].from, p_.pieces[k].to)) {
                 leave_out(k, closes_loop);
@@ -339,10 +349,11 @@ private:
         return by.kind == Evidence::Kind::links && lines_[p_.pieces[k].line].down == 0;
     }
 
-    /// Throws if heights or ranks lead from one place into two pits: one of them is wrong.
-    void refuse_pit(std::size_t k, Evidence const& by) {
+    /// Whether heights lead from one place into two pits, of which one is so shallow that they may be off by noise.
+    /// Throws if such a pit is deep, or made by ranks: these are wrong.
+    bool leads_into_shallow_pit(std::size_t k, Evidence const& by) {
         if (by.kind != Evidence::Kind::height && by.kind != Evidence::Kind::rank) {
-            return;
+            return false;
         }
         auto const end_of = [&](std::size_t n) {
             while (main_[n] != no_piece) {
@@ -355,16 +366,29 @@ private:
         bool const is_pit = own != other && p_.at_node[own].size() > 1;
         bool const other_is_pit = own != other && p_.at_node[other].size() > 1;
         if (!is_pit && !other_is_pit) {
-            return;
+            return false;
+        }
+        if (by.kind == Evidence::Kind::height) {
+            double const depth_m = height_at(above(k)) - std::max(is_pit ? height_at(own) : height_at(other),
+                                                                  other_is_pit ? height_at(other) : height_at(own));
+            if (depth_m <= noise_m_) {
+                return true;
+            }
         }
         Vec2 const at = p_.nodes[above(k)];
         Vec2 const pit = p_.nodes[is_pit ? own : other];
         throw BadInput(
             fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}, "
                         "one of them into ({:.6f}, {:.6f}), which no river leaves: correct the {} there, or "
-                        "orient by something else",
+                        "orient by something else (network.lines.orientation)",
                         lines_[p_.pieces[k].line].number(), lines_[p_.pieces[main_[above(k)]].line].number(),
                         file_.name, at.x, at.y, by.name, pit.x, pit.y, by.name));
+    }
+
+    double height_at(std::size_t n) const {
+        Piece const& piece = p_.pieces[p_.at_node[n].front()];
+        auto const& v = lines_[piece.line].vertices;
+        return piece.from == n ? v[piece.first].z : v[piece.last].z;
     }
 
     /// Ignores drawn directions that contradict one another.
@@ -463,6 +487,7 @@ private:
     std::vector<PieceId> towards_ = {};   ///< buffer for a tree
     std::vector<std::int64_t> cost_ = {}; ///< buffer for a tree
     Votes const& drawn_;                  ///< or estimated
+    double noise_m_ = 0.0;                ///< of heights
     Sets kept_;
     Divided divided_ = {};
 };

@@ -51,7 +51,7 @@ std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, R
     std::vector<int> flows(2 * lines.size(), 0);
     for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
         Piece const& piece = pieces.pieces[k];
-        int const runs = found.said[k] != 0 || is_drawn_sure ? found.runs[k] : 0;
+        int const runs = found.said[k] != 0 ? found.said[k] : is_drawn_sure ? found.runs[k] : 0;
         if (piece.first == 0) {
             flows[2 * piece.line] = -runs;
         }

@@ -14,13 +14,15 @@
 #include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
 namespace {
 
 constexpr double shore_cells = 0.5;     // an end lies at a shore that is within
-constexpr double inflow_cells = 2.0;    // or within this, where water leaves its line
+constexpr double inflow_cells = 2.0;    // or within this, where water leaves its line, or no river begins nearer
+constexpr double frame_cells = 2.0;     // lines through lakes keep from the border of the grid
 constexpr double apart_m = 0.05;        // places on a shore, at least
 constexpr double tolerance_cells = 0.1; // of a line through a lake
 
@@ -82,6 +84,20 @@ public:
         return best;
     }
 
+    /// The nearest point of an island's shore.
+    ShorePlace nearest_on_island(Vec2 p) const {
+        ShorePlace best;
+        for (std::size_t r = 1; r < rings_.size(); ++r) {
+            for (std::size_t i = 0; i < rings_[r].size(); ++i) {
+                geometry::Foot const foot = geometry::foot_on(rings_[r][i], rings_[r][(i + 1) % rings_[r].size()], p);
+                if (double const d = distance(p, foot.at); d < best.distance_m) {
+                    best = {i, foot.along, foot.at, d};
+                }
+            }
+        }
+        return best;
+    }
+
     /// Where a segment from within the lake first meets the outer shore.
     std::optional<ShorePlace> way_out(Vec2 from, Vec2 to) const {
         std::optional<ShorePlace> first;
@@ -122,9 +138,12 @@ struct Mouth {
     std::size_t line = 0;
     Vec2 tip;                 ///< end of the line
     int flow = 0;             ///< 1: water leaves the line there, -1: it begins there, 0: unknown
+    bool is_said = false;     ///< that is by more than the drawing
     ShorePlace shore;         ///< where the line crosses the shore
     std::vector<Vec2> inside; ///< the line from its tip to the shore, both included; where it ends ashore the shore
-    std::optional<Insertion> on = {}; ///< of a river that passes through: its own vertex at the shore
+    std::optional<Insertion> on = {};  ///< of a river that passes through: its own vertex at the shore
+    double ashore_m = 0.0;             ///< from the tip to the shore, where it lies on land
+    std::optional<double> made_z = {}; ///< [m] of a place where water leaves that is of no line
 
     /// Where the way through the lake begins.
     Vec2 begin() const { return inside.front(); }
@@ -371,24 +390,96 @@ private:
     std::vector<char> is_taken_;               ///< by vertex
 };
 
+/// What is known of the ends of lines.
+struct Flows {
+    std::vector<int> flow;     ///< by end: 1: water leaves the line there, -1: it begins there, 0: that is not sure
+    std::vector<char> is_said; ///< by end: by more than the drawing
+};
+
+/// By end, as the rivers would run without their lakes.
+Flows flows_without_lakes(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
+                          ImportParams const& params, Left& left, Run const& run) {
+    constexpr double much_as_drawn = 0.4; // share above a half by which a drawing is sure
+    std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation, left.repairs);
+    FoundDirections const found = find_directions(pieces, lines, params, evidence, run);
+    bool const is_drawn_sure = std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
+    ImportParams undivided = params;
+    undivided.divergences = Divergences::main;
+    Pieces forest = pieces;
+    Divided const divided = divide(forest, lines, file, params.orientation, evidence, found.runs, run);
+    std::vector<PieceId> const leaves = orient(forest, lines, file, undivided, evidence, found.runs);
+    enum : char { silent, drawn, said };
+    Sets parts(pieces.nodes.size());
+    for (Piece const& piece : pieces.pieces) {
+        parts.join(piece.from, piece.to);
+    }
+    std::vector<char> known(pieces.nodes.size(), is_drawn_sure ? drawn : silent); // by part
+    for (Evidence const& e : evidence) {
+        for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
+            char& of = known[parts.of(pieces.pieces[k].from)];
+            of = e.votes[k] == 0 ? of : std::max<char>(of, e.kind == Evidence::Kind::drawn ? drawn : said);
+        }
+    }
+    Flows flows{std::vector<int>(2 * lines.size(), 0), std::vector<char>(2 * lines.size(), 0)};
+    for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
+        Piece const& piece = pieces.pieces[k];
+        char const of = known[parts.of(piece.from)];
+        int const runs = of == silent                   ? 0
+                         : divided.reason[k] != nullptr ? divided.runs[k]
+                         : leaves[piece.from] == k      ? 1
+                                                        : -1;
+        auto const set = [&](std::size_t e, int flow) {
+            flows.flow[e] = flow;
+            flows.is_said[e] = of == said ? 1 : 0;
+        };
+        if (piece.first == 0) {
+            set(2 * piece.line, -runs);
+        }
+        if (piece.last + 1 == lines[piece.line].vertices.size()) {
+            set(2 * piece.line + 1, runs);
+        }
+    }
+    return flows;
+}
+
+/// Whether lines meet as they are drawn, away from lakes.
+bool meets_as_drawn(Pieces const& pieces) {
+    std::vector<int> arriving(pieces.nodes.size(), 0);
+    std::vector<int> leaving(pieces.nodes.size(), 0);
+    for (Piece const& piece : pieces.pieces) {
+        ++arriving[piece.to];
+        ++leaving[piece.from];
+    }
+    for (std::size_t n = 0; n < arriving.size(); ++n) {
+        if (arriving[n] > 1 && leaving[n] > 0) {
+            return true;
+        }
+    }
+    return false;
+}
+
 /// Joins the parts of a network that meet lakes.
 class Lakes {
 public:
-    Lakes(std::vector<RiverLine>& lines, Parts parts, std::vector<int> flows, ImportParams const& params, bool has_z,
-          Left& left)
-        : lines_(lines), parts_(std::move(parts)), flows_(std::move(flows)), has_z_(has_z), left_(left),
-          joined_(parts_.most), near_m_(params.cell_m > 0.0 ? shore_cells * params.cell_m : params.snap_m),
+    Lakes(std::vector<RiverLine>& lines, Parts parts, Flows flows, ImportParams const& params, bool has_z, Left& left)
+        : lines_(lines), parts_(std::move(parts)), flows_(std::move(flows)), params_(params), has_z_(has_z),
+          left_(left), joined_(parts_.most), near_m_(params.cell_m > 0.0 ? shore_cells * params.cell_m : params.snap_m),
           far_m_(params.cell_m > 0.0 ? inflow_cells * params.cell_m : params.snap_m),
           tolerance_m_(tolerance_cells * std::max(params.cell_m, params.snap_m)) {
+        double low_z = std::numeric_limits<double>::infinity();
+        double high_z = -low_z;
         for (RiverLine const& line : lines) {
             Vec2 low = in_plan(line.vertices.front());
             Vec2 high = low;
             for (Vec3 const& v : line.vertices) {
                 low = {std::min(low.x, v.x), std::min(low.y, v.y)};
                 high = {std::max(high.x, v.x), std::max(high.y, v.y)};
+                low_z = std::min(low_z, v.z);
+                high_z = std::max(high_z, v.z);
             }
             boxes_.emplace_back(low, high);
         }
+        noise_m_ = noise_of_heights(low_z, high_z);
         for (std::size_t e = 0; e < parts_.is_open.size(); ++e) {
             if (parts_.is_open[e] != 0) {
                 open_.emplace_back(end_of(lines[e / 2], e).x, e);
@@ -397,27 +488,62 @@ public:
         std::ranges::sort(open_);
     }
 
+    /// Lines that nowhere meet as they are drawn, neither elsewhere nor at a lake, but fork at one: all of them are
+    /// drawn upstream.
+    void look_for_upstream(std::vector<Polygon> const& lakes) {
+        bool is_forked = false;
+        for (Polygon const& lake : lakes) {
+            if (lake.rings.empty() || lake.rings.front().size() < 3) {
+                continue;
+            }
+            Outline const outline(lake);
+            AtLake const at = rivers_at(outline);
+            std::vector<Mouth> const& mouths = at.mouths;
+            if (std::ranges::any_of(mouths, &Mouth::is_said)) {
+                continue;
+            }
+            auto const through = at.passing.empty() ? 0 : 1;
+            auto const in = through + std::ranges::count_if(mouths, [](Mouth const& m) { return m.flow > 0; });
+            auto const out = through + std::ranges::count_if(mouths, [](Mouth const& m) { return m.flow < 0; });
+            if (in > 1) {
+                return;
+            }
+            is_forked = is_forked || (in == 1 && out > 1);
+        }
+        if (!is_forked) {
+            return;
+        }
+        is_drawn_upstream_ = true;
+        for (std::size_t e = 0; e < flows_.flow.size(); ++e) {
+            flows_.flow[e] = flows_.is_said[e] != 0 ? flows_.flow[e] : -flows_.flow[e];
+        }
+    }
+
     void cross(Polygon const& lake, Run const& run) {
         if (lake.rings.empty() || lake.rings.front().size() < 3) {
             return;
         }
         Outline const outline(lake);
-        std::vector<Mouth> mouths = mouths_of(outline);
-        if (mouths.empty()) {
+        auto [mouths, afloat, passing] = rivers_at(outline);
+        if (mouths.empty() && (passing.empty() || afloat.empty())) {
             return;
         }
-        std::vector<std::size_t> const passing = lines_through(outline, mouths);
         std::size_t const first = added_.size();
         added_m_ = 0.0;
         rivers_ = 0;
         out_ = nowhere;
+        if (passing.empty() && std::ranges::all_of(mouths, [](Mouth const& mouth) { return mouth.flow > 0; })) {
+            note_closed(outline, lake.feature, mouths);
+            if (mouths.size() < 2 || !params_.drains_lakes || params_.frame == nullptr) {
+                return; // its water stays in it
+            }
+            make_outflow(outline, mouths);
+            closed_.back().out = mouths[root_of(mouths)].begin();
+        }
+        std::int64_t const others = keep_one_outflow(lake.feature, mouths, !passing.empty());
+        std::optional<Mouth> const root = passing.empty() ? std::optional(mouths[root_of(mouths)]) : std::nullopt;
         if (!passing.empty()) {
-            std::erase_if(mouths, [](Mouth const& mouth) { return mouth.flow < 0; });
             join_to(outline, passing, mouths);
-        } else if (std::ranges::all_of(mouths, [](Mouth const& mouth) { return mouth.flow > 0; })) {
-            return; // all its water sinks in it
-        } else {
-            keep_one_outflow(mouths);
         }
         try {
             join_along_middle(outline, passing, mouths, run);
@@ -426,18 +552,23 @@ public:
                 {"lake_left_out", lake.feature, mouths.front().tip, 0.0,
                  fmt::format("rivers do not run through lake {}: {}", lake.feature, cannot.what())});
         }
+        join_afloat(outline, passing, root, first, afloat);
         simplify_from(first);
         if (rivers_ > 0) {
+            std::string const more = others == 0   ? ""
+                                     : others == 1 ? "; another one begins at its shore"
+                                                   : fmt::format("; {} others begin at its shore", others);
             left_.repairs.push_back(
                 {"lake_crossed", lake.feature, out_, added_m_,
-                 fmt::format("lake {}: {} at its shore run on through it, to ({:.0f}, {:.0f}), over {:.0f} m",
-                             lake.feature,
-                             rivers_ == 1 ? "1 river that ends" : fmt::format("{} rivers that end", rivers_), out_.x,
-                             out_.y, added_m_)});
+                 fmt::format("lake {}: {} on through it, to ({:.0f}, {:.0f}), over {:.0f} m{}", lake.feature,
+                             rivers_ == 1 ? "1 river that ends at its shore runs"
+                                          : fmt::format("{} rivers that end at its shore run", rivers_),
+                             out_.x, out_.y, added_m_, more)});
         }
     }
 
     bool finish() {
+        report();
         if (added_.empty()) {
             return false;
         }
@@ -450,8 +581,77 @@ public:
 private:
     std::size_t part(std::size_t line) { return joined_.of(parts_.of_line[line]); }
 
+    /// The rivers that meet a lake.
+    struct AtLake {
+        std::vector<Mouth> mouths;        ///< along its shore
+        std::vector<Mouth> afloat;        ///< ends in the lake of lines all in it, and at its islands
+        std::vector<std::size_t> passing; ///< lines in the lake that do not end in it
+    };
+
+    /// A river that begins beside a lake leaves it, if no other does.
+    AtLake rivers_at(Outline const& outline) {
+        AtLake at;
+        at.mouths = mouths_of(outline, at.afloat);
+        follow_links(at.mouths);
+        follow_ranks(at.mouths);
+        std::vector<Mouth> beside;
+        std::erase_if(at.mouths, [&](Mouth const& mouth) {
+            bool const is_beside = mouth.flow < 0 && mouth.ashore_m > near_m_;
+            if (is_beside) {
+                beside.push_back(mouth);
+            }
+            return is_beside;
+        });
+        at.passing = lines_through(outline, at);
+        bool const has_outflow = std::ranges::any_of(at.mouths, [](Mouth const& m) { return m.flow <= 0; });
+        if (!beside.empty() && !at.mouths.empty() && at.passing.empty() && !has_outflow) {
+            at.mouths.push_back(*std::ranges::min_element(beside, {}, &Mouth::ashore_m));
+            along_shore(at.mouths);
+        }
+        return at;
+    }
+
+    /// Where the link or node of one line names another at the same lake, water runs from that one to this.
+    void follow_links(std::vector<Mouth>& mouths) const {
+        if (params_.orientation != Orientation::automatic && params_.orientation != Orientation::links) {
+            return;
+        }
+        for (Mouth& above : mouths) {
+            for (Mouth& below : mouths) {
+                RiverLine const& upper = lines_[above.line];
+                RiverLine const& lower = lines_[below.line];
+                bool const is_linked = upper.down != 0 && upper.down == lower.feature;
+                bool const is_node = upper.to_node != 0 && upper.to_node == lower.from_node;
+                if (above.line != below.line && (is_linked || is_node)) {
+                    above.flow = 1;
+                    below.flow = -1;
+                    above.is_said = below.is_said = true;
+                }
+            }
+        }
+    }
+
+    /// Where only ranks say something, water runs to the least one.
+    void follow_ranks(std::vector<Mouth>& mouths) const {
+        auto const rank = [&](Mouth const& m) { return lines_[m.line].rank; };
+        bool const has_ranks =
+            params_.orientation == Orientation::automatic || params_.orientation == Orientation::rank;
+        if (!has_ranks || mouths.size() < 2 ||
+            std::ranges::any_of(mouths, [&](Mouth const& m) { return m.is_said || rank(m) == 0; })) {
+            return;
+        }
+        auto const least = std::ranges::min_element(mouths, {}, rank);
+        if (std::ranges::count(mouths, rank(*least), rank) != 1) {
+            return;
+        }
+        for (Mouth& mouth : mouths) {
+            mouth.flow = &mouth == &*least ? -1 : 1;
+            mouth.is_said = true;
+        }
+    }
+
     /// The open ends at a shore or within a lake, along its shore; of several at one place the first.
-    std::vector<Mouth> mouths_of(Outline const& lake) {
+    std::vector<Mouth> mouths_of(Outline const& lake, std::vector<Mouth>& afloat) {
         std::vector<Mouth> mouths;
         auto at = std::ranges::lower_bound(open_, lake.low().x - far_m_, {}, &std::pair<double, std::size_t>::first);
         for (; at != open_.end() && at->first <= lake.high().x + far_m_; ++at) {
@@ -460,14 +660,21 @@ private:
             if (parts_.is_open[e] == 0 || !lake.is_about(tip, far_m_)) {
                 continue;
             }
-            Mouth mouth{e / 2, tip, flows_[e], lake.nearest(tip), {}};
+            Mouth mouth{e / 2, tip, flows_.flow[e], flows_.is_said[e] != 0, lake.nearest(tip), {}};
             bool const is_inside = mouth.shore.distance_m > same_point_m && lake.contains(tip);
             if (is_inside && !goes_ashore(lake, e, mouth)) {
+                mouth.inside = {tip};
+                afloat.push_back(std::move(mouth));
                 continue;
             }
-            if (!is_inside && mouth.shore.distance_m > (mouth.flow < 0 ? near_m_ : far_m_)) {
+            if (!is_inside && mouth.shore.distance_m > far_m_) {
+                if (ShorePlace const island = lake.nearest_on_island(tip); island.distance_m <= far_m_) {
+                    mouth.inside = {island.distance_m <= same_point_m ? tip : rounded(island.at)};
+                    afloat.push_back(std::move(mouth));
+                }
                 continue;
             }
+            mouth.ashore_m = is_inside ? 0.0 : mouth.shore.distance_m;
             if (!is_inside) {
                 mouth.shore.at = mouth.shore.distance_m <= same_point_m ? tip : rounded(mouth.shore.at);
                 mouth.inside = {mouth.shore.at};
@@ -511,13 +718,14 @@ private:
     }
 
     /// The lines in a lake that do not end in it.
-    std::vector<std::size_t> lines_through(Outline const& lake, std::vector<Mouth> const& mouths) {
+    std::vector<std::size_t> lines_through(Outline const& lake, AtLake const& at) {
         std::vector<std::size_t> through;
         for (std::size_t l = 0; l < boxes_.size(); ++l) {
             auto const& [low, high] = boxes_[l];
             bool const is_about =
                 low.x <= lake.high().x && high.x >= lake.low().x && low.y <= lake.high().y && high.y >= lake.low().y;
-            if (!is_about || std::ranges::any_of(mouths, [&](Mouth const& m) { return part(m.line) == part(l); })) {
+            auto const is_of = [&](Mouth const& m) { return part(m.line) == part(l); };
+            if (!is_about || std::ranges::any_of(at.mouths, is_of) || std::ranges::any_of(at.afloat, is_of)) {
                 continue;
             }
             auto const& v = lines_[l].vertices;
@@ -533,24 +741,173 @@ private:
         return through;
     }
 
-    /// Of several rivers that begin at a lake by heights or ranks its water takes the lowest, else the first: by these
-    /// nothing may leave a place twice. Others keep beginning there.
-    void keep_one_outflow(std::vector<Mouth>& mouths) const {
-        bool const has_ranks = std::ranges::any_of(lines_, [](RiverLine const& line) { return line.rank != 0; });
-        if (!has_z_ && !has_ranks) {
-            return;
-        }
-        auto const rank = [&](Mouth const& m) {
-            return std::pair(m.flow < 0 ? 0 : 1, has_z_ && m.flow < 0 ? height_at(m) : 0.0);
+    /// Of several rivers that leave a lake its water takes the one that most inflows name, the lowest, of least rank,
+    /// of an inflow's name, else the first of the file. Others keep beginning at its shore. \return how many of these
+    /// there are
+    std::int64_t keep_one_outflow(std::int64_t lake, std::vector<Mouth>& mouths, bool is_passed) {
+        auto const key = [&](Mouth const& m) {
+            RiverLine const& own = lines_[m.line];
+            std::ptrdiff_t named = 0;
+            bool has_name = false;
+            for (Mouth const& other : mouths) {
+                RiverLine const& inflow = lines_[other.line];
+                named += other.flow > 0 && inflow.down != 0 && inflow.down == own.feature ? 1 : 0;
+                has_name = has_name || (other.flow > 0 && !own.name.empty() && inflow.name == own.name);
+            }
+            std::int64_t const rank = own.rank == 0 ? std::numeric_limits<std::int64_t>::max() : own.rank;
+            return std::tuple(-named, has_z_ ? height_at(m) : 0.0, rank, has_name ? 0 : 1, m.line);
         };
-        Vec2 const kept = std::ranges::min_element(mouths, {}, rank)->tip;
-        std::erase_if(mouths, [&](Mouth const& mouth) { return mouth.flow < 0 && mouth.tip != kept; });
+        std::vector<Mouth> outflows = mouths;
+        std::erase_if(outflows, [](Mouth const& m) { return m.flow >= 0; });
+        if (outflows.empty() || (outflows.size() == 1 && !is_passed)) {
+            return 0;
+        }
+        std::optional<Vec2> kept;
+        if (!is_passed) {
+            kept = std::ranges::min_element(outflows, {}, key)->tip;
+        }
+        std::erase_if(outflows, [&](Mouth const& m) { return m.tip == kept; });
+        std::erase_if(mouths, [&](Mouth const& m) { return m.flow < 0 && m.tip != kept; });
+        for (Mouth const& m : outflows) {
+            if (!m.is_said) {
+                second_.push_back({lake, lines_[m.line].number(), m.tip});
+            }
+        }
+        return std::ssize(outflows);
     }
 
-    /// Whether water runs from a mouth to a height, by the file's.
+    static std::size_t root_of(std::vector<Mouth> const& mouths) {
+        auto const rank = [](Mouth const& m) { return m.on ? -2 : m.flow; };
+        return static_cast<std::size_t>(std::ranges::min_element(mouths, {}, rank) - mouths.begin());
+    }
+
+    /// Remembers a lake that no river leaves, and where one begins near it.
+    void note_closed(Outline const& outline, std::int64_t lake, std::vector<Mouth> const& mouths) {
+        constexpr double most_times = 10.0; // as far as an inflow may end
+        Closed closed{lake, mouths.front().tip, std::ssize(mouths), nowhere, std::numeric_limits<double>::infinity()};
+        double const most_m = most_times * far_m_;
+        auto at = std::ranges::lower_bound(open_, outline.low().x - most_m, {}, &std::pair<double, std::size_t>::first);
+        for (; at != open_.end() && at->first <= outline.high().x + most_m; ++at) {
+            std::size_t const e = at->second;
+            Vec2 const tip = end_of(lines_[e / 2], e);
+            if (flows_.flow[e] < 0 && outline.is_about(tip, most_m) && !outline.contains(tip)) {
+                double const m = outline.nearest(tip).distance_m;
+                if (m <= most_m && m < closed.next_m) {
+                    closed.next = tip;
+                    closed.next_m = m;
+                }
+            }
+        }
+        closed_.push_back(closed);
+    }
+
+    /// Adds the place of the shore nearest to the border as one where water leaves.
+    void make_outflow(Outline const& outline, std::vector<Mouth>& mouths) const {
+        Grid const& grid = *params_.frame;
+        std::vector<Vec2> const& shore = outline.shore();
+        ShorePlace best;
+        for (std::size_t i = 0; i < shore.size(); ++i) {
+            for (double const along : {0.0, 0.5}) {
+                Vec2 const at = shore[i] + along * (shore[(i + 1) % shore.size()] - shore[i]);
+                double const border_m = std::max(
+                    0.0, std::min({at.x - grid.west, grid.east() - at.x, at.y - grid.south(), grid.north - at.y}));
+                bool const is_apart = std::ranges::all_of(
+                    mouths, [&](Mouth const& m) { return distance(m.shore.at, at) > inflow_cells * grid.cell_m; });
+                if (is_apart && border_m < best.distance_m) {
+                    best = {i, along, rounded(at), border_m};
+                }
+            }
+        }
+        if (!std::isfinite(best.distance_m)) {
+            return;
+        }
+        double least_z = std::numeric_limits<double>::infinity();
+        for (Mouth const& m : mouths) {
+            least_z = std::min(least_z, height_at(m));
+        }
+        Vec2 const at = rounded(within_frame(best.at));
+        Mouth out{mouths.front().line, at, -1, true, best, {at}};
+        out.made_z = least_z;
+        mouths.push_back(std::move(out));
+        along_shore(mouths);
+    }
+
+    /// Warns of what lakes without an outflow, or with several as drawn, may mean.
+    void report() {
+        if (!closed_.empty()) {
+            std::int64_t rivers = 0;
+            for (Closed const& closed : closed_) {
+                rivers += closed.rivers;
+            }
+            auto const near = std::ranges::min_element(closed_, {}, &Closed::next_m);
+            bool const has_next = std::isfinite(near->next_m);
+            left_.repairs.push_back(
+                {.kind = "lake_without_outflow",
+                 .feature = near->lake,
+                 .where = near->at,
+                 .amount = static_cast<double>(closed_.size()),
+                 .text = fmt::format(
+                     "{} at the shore of {} that no river leaves, such as lake {}{}{}",
+                     rivers == 1 ? "1 river ends" : fmt::format("{} rivers end", rivers),
+                     closed_.size() == 1 ? "a lake" : fmt::format("{} lakes", closed_.size()), near->lake,
+                     has_next ? fmt::format(": the nearest one begins {:.0f} m from its shore, at ({:.0f}, {:.0f})",
+                                            near->next_m, near->next.x, near->next.y)
+                              : "",
+                     is_finite(near->out)
+                         ? fmt::format("{} its water leaves it at ({:.0f}, {:.0f}), where its shore is nearest to the "
+                                       "border",
+                                       has_next ? ";" : ":", near->out.x, near->out.y)
+                         : ""),
+                 .remedy = has_next
+                               ? fmt::format("If it should leave the lake: --set network.lines.snap={:.0f}, or draw "
+                                             "it to the shore; if the water stays in the lake: --set "
+                                             "network.inland=sink",
+                                             std::ceil(near->next_m))
+                               : "If the water stays in the lake: --set network.inland=sink; else draw its "
+                                 "outflow, or turn it round",
+                 .key = has_next ? "network.lines.snap" : "network.inland",
+                 .numbers = {{"rivers", static_cast<double>(rivers)}}});
+        }
+        if (!low_.empty()) {
+            Low const& most = *std::ranges::max_element(low_, {}, &Low::by_m);
+            left_.repairs.push_back(
+                {.kind = "below_lake",
+                 .feature = most.river,
+                 .where = most.at,
+                 .amount = most.by_m,
+                 .text = fmt::format("{} below a lake and {} not led through it: river {} by {:.1f} m, at ({:.0f}, "
+                                     "{:.0f})",
+                                     low_.size() == 1 ? "1 river ends" : fmt::format("{} rivers end", low_.size()),
+                                     low_.size() == 1 ? "is" : "are", most.river, most.by_m, most.at.x, most.at.y),
+                 .remedy = "Correct its heights, or leave those of the file out: --set network.heights=graded",
+                 .key = "network.heights",
+                 .numbers = {{"rivers", static_cast<double>(low_.size())}}});
+        }
+        if (!second_.empty()) {
+            Second const& one = second_.front();
+            left_.repairs.push_back(
+                {.kind = "lake_outflows",
+                 .feature = one.lake,
+                 .where = one.at,
+                 .amount = static_cast<double>(second_.size()),
+                 .text = fmt::format("{} a lake that another one leaves too, by the drawn direction alone: river {} at "
+                                     "lake {}, at ({:.0f}, {:.0f})",
+                                     second_.size() == 1 ? "1 river leaves"
+                                                         : fmt::format("{} rivers leave", second_.size()),
+                                     one.river, one.lake, one.at.x, one.at.y),
+                 .remedy = "Turn it round in the file if it flows into the lake",
+                 .key = "network.lines.orientation"});
+        }
+    }
+
+    /// Whether water runs from a mouth to a height, by the file's; those may be off by noise.
     bool runs_down(Mouth const& mouth, double to_z) const {
-        constexpr double noise_m = 1.0;
-        return !has_z_ || mouth.flow < 0 || height_at(mouth) >= to_z - noise_m;
+        return !has_z_ || mouth.flow < 0 || height_at(mouth) >= to_z - noise_m_;
+    }
+
+    /// Remembers a river that is not led through a lake because it ends far below it.
+    void note_low(Mouth const& mouth, double lake_z) {
+        low_.push_back({lines_[mouth.line].number(), mouth.tip, lake_z - height_at(mouth)});
     }
 
     /// Joins mouths straight to the rivers that pass through, where the way is in the water; these mouths are removed.
@@ -569,8 +926,12 @@ private:
                     }
                 }
             }
-            if (!goal || part(mouth.line) == part(goal->line) || !runs_down(mouth, height_on(*goal))) {
+            if (!goal || part(mouth.line) == part(goal->line)) {
                 return false;
+            }
+            if (!runs_down(mouth, height_on(*goal))) {
+                note_low(mouth, height_on(*goal));
+                return true;
             }
             add(mouth, {mouth.begin(), end_on(*goal)}, height_on(*goal));
             joined_.join(part(mouth.line), part(goal->line));
@@ -597,6 +958,9 @@ private:
     }
 
     double height_at(Mouth const& mouth) const {
+        if (mouth.made_z) {
+            return *mouth.made_z;
+        }
         auto const& v = lines_[mouth.line].vertices;
         return in_plan(v.front()) == mouth.tip ? v.front().z : v.back().z;
     }
@@ -617,8 +981,7 @@ private:
         if (mouths.size() < 2) {
             return;
         }
-        auto const rank = [](Mouth const& m) { return m.on ? -2 : m.flow; };
-        auto const root = static_cast<std::size_t>(std::ranges::min_element(mouths, {}, rank) - mouths.begin());
+        std::size_t const root = root_of(mouths);
         MiddleTree tree(lake, mouths, tolerance_m_, run);
         double z = height_at(mouths[root]);
         if (mouths[root].on) {
@@ -630,12 +993,18 @@ private:
         }
         for (std::size_t m = 0; m < mouths.size(); ++m) {
             Mouth const& mouth = mouths[m];
-            if (m == root || mouth.on || part(mouth.line) == part(mouths[root].line) || !runs_down(mouth, z)) {
+            bool const is_joined = !mouths[root].made_z && part(mouth.line) == part(mouths[root].line);
+            if (m == root || mouth.on || is_joined) {
+                continue;
+            }
+            if (!runs_down(mouth, z)) {
+                note_low(mouth, z);
                 continue;
             }
             MiddleTree::Way way;
             if (has_middle) {
                 way = tree.way_from(m);
+                std::ranges::for_each(way.line, [&](Vec2& p) { p = within_frame(p); });
             } else if (lake.sees(mouth.begin(), mouths[root].begin())) { // both end far within a small lake
                 way.ends_at_root = true;
             } else {
@@ -655,9 +1024,89 @@ private:
             add(mouth, std::move(way.line), z);
             joined_.join(part(mouth.line), part(mouths[root].line));
             out_ = mouths[root].begin();
-            if (!mouths[root].on) {
+            if (!mouths[root].on && !mouths[root].made_z) {
                 close(mouths[root]);
             }
+        }
+    }
+
+    /// A lake may lie beyond the grid, its rivers do not.
+    Vec2 within_frame(Vec2 p) const {
+        if (params_.frame == nullptr) {
+            return p;
+        }
+        Grid const& grid = *params_.frame;
+        double const margin_m = frame_cells * grid.cell_m;
+        return {std::clamp(p.x, grid.west + margin_m, std::max(grid.west + margin_m, grid.east() - margin_m)),
+                std::clamp(p.y, grid.south() + margin_m, std::max(grid.south() + margin_m, grid.north - margin_m))};
+    }
+
+    /// Joins lines in the lake that reach no shore, and those of islands, straight to the nearest way of its water that
+    /// is in sight.
+    void join_afloat(Outline const& lake, std::vector<std::size_t> const& passing, std::optional<Mouth> const& root,
+                     std::size_t first, std::vector<Mouth> const& afloat) {
+        struct Goal {
+            Vec2 at;
+            double m = std::numeric_limits<double>::infinity();
+            double z = 0.0;
+            std::optional<Insertion> on = {}; ///< a line of the file
+            std::size_t added = 0;            ///< else a line through the lake, if `segment` says where
+            std::optional<std::size_t> segment = {};
+        };
+        for (Mouth const& mouth : afloat) {
+            Vec2 const from = mouth.begin();
+            bool const is_joined = (root && part(mouth.line) == part(root->line)) ||
+                                   std::ranges::any_of(passing, [&](auto l) { return part(l) == part(mouth.line); });
+            if (mouth.flow < 0 || is_joined) {
+                continue;
+            }
+            Goal goal;
+            auto const offer = [&](Vec2 at, double z) {
+                double const m = distance(from, at);
+                bool const is_nearer = m < goal.m && m > same_point_m && lake.sees(from, at);
+                if (is_nearer) {
+                    goal = {at, m, z};
+                }
+                return is_nearer;
+            };
+            for (std::size_t const l : passing) {
+                auto const& v = lines_[l].vertices;
+                for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+                    geometry::Foot const foot = geometry::foot_on(in_plan(v[i]), in_plan(v[i + 1]), from);
+                    Insertion const on{l, i, foot.along, foot.at};
+                    if (lake.contains(foot.at) && offer(foot.at, height_on(on))) {
+                        goal.on = on;
+                    }
+                }
+            }
+            for (std::size_t l = first; l < added_.size(); ++l) {
+                auto const& v = added_[l].vertices;
+                for (std::size_t i = 0; i + 1 < v.size(); ++i) {
+                    geometry::Foot const foot = geometry::foot_on(in_plan(v[i]), in_plan(v[i + 1]), from);
+                    if (offer(rounded(foot.at), v[i].z)) {
+                        goal.added = l;
+                        goal.segment = i;
+                    }
+                }
+            }
+            bool const to_root = root && offer(root->begin(), height_at(*root));
+            if (!std::isfinite(goal.m) || !runs_down(mouth, goal.z)) {
+                continue;
+            }
+            std::size_t const into = goal.on ? goal.on->line : root ? root->line : passing.front();
+            if (goal.on) {
+                goal.at = end_on(*goal.on);
+            } else if (goal.segment) {
+                auto& v = added_[goal.added].vertices;
+                v.insert(v.begin() + static_cast<std::ptrdiff_t>(*goal.segment) + 1,
+                         {goal.at.x, goal.at.y, v.front().z});
+            }
+            std::vector<Vec2> way{from, goal.at};
+            if (to_root && root->tip != root->begin()) {
+                way.push_back(root->tip);
+            }
+            add(mouth, std::move(way), goal.z);
+            joined_.join(part(mouth.line), part(into));
         }
     }
 
@@ -670,7 +1119,7 @@ private:
             if (auto out = lake.way_out(a, b)) {
                 out->at = rounded(out->at);
                 double const along = distance(a, out->at) / distance(a, b);
-                mouths.push_back({l, out->at, -1, *out, {out->at}, Insertion{l, i, along, out->at}});
+                mouths.push_back({l, out->at, -1, true, *out, {out->at}, Insertion{l, i, along, out->at}});
                 return true;
             }
         }
@@ -715,14 +1164,14 @@ private:
         line.type = lines_[mouth.line].type;
         line.id_shift = lines_.front().id_shift;
         line.size.assign(lines_.front().size.size(), 0.0);
-        if (mouth.flow < 0) {
+        if ((mouth.flow < 0) != is_drawn_upstream_) {
             std::ranges::reverse(way);
         }
         for (Vec2 const p : way) {
             line.vertices.push_back({p.x, p.y, has_z_ ? z : std::numeric_limits<double>::quiet_NaN()});
         }
         rivers_ += mouth.flow < 0 ? 0 : 1;
-        out_ = way.back();
+        out_ = is_drawn_upstream_ ? way.front() : way.back();
         close(mouth);
     }
 
@@ -762,13 +1211,16 @@ private:
 
     std::vector<RiverLine>& lines_;
     Parts parts_;
-    std::vector<int> flows_;
+    Flows flows_;
+    ImportParams const& params_;
     bool has_z_;
     Left& left_;
     Sets joined_;
     double near_m_;
     double far_m_;
     double tolerance_m_;
+    double noise_m_ = 0.0;
+    bool is_drawn_upstream_ = false;
     std::vector<std::pair<Vec2, Vec2>> boxes_;         ///< by line
     std::vector<std::pair<double, std::size_t>> open_; ///< x and number of open ends, sorted
     std::vector<RiverLine> added_;
@@ -776,6 +1228,33 @@ private:
     double added_m_ = 0.0;
     std::int64_t rivers_ = 0;
     Vec2 out_ = nowhere;
+
+    /// A lake that no river leaves.
+    struct Closed {
+        std::int64_t lake;
+        Vec2 at;
+        std::int64_t rivers;
+        Vec2 next; ///< where a river begins beside it
+        double next_m;
+        Vec2 out = nowhere; ///< where its water leaves it
+    };
+    std::vector<Closed> closed_;
+
+    /// A river that leaves a lake besides its outflow, as drawn.
+    struct Second {
+        std::int64_t lake;
+        std::int64_t river;
+        Vec2 at;
+    };
+    std::vector<Second> second_;
+
+    /// A river that ends below the lake that it reaches.
+    struct Low {
+        std::int64_t river;
+        Vec2 at;
+        double by_m;
+    };
+    std::vector<Low> low_;
 };
 
 } // namespace
@@ -789,8 +1268,11 @@ bool cross_lakes(std::vector<RiverLine>& lines, RiverLines const& file, ImportPa
     std::vector<SecondaryLine> secondary;
     Left nothing{notes, secondary};
     Pieces const pieces = cut(lines, nothing);
-    Lakes lakes(lines, parts_of(pieces, lines), flows_of(pieces, lines, file, params, left, run), params, file.has_z,
-                left);
+    Lakes lakes(lines, parts_of(pieces, lines), flows_without_lakes(pieces, lines, file, params, left, run), params,
+                file.has_z, left);
+    if (params.orientation == Orientation::automatic && !meets_as_drawn(pieces)) {
+        lakes.look_for_upstream(file.lakes);
+    }
     for (Polygon const& lake : file.lakes) {
         run.check();
         lakes.cross(lake, run);

@@ -56,6 +56,9 @@ struct ImportParams {
     /// which nine tenths lie within a quarter of a cell of others is their duplicate
     double cell_m = 0.0;
     Raster<float> const* dem = nullptr; ///< [m] heights for automatic and links, in the lines' CRS; null: none
+    Grid const* frame = nullptr;        ///< ways through lakes stay two cells inside it; null: anywhere
+    /// Rivers that end at a lake that none leaves run on together, to its shore nearest to the frame's border.
+    bool drains_lakes = false;
 };
 
 /// How the directions of a file's lines were found; of automatic and links.

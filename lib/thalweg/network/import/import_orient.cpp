@@ -37,10 +37,10 @@ std::int64_t weight(Piece const& piece) {
 }
 
 std::vector<std::int64_t> against(Pieces const& p, Tree const& tree, Votes const& votes,
-                                  std::vector<std::int64_t>& cost) {
+                                  std::vector<std::int64_t>& cost, std::vector<std::int64_t> const& weights) {
     auto const gain = [&](std::size_t n) { // from the node downstream to n
         PieceId const k = tree.towards[n];
-        std::int64_t const w = weight(p.pieces[k]) * votes[k];
+        std::int64_t const w = (weights.empty() ? weight(p.pieces[k]) : weights[k]) * votes[k];
         return p.pieces[k].from == n ? w : -w;
     };
     std::size_t const first = tree.nodes.front();
@@ -84,6 +84,17 @@ Votes by_height(Pieces const& p, std::vector<RiverLine> const& lines) {
         votes.push_back(fall > 0.0 ? 1 : fall < 0.0 ? -1 : 0);
     }
     return votes;
+}
+
+// By piece, in whole micrometres: an outlet up to which water would climb least is the most likely one.
+std::vector<std::int64_t> falls_of(Pieces const& p, std::vector<RiverLine> const& lines) {
+    std::vector<std::int64_t> falls;
+    for (auto const& piece : p.pieces) {
+        auto const& v = lines[piece.line].vertices;
+        double const fall_m = std::fabs(v[piece.first].z - v[piece.last].z);
+        falls.push_back(std::max(std::int64_t{1}, static_cast<std::int64_t>(std::floor(fall_m * 1e6))));
+    }
+    return falls;
 }
 
 // The piece of least rank at a node leaves it; the others flow into it. (A piece whose rank is above its neighbours' at
@@ -185,10 +196,10 @@ Votes by_links(Pieces const& p, std::vector<RiverLine> const& lines) {
     };
     Votes of_line(lines.size(), 0);
     for (std::size_t l = 0; l < lines.size(); ++l) {
-        if (first[l] == none || first[l] == last[l]) {
+        RiverLine const& line = lines[l];
+        if (first[l] == none || first[l] == last[l] || line.feature == 0) { // the last: through a lake
             continue;
         }
-        RiverLine const& line = lines[l];
         auto const is_next = [&](RiverLine const& o) { return line.down != 0 && o.feature == line.down; };
         auto const names_it = [&](RiverLine const& o) { return o.down == line.feature; };
         int vote = int{meets(last[l], is_next)} - int{meets(first[l], is_next)};
@@ -291,10 +302,37 @@ void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string cons
                                    field.empty() ? "" : " ", field, sense.rises, sense.falls + sense.rises, sense.by)});
 }
 
+/// The same pieces where each lake that lines run through is one place.
+Pieces with_lakes_as_places(Pieces const& pieces, std::vector<RiverLine> const& lines) {
+    auto const is_through_lake = [&](Piece const& piece) { return lines[piece.line].feature == 0; };
+    Pieces merged = pieces;
+    if (std::ranges::none_of(pieces.pieces, is_through_lake)) {
+        return merged;
+    }
+    Sets places(pieces.nodes.size());
+    for (Piece const& piece : pieces.pieces) {
+        if (is_through_lake(piece)) {
+            places.join(piece.from, piece.to);
+        }
+    }
+    merged.at_node.assign(pieces.nodes.size(), {});
+    for (PieceId k = 0; k < merged.pieces.size(); ++k) {
+        Piece& piece = merged.pieces[k];
+        piece.from = places.of(piece.from);
+        piece.to = places.of(piece.to);
+        merged.at_node[piece.from].push_back(k);
+        if (piece.from != piece.to) {
+            merged.at_node[piece.to].push_back(k);
+        }
+    }
+    return merged;
+}
+
 } // namespace
 
-std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine>& lines, RiverLines const& file,
+std::vector<Evidence> evidence_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
                                   Orientation asked, std::vector<Finding>& repairs) {
+    Pieces const p = with_lakes_as_places(pieces, lines);
     if (asked != Orientation::rank) {
         turn_ranks(p, lines, file.rank_field, repairs);
     }
@@ -323,7 +361,7 @@ std::vector<Evidence> evidence_of(Pieces const& p, std::vector<RiverLine>& lines
         evidence.push_back({Evidence::Kind::column, std::move(votes), "the direction column"});
     }
     if (file.has_z && (asked == Orientation::height || asked == Orientation::automatic)) {
-        evidence.push_back({Evidence::Kind::height, by_height(p, lines), "height"});
+        evidence.push_back({Evidence::Kind::height, by_height(p, lines), "height", falls_of(p, lines)});
     }
     if (any_rank && (asked == Orientation::rank || asked == Orientation::automatic)) {
         evidence.push_back({Evidence::Kind::rank, by_rank(p, lines), "rank"});
@@ -356,7 +394,8 @@ namespace {
         Vec2 const at = p.nodes[place];
         throw BadInput(
             fmt::format("network.import_lines: rivers {} and {} in {} both run away from ({:.6f}, {:.6f}) by {}; "
-                        "water has one way down from every place: remove one, or orient by something else",
+                        "water has one way down from every place: remove one, or orient by something else "
+                        "(network.lines.orientation)",
                         lines[piece.line].number(), lines[next.line].number(), name, at.x, at.y, evidence));
     }
     throw BadInput("network.import_lines: the rivers of " + name + " cannot be oriented by " + evidence);
@@ -409,7 +448,7 @@ std::vector<PieceId> orient(Pieces const& p, std::vector<RiverLine> const& lines
         };
         auto const first = std::ranges::find_if(evidence, speaks);
         Evidence const& chosen = first == evidence.end() ? silence : *first;
-        auto const against_it = against(p, tree, chosen.votes, cost);
+        auto const against_it = against(p, tree, chosen.votes, cost, chosen.weights);
         auto const against_drawn = against(p, tree, drawn, cost);
         auto const key = [&](std::size_t i) {
             std::size_t const n = tree.nodes[i];

@@ -92,8 +92,8 @@ std::vector<Finding> long_extensions(std::vector<Finding> const& notes, StreamNe
              .text = fmt::format("{} rivers end inside the grid and were extended by {:.3g} km in all, by the shortest "
                                  "ways",
                                  outlets, carried_m / 1000.0),
-             .remedy = "If they end at the sea: --set network.inland=coast; in lakes: --set surface.lakes=FILE, with "
-                       "their outlines; if their water sinks in: --set network.inland=sink",
+             .remedy = "If they end at the sea: --set network.inland=coast; in lakes: give their outlines "
+                       "(--set surface.lakes=FILE) and outflows; if their water sinks in: --set network.inland=sink",
              .key = "network.inland",
              .numbers = {{"rivers", static_cast<double>(outlets)}}}};
 }

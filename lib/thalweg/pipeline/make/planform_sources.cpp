@@ -14,6 +14,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/nearby.hpp>
+#include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/growth/forest/grow_forest.hpp>
@@ -391,8 +392,58 @@ std::vector<Hollow> hollows(StreamNetwork const& network, Grid const& grid, Run 
     return result;
 }
 
+/// [m] From a place to the nearest lake; 0: within it.
+double distance_to_lakes(Vec2 p, std::vector<Polygon> const& lakes) {
+    double least_m = std::numeric_limits<double>::infinity();
+    for (Polygon const& lake : lakes) {
+        std::vector<Vec2> const& shore = lake.rings.front();
+        for (std::size_t i = 0; i < shore.size(); ++i) {
+            least_m = std::min(least_m, distance(p, geometry::foot_on(shore[i], shore[(i + 1) % shore.size()], p).at));
+        }
+        least_m = geometry::contains(shore, p) ? 0.0 : least_m;
+    }
+    return least_m;
+}
+
+/// Warns where rivers end or begin near a lake without reaching its shore. Of those at the shore lakes say themselves
+/// what they lack.
+void warn_of_shores(StreamNetwork const& network, Hollow const& hollow, std::vector<Polygon> const& lakes,
+                    double cell_m, StageLog& stage_log) {
+    constexpr double reached_cells = 2.0;
+    auto const to_shore = [&](NodeId end) { return distance_to_lakes(network.node(end).at, lakes); };
+    if (std::ranges::any_of(hollow.ends, [&](NodeId end) { return to_shore(end) <= reached_cells * cell_m; })) {
+        return;
+    }
+    std::vector<NodeId> ends = hollow.ends;
+    ends.push_back(hollow.source);
+    NodeId const farthest = *std::ranges::max_element(ends, {}, to_shore);
+    double const most_m = to_shore(farthest);
+    Vec2 const at = network.node(farthest).at;
+    stage_log.find(
+        {.kind = "unjoined_ends",
+         .where = at,
+         .amount = static_cast<double>(ends.size()),
+         .text = fmt::format("{} rivers end or begin beside a lake, up to {:.3g} m from its shore, at ({:.0f}, {:.0f})",
+                             ends.size(), most_m, at.x, at.y),
+         .remedy = fmt::format("If they should meet it: --set network.lines.snap={}", std::ceil(most_m)),
+         .key = "network.lines.snap",
+         .numbers = {{"most", most_m, "m"}}});
+}
+
 /// Warns where rivers end around a place at which another one begins, as at a lake without an outline.
-void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> const& found, StageLog& stage_log) {
+/// \param lakes those whose outlines are given
+void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> found, std::vector<Polygon> const& lakes,
+                     double cell_m, StageLog& stage_log) {
+    auto const is_beside = [&](Hollow const& hollow) {
+        constexpr double most_cells = 20.0;
+        return std::ranges::any_of(hollow.ends, [&](NodeId end) {
+            return distance_to_lakes(network.node(end).at, lakes) <= most_cells * cell_m;
+        });
+    };
+    if (auto const beside = std::ranges::find_if(found, is_beside); beside != found.end()) {
+        warn_of_shores(network, *beside, lakes, cell_m, stage_log);
+    }
+    std::erase_if(found, is_beside);
     if (found.empty()) {
         return;
     }
@@ -407,7 +458,7 @@ void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> const& fo
          .where = at,
          .amount = static_cast<double>(ends),
          .text = fmt::format("{} at {} as at the shore of a lake, from which another one leaves; so {} up to "
-                             "{:.3g} m from ({:.0f}, {:.0f}), where one begins",
+                             "{:.0f} m from ({:.0f}, {:.0f}), where one begins",
                              ends == 1 ? "1 river ends" : fmt::format("{} rivers end", ends),
                              found.size() == 1 ? "1 place" : fmt::format("{} places", found.size()),
                              most.ends.size() == 1 ? "does 1" : fmt::format("do {}", most.ends.size()), most.farthest_m,
@@ -506,10 +557,8 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     return file;
 }
 
-/// What heights may rise downstream by noise: a river that is drawn uphill rises by more.
+/// What heights may rise downstream by noise.
 double noise_of(std::vector<std::vector<double>> const& arc_z) {
-    constexpr double least_m = 20.0;
-    constexpr double share = 0.05;
     double low = std::numeric_limits<double>::infinity();
     double high = -low;
     for (std::vector<double> const& heights : arc_z) {
@@ -518,7 +567,7 @@ double noise_of(std::vector<std::vector<double>> const& arc_z) {
             high = std::max(high, z);
         }
     }
-    return std::max(least_m, share * (high - low));
+    return network::noise_of_heights(low, high);
 }
 
 /// The file's heights. Where they rise downstream by noise they are lowered, which is told.
@@ -564,17 +613,23 @@ std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Import
 // The lines of a file.
 SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& run) {
     LinesRecipe const& wanted = plan.recipe.network->lines;
+    bool const may_end = has_coastlines(plan) || plan.recipe.network->inland != InlandEnds::carry;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
                                        .cell_m = wanted.snap_m > 0.0 ? 0.0 : plan.grid->cell_m,
-                                       .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr};
+                                       .dem = plan.line_dem.cells() > 0 ? &plan.line_dem : nullptr,
+                                       .frame = &*plan.grid,
+                                       .drains_lakes = !may_end};
     network::Imported imported =
         stage_log.stage("adopt", [&] { return network::import_lines(plan.lines, params, run); });
     SourceRivers rivers;
     rivers.grid = *plan.grid;
     std::vector<Finding> const left = left_out(plan.lines);
     stage_log.find(left);
+    if (may_end) {
+        std::erase_if(imported.repairs, [](Finding const& f) { return f.kind == FindingKind("lake_without_outflow"); });
+    }
     stage_log.find(imported.repairs);
     rivers.file = file_of(plan.lines, imported);
     std::size_t const secondary = rivers.file.secondary.size();
@@ -584,10 +639,9 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
     stage_log.find(direction_findings(imported.directions, params.dem != nullptr ? "" : "--set network.lines.dem=FILE",
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
-    bool const may_end = has_coastlines(plan) || plan.recipe.network->inland != InlandEnds::carry;
     std::vector<Hollow> const around = may_end ? std::vector<Hollow>() : hollows(imported.network, rivers.grid, run);
     warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_coastlines(plan), around, stage_log, run);
-    warn_of_hollows(imported.network, around, stage_log);
+    warn_of_hollows(imported.network, around, plan.lines.lakes, rivers.grid.cell_m, stage_log);
     rivers.land = land_of_coastlines(plan, stage_log, run);
     rivers.file_heights = heights_of_file(plan, imported, stage_log);
     rivers.network = std::move(imported.network);

@@ -269,7 +269,7 @@ RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run con
     for (Polygon& lake : lakes.polygons) {
         lines.lakes.push_back(std::move(lake));
     }
-    lines.lakes = io::united(std::move(lines.lakes));
+    lines.lakes = io::united(std::move(lines.lakes), io::gap_between_sheets_m);
     return lines;
 }
 

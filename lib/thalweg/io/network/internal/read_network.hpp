@@ -285,7 +285,7 @@ class LakeFilter {
 public:
     explicit LakeFilter(OGRLayer& layer);
 
-    /// Takes a feature's polygons where it is a lake: all polygons of a layer that says nothing of what they are.
+    /// Takes a feature's polygons where it is a lake: it says so, the layer does, or nothing says what it is.
     /// \param number of the feature, from 1
     /// \return false: it is none
     bool take(OGRFeature const& feature, std::int64_t number, std::vector<Polygon>& lakes) const;
@@ -298,9 +298,15 @@ private:
     FileColumn all_tags_;
     FileColumn ftype_;
     std::vector<FileColumn> kinds_;
-    bool is_named_ = false; ///< the layer is, for lakes
+    std::vector<FileColumn> words_; ///< names and descriptions
+    std::vector<FileColumn> units_; ///< numbers of countries, catchments and the like
+    bool is_named_ = false;         ///< the layer is, for lakes
+    bool is_of_land_ = false;       ///< the layer is named for land
     bool is_tagged_ = false;
 };
+
+/// Whether a layer of polygons is named for lakes.
+bool may_hold_lakes(OGRLayer& layer);
 
 /// The lakes of layers that are named for them, in the CRS of the rivers.
 /// \param read layers of rivers, which are passed over
@@ -312,6 +318,10 @@ std::vector<Polygon> lakes_of_layers(GDALDataset& data, std::vector<OGRLayer*> c
 /// \param what begins messages
 /// \throws BadInput that lists the layers when there are several or none
 std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& what);
+
+/// Drops polygons in which more than half of the lines' vertices lie, with a finding each: countries, catchments.
+void drop_surroundings(std::vector<Polygon>& lakes, std::vector<RiverLine> const& lines,
+                       std::vector<Finding>& findings);
 
 /// Without those of which a vertex cannot be reprojected.
 std::vector<Polygon> into_metres(std::vector<Polygon> lakes, IntoMetres const& metres);

@@ -132,7 +132,8 @@ struct Evidence {
     enum class Kind : std::uint8_t { links, nodes, column, height, rank, drawn };
     Kind kind;
     Votes votes;
-    char const* name; ///< "by NAME", for messages
+    char const* name;                       ///< "by NAME", for messages
+    std::vector<std::int64_t> weights = {}; ///< by piece, of its vote; empty: weight()
 };
 
 /// An end of a line: 2 l is the first vertex of line l, 2 l + 1 its last.
@@ -211,9 +212,9 @@ void root_at(Pieces const& p, std::size_t outlet, Tree& tree);
 std::int64_t weight(Piece const& piece);
 
 /// By index in tree.nodes: the weight of the pieces that vote against this node as the outlet. cost: a buffer with an
-/// entry for every node.
+/// entry for every node. weights: as those of an Evidence.
 std::vector<std::int64_t> against(Pieces const& p, Tree const& tree, Votes const& votes,
-                                  std::vector<std::int64_t>& cost);
+                                  std::vector<std::int64_t>& cost, std::vector<std::int64_t> const& weights = {});
 
 /// [m] By node: distance to the border of the lines' box.
 std::vector<double> border_distances(Pieces const& p, std::vector<RiverLine> const& lines);
