@@ -311,6 +311,8 @@ inline constexpr auto finding_rows = [] {
         {"site_grid", note, always, "1",
          "A CRS of a site has no place on the Earth: coordinates are metres without a CRS; the amount is its unit.",
          ""},
+        {"mesh_turned", note, always, "", "Y is up in a mesh, which is turned: -z is north, y the height.", ""},
+        {"welded", note, always, "vertices", "Vertices of a mesh at one place are one.", ""},
         {"split_faces", note, always, "faces", "Faces with more than three corners are cut into triangles.", ""},
         {"transparent_cells", note, always, "cells", "Cells that the alpha band makes transparent are no-data.", ""},
         {"turned_raster", note, always, "m", "A raster is turned to north-up squares.", ""},

@@ -13,6 +13,7 @@
 #include <string>
 #include <vector>
 
+#include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <ogrsf_frmts.h>
 #include <support.hpp>
@@ -102,6 +103,10 @@ bool has_edge(Tin const& tin, std::uint32_t a, std::uint32_t b) {
     return false;
 }
 
+bool is_same(Tin const& a, Tin const& b) {
+    return a.vertices == b.vertices && a.triangles == b.triangles;
+}
+
 } // namespace
 
 TEST(WriteTin, FormatsByNameAndEnding) {
@@ -148,8 +153,8 @@ TEST(WriteTin, TextsOfOneTriangle) {
     Tin const tin{{{0.5, 1, -2}, {3, 1, 1e-7}, {0.5, 4, 0}}, {{0, 1, 2}}};
     EXPECT_EQ(written(tin, TinFormat::mesh_2dm), "MESH2D\nMESHNAME \"tin\"\nE3T 1 1 2 3 1\nND 1 0.5 1 -2\n"
                                                  "ND 2 3 1 1e-07\nND 3 0.5 4 0\n");
-    EXPECT_EQ(written(tin, TinFormat::obj),
-              "# thalweg\n# crs EPSG:32631\nv 0.5 1 -2\nv 3 1 1e-07\nv 0.5 4 0\nf 1 2 3\n");
+    EXPECT_EQ(written(tin, TinFormat::obj), "# thalweg; Z up: x eastwards, y northwards, z height\n# crs EPSG:32631\nv "
+                                            "0.5 1 -2\nv 3 1 1e-07\nv 0.5 4 0\nf 1 2 3\n");
     EXPECT_EQ(written(tin, TinFormat::off), "OFF\n# crs EPSG:32631\n3 1 0\n0.5 1 -2\n3 1 1e-07\n0.5 4 0\n3 0 1 2\n");
     EXPECT_EQ(written(tin, TinFormat::xyz), "0.5 1 -2\n3 1 1e-07\n0.5 4 0\n");
     EXPECT_TRUE(has(written(tin, TinFormat::landxml), "<CoordinateSystem epsgCode=\"32631\"/>",
@@ -330,9 +335,68 @@ TEST(ReadTin, FacesOfManyCornersAreCutWhole) {
 }
 
 TEST(ReadTin, UprightFacesAreCutToo) {
-    TinFile const wall = mesh("a.obj", "v 0 0 0\nv 10 0 0\nv 10 0 5\nv 0 0 3\nf 1 2 3 4\n");
+    TinFile const wall = mesh("a.obj", "# Z up\nv 0 0 0\nv 10 0 0\nv 10 0 5\nv 0 0 3\nf 1 2 3 4\n");
     ASSERT_EQ(wall.tin.triangles.size(), 2U);
     EXPECT_TRUE(has_edge(wall.tin, 1, 3));
+}
+
+TEST(ReadTin, NumbersCountBackFromTheLastVertexAndLinesGoOn) {
+    std::string const corners = "v 0 0 1\nv 10 0 2\nv 10 10 3\n";
+    Tin const absolute = mesh("a.obj", corners + "f 1/1/1 2/2/2 3/3/3\nv 0 10 4\nf 1 3 4\n").tin;
+    Tin const relative = mesh("b.obj", corners + "f -3/-3/-3 -2/-2/-2 -1/-1/-1\nv 0 10 4\nf -4 -2 -1\n").tin;
+    EXPECT_TRUE(is_same(relative, absolute));
+    Tin const parts = mesh("c.obj", "v 0 0 \\\n1\nv 10 0 2\nv 10 10 3\nf 1 \\\n  2 \\\n3\nv 0 10 4\nf 1 3 4\n").tin;
+    EXPECT_TRUE(is_same(parts, absolute));
+    EXPECT_TRUE(has(error_of([&] { mesh("d.obj", corners + "f -4 -2 -1\n"); }), "face 1"));
+}
+
+TEST(ReadTin, OffHasManyHeads) {
+    Tin const plain = mesh("a.off", "OFF\n3 1 0\n0 0 1\n10 0 2\n10 10 3\n3 0 1 2\n").tin;
+    for (char const* text :
+         {"OFF 3 1 0\n0 0 1\n10 0 2\n10 10 3\n3 0 1 2\n",
+          "COFF\n3 1 0\n0 0 1 255 0 0 255\n10 0 2 0 255 0 255\n10 10 3 0 0 255 255\n3 0 1 2 9 9 9\n",
+          "# made by hand\nNOFF # with normals\n\n3 1 3\n0 0 1 0 0 1\n10 0 2 0 0 1\n10 10 3 0 0 1\n3 0 1 2\n",
+          "STCOFF 3 1 0\n0 0 1 1 1 1 1 0 0\n10 0 2 1 1 1 1 1 0\n10 10 3 1 1 1 1 1 1\n3 0 1 2\n"}) {
+        EXPECT_TRUE(is_same(mesh("b.off", text).tin, plain)) << text;
+    }
+    EXPECT_TRUE(has(error_of([&] { mesh("c.off", "OFF BINARY\n"); }), "'BINARY'"));
+    EXPECT_TRUE(has(error_of([&] { mesh("c.off", "4OFF\n3 1 0\n"); }), "begins with OFF"));
+}
+
+TEST(ReadTin, YMayBeUp) {
+    // A ridge between two slopes; north is -z.
+    std::string const faces = "v 0 5 0\nv 10 6 0\nv 10 7 -10\nv 0 8 -10\nv 10 2 -20\nv 0 3 -20\n"
+                              "f 1 2 3\nf 1 3 4\nf 4 3 5\nf 4 5 6\n";
+    TinFile const turned =
+        mesh("a.obj", "# thalweg; metres, Y up: x eastwards\n# origin 500 4000 100 (east)\n" + faces);
+    EXPECT_EQ(turned.tin.vertices[2], (Vec3{510, 4010, 107}));
+    EXPECT_DOUBLE_EQ(area(turned.tin), 200.0);
+    ASSERT_EQ(turned.findings.size(), 1U);
+    EXPECT_TRUE(has(turned.findings[0].text, "Y is up in it"));
+    EXPECT_EQ(mesh("b.obj", "#Y-up\n" + faces).tin.vertices[2], (Vec3{10, 10, 7}));
+    std::string const refused = error_of([&] { mesh("c.obj", faces); });
+    EXPECT_TRUE(has(refused, "folded in plan, with its heights on the y axis")) << refused;
+    EXPECT_EQ(mesh("d.obj", "# z is up\n" + faces).tin.vertices[2], (Vec3{10, 7, -10}));
+}
+
+TEST(ReadTin, TrianglesByThemselvesAreWelded) {
+    Tin const whole = awkward();
+    std::string text;
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+        for (std::uint32_t const v : whole.triangles[t]) {
+            Vec3 const& p = whole.vertices[v];
+            text += fmt::format("v {} {} {}\n", p.x, p.y, p.z);
+        }
+        text += "f -3 -2 -1\n";
+    }
+    TinFile const soup = mesh("a.obj", text);
+    EXPECT_EQ(soup.tin.vertices.size(), whole.vertices.size());
+    EXPECT_EQ(soup.tin.triangles.size(), whole.triangles.size());
+    ASSERT_EQ(soup.findings.size(), 1U);
+    EXPECT_EQ(soup.findings[0].amount, static_cast<double>(3 * whole.triangles.size() - whole.vertices.size()));
+    for (std::size_t t = 0; t < whole.triangles.size(); ++t) {
+        EXPECT_DOUBLE_EQ(area(soup.tin, soup.tin.triangles[t]), area(whole, whole.triangles[t]));
+    }
 }
 
 } // namespace tin_test

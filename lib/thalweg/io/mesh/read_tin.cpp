@@ -6,6 +6,7 @@
 #include <charconv>
 #include <cmath>
 #include <cstdint>
+#include <limits>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -14,6 +15,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 
@@ -41,12 +43,30 @@ public:
         if (rest_.empty()) {
             return false;
         }
-        if (++number_ % 65536 == 0) {
-            run_.check();
+        line_ = cut_line();
+        return true;
+    }
+    /// The same where a line that ends with a backslash goes on in the next.
+    bool next_whole_line() {
+        if (!next_line()) {
+            return false;
         }
-        std::size_t const end = rest_.find('\n');
-        line_ = rest_.substr(0, end);
-        rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
+        auto const goes_on = [](std::string_view text) {
+            std::size_t const last = text.find_last_not_of(blanks);
+            return last != std::string_view::npos && text[last] == '\\';
+        };
+        if (goes_on(line_)) {
+            joined_.clear();
+            for (std::string_view part = line_;; part = cut_line()) {
+                bool const is_last = !goes_on(part) || rest_.empty();
+                joined_ += goes_on(part) ? part.substr(0, part.find_last_of('\\')) : part;
+                joined_ += ' ';
+                if (is_last) {
+                    break;
+                }
+            }
+            line_ = joined_;
+        }
         return true;
     }
     /// \return the next word of the line; "": its end.
@@ -77,15 +97,13 @@ public:
         return value;
     }
     /// Reads the number of a vertex; of OBJ's a/b/c the first.
-    std::uint64_t index() {
-        std::string_view text = word();
-        text = text.substr(0, text.find('/'));
-        std::uint64_t value = 0;
-        auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
-        if (error != std::errc() || end != text.data() + text.size()) {
-            refuse(fmt::format("'{}' is not the number of a vertex", text));
-        }
-        return value;
+    std::uint64_t index() { return whole<std::uint64_t>(); }
+    /// Reads the same from 1, or from the last of the vertices so far, which is -1.
+    /// \return from 0; 2^64 - 1: there is no such vertex
+    std::uint64_t index_among(std::size_t vertices) {
+        auto const value = whole<std::int64_t>();
+        std::int64_t const from_0 = value < 0 ? static_cast<std::int64_t>(vertices) + value : value - 1;
+        return from_0 < 0 ? std::numeric_limits<std::uint64_t>::max() : static_cast<std::uint64_t>(from_0);
     }
     Vec3 vertex() {
         double const x = coordinate();
@@ -100,10 +118,10 @@ public:
         return face;
     }
     /// Reads the numbers in the rest of the line.
-    std::vector<std::uint64_t> corners() {
+    std::vector<std::uint64_t> corners_among(std::size_t vertices) {
         std::vector<std::uint64_t> face;
         while (face.size() < 3 || !remainder().empty()) {
-            face.push_back(index());
+            face.push_back(index_among(vertices));
         }
         return face;
     }
@@ -121,9 +139,30 @@ public:
     }
 
 private:
+    std::string_view cut_line() {
+        if (++number_ % 65536 == 0) {
+            run_.check();
+        }
+        std::size_t const end = rest_.find('\n');
+        std::string_view const line = rest_.substr(0, end);
+        rest_ = end == std::string_view::npos ? std::string_view() : rest_.substr(end + 1);
+        return line;
+    }
+    template <class Whole> Whole whole() {
+        std::string_view text = word();
+        text = text.substr(0, text.find('/'));
+        Whole value = 0;
+        auto const [end, error] = std::from_chars(text.data(), text.data() + text.size(), value);
+        if (error != std::errc() || end != text.data() + text.size()) {
+            refuse(fmt::format("'{}' is not the number of a vertex", text));
+        }
+        return value;
+    }
+
     std::string const& path_;
     std::string_view rest_;
     std::string_view line_;
+    std::string joined_; ///< of a line in several parts
     std::int64_t number_ = 0;
     Run const& run_;
 };
@@ -156,20 +195,61 @@ void read_2dm(Words& words, TinFile& file, FaceList& faces) {
     }
 }
 
-void read_obj(Words& words, TinFile& file, FaceList& faces) {
-    while (words.next_line()) {
+/// What the comments of an OBJ say of its coordinates.
+struct ObjAxes {
+    bool says_y_up = false;
+    bool says_z_up = false;
+    Vec3 origin = {}; ///< east, north, height
+};
+
+/// Reads "Y up", "y-up", "z is up" and the like, and the origin that write_textured_obj writes.
+void take_axes(std::string_view text, ObjAxes& axes) {
+    std::string simple;
+    for (char const c : text) {
+        simple += std::isalnum(static_cast<unsigned char>(c)) != 0
+                      ? static_cast<char>(std::tolower(static_cast<unsigned char>(c)))
+                      : ' ';
+    }
+    simple = " " + simple + " ";
+    auto const says = [&](std::string_view axis) {
+        return simple.find(fmt::format(" {} up ", axis)) != std::string::npos ||
+               simple.find(fmt::format(" {} is up ", axis)) != std::string::npos;
+    };
+    axes.says_y_up = axes.says_y_up || says("y");
+    axes.says_z_up = axes.says_z_up || says("z");
+    constexpr std::string_view begin = "origin ";
+    if (text.substr(0, begin.size()) == begin) {
+        std::array<double, 3> value{};
+        char const* at = text.data() + begin.size();
+        char const* const last = text.data() + text.size();
+        for (double& v : value) {
+            while (at != last && *at == ' ') {
+                ++at;
+            }
+            auto const [end, error] = std::from_chars(at, last, v);
+            if (error != std::errc()) {
+                return;
+            }
+            at = end;
+        }
+        axes.origin = {value[0], value[1], value[2]};
+    }
+}
+
+ObjAxes read_obj(Words& words, TinFile& file, FaceList& faces) {
+    ObjAxes axes;
+    while (words.next_whole_line()) {
         std::string_view const word = words.word();
-        if (word == "#") {
+        if (word.substr(0, 1) == "#") {
             words.comment(words.remainder(), file);
+            take_axes(word.size() == 1 ? words.remainder() : word.substr(1), axes);
         } else if (word == "v") {
             file.tin.vertices.push_back(words.vertex());
         } else if (word == "f") {
-            faces.push_back(words.corners());
-            for (std::uint64_t& v : faces.back()) {
-                --v; // 0 becomes a number beyond all others
-            }
+            faces.push_back(words.corners_among(file.tin.vertices.size()));
         }
     }
+    return axes;
 }
 
 /// Advances to the next line with content.
@@ -187,9 +267,16 @@ bool next_of_off(Words& words, TinFile& file) {
     return false;
 }
 
+/// Colours, normals and places in a picture follow the coordinates of a vertex, and are skipped.
 void read_off(Words& words, TinFile& file, FaceList& faces) {
-    if (!next_of_off(words, file) || words.word() != "OFF" || !next_of_off(words, file)) {
-        words.refuse("an OFF file begins with OFF and three counts");
+    constexpr std::array kinds{"OFF", "COFF", "NOFF", "CNOFF", "STOFF", "STCOFF", "STNOFF", "STCNOFF"};
+    if (!next_of_off(words, file) || std::ranges::find(kinds, words.word()) == kinds.end()) {
+        words.refuse("an OFF file begins with OFF (or COFF, NOFF, ...) and three counts, as text");
+    }
+    if (std::string_view const same = words.remainder(); same.empty() || same[0] == '#') {
+        if (!next_of_off(words, file)) {
+            words.refuse("the file ends after OFF");
+        }
     }
     std::uint64_t const vertices = words.index();
     std::uint64_t const announced = words.index();
@@ -295,6 +382,130 @@ std::vector<std::uint32_t> corners_of(std::vector<std::uint64_t> const& face) {
     return corners;
 }
 
+/// How triangles face in plan.
+struct Facing {
+    std::int64_t up = 0;
+    std::int64_t down = 0;
+    std::int64_t upright = 0; ///< without an area in plan
+    bool is_folded() const {
+        constexpr std::int64_t one_in = 100;
+        return one_in * std::min(up, down) > up + down + upright || upright > up + down;
+    }
+};
+
+/// \param turned plan with north to -z
+Facing facing_of(Tin const& tin, bool turned) {
+    Facing facing;
+    auto const at = [&](std::uint32_t v) {
+        Vec3 const& p = tin.vertices[v];
+        return turned ? Vec2{p.x, -p.z} : Vec2{p.x, p.y};
+    };
+    for (auto const& t : tin.triangles) {
+        Vec2 const ab = at(t[1]) - at(t[0]);
+        Vec2 const ac = at(t[2]) - at(t[0]);
+        double const area = ab.x * ac.y - ab.y * ac.x;
+        double const noise = 1e-9 * (norm(ab) * norm(ac));
+        (std::fabs(area) <= noise ? facing.upright : area > 0.0 ? facing.up : facing.down) += 1;
+    }
+    return facing;
+}
+
+/// Turns a mesh whose heights are on the y axis: y is up and south is z, as in OBJ files of most programs.
+void turn_upright(TinFile& file, ObjAxes const& axes, std::string const& path) {
+    if (!axes.says_y_up) {
+        refuse_if<BadInput>(!axes.says_z_up && facing_of(file.tin, false).is_folded() &&
+                                !facing_of(file.tin, true).is_folded(),
+                            "io.read_tin: {} is folded in plan, with its heights on the y axis: export it with Z up "
+                            "(Blender: Forward Axis Y, Up Axis Z), or begin it with the line \"# Y up\"",
+                            path);
+        return;
+    }
+    for (Vec3& v : file.tin.vertices) {
+        v = {v.x + axes.origin.x, axes.origin.y - v.z, v.y + axes.origin.z};
+    }
+    file.findings.push_back(
+        {.kind = "mesh_turned",
+         .text = fmt::format("{}: Y is up in it; x is taken as east, -z as north, y as the height", path),
+         .layer = path});
+}
+
+/// Vertices at one place become one, the first: meshes are often written triangle by triangle.
+void weld(TinFile& file, std::string const& path) {
+    constexpr double share = 1e-8; // of the extent
+    std::vector<Vec3>& vertices = file.tin.vertices;
+    Vec3 low = vertices.front();
+    Vec3 high = low;
+    for (Vec3 const& v : vertices) {
+        low = {std::min(low.x, v.x), std::min(low.y, v.y), std::min(low.z, v.z)};
+        high = {std::max(high.x, v.x), std::max(high.y, v.y), std::max(high.z, v.z)};
+    }
+    double const within_m = share * std::max({high.x - low.x, high.y - low.y, high.z - low.z});
+    if (!(within_m > 0.0)) {
+        return;
+    }
+    using Key = std::array<std::int64_t, 3>;
+    struct Hash { // only looked up, never iterated
+        std::size_t operator()(Key const& k) const {
+            std::uint64_t h = 0;
+            for (std::int64_t const c : k) {
+                h = (h ^ static_cast<std::uint64_t>(c)) * 0x9e3779b97f4a7c15ULL;
+                h ^= h >> 29U;
+            }
+            return static_cast<std::size_t>(h);
+        }
+    };
+    auto const cell = [&](Vec3 const& v) {
+        return Key{static_cast<std::int64_t>(std::floor((v.x - low.x) / within_m)),
+                   static_cast<std::int64_t>(std::floor((v.y - low.y) / within_m)),
+                   static_cast<std::int64_t>(std::floor((v.z - low.z) / within_m))};
+    };
+    auto const distance_2 = [](Vec3 const& a, Vec3 const& b) {
+        Vec3 const d{a.x - b.x, a.y - b.y, a.z - b.z};
+        return d.x * d.x + d.y * d.y + d.z * d.z;
+    };
+    std::unordered_map<Key, std::uint32_t, Hash> kept; // by cell: the first vertex
+    kept.reserve(vertices.size());
+    std::vector<std::uint32_t> number(vertices.size());
+    std::vector<Vec3> unique;
+    for (std::size_t i = 0; i < vertices.size(); ++i) {
+        Key const at = cell(vertices[i]);
+        std::uint32_t found = static_cast<std::uint32_t>(unique.size());
+        auto const look = [&](Key const& key) {
+            auto const same = kept.find(key);
+            if (same != kept.end() && distance_2(unique[same->second], vertices[i]) <= within_m * within_m) {
+                found = std::min(found, same->second);
+            }
+        };
+        look(at);
+        for (std::int64_t n = 0; n < 27 && found == unique.size(); ++n) {
+            look({at[0] + n % 3 - 1, at[1] + n / 3 % 3 - 1, at[2] + n / 9 - 1});
+        }
+        number[i] = found;
+        if (found == unique.size()) {
+            kept.emplace(at, found);
+            unique.push_back(vertices[i]);
+        }
+    }
+    if (unique.size() == vertices.size()) {
+        return;
+    }
+    std::size_t const before = vertices.size();
+    vertices = std::move(unique);
+    for (auto& t : file.tin.triangles) {
+        t = {number[t[0]], number[t[1]], number[t[2]]};
+    }
+    std::size_t const collapsed =
+        std::erase_if(file.tin.triangles, [](auto const& t) { return t[0] == t[1] || t[1] == t[2] || t[2] == t[0]; });
+    refuse_if<BadInput>(file.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
+    file.findings.push_back(
+        {.kind = "welded",
+         .amount = static_cast<double>(before - vertices.size()),
+         .text = fmt::format("{}: {} of {} vertices lie within {:.2g} m of others and are one with them{}", path,
+                             before - vertices.size(), before, within_m,
+                             collapsed == 0 ? "" : fmt::format("; {} triangles without area are left out", collapsed)),
+         .layer = path});
+}
+
 } // namespace
 
 bool holds_tin(std::string const& path) {
@@ -307,10 +518,11 @@ TinFile read_tin(std::string const& path, Run const& run) {
     Words words(path, text, run);
     TinFile file;
     FaceList faces;
+    ObjAxes axes;
     if (ends_in(path, ".2dm")) {
         read_2dm(words, file, faces);
     } else if (ends_in(path, ".obj")) {
-        read_obj(words, file, faces);
+        axes = read_obj(words, file, faces);
     } else {
         read_off(words, file, faces);
     }
@@ -330,6 +542,12 @@ TinFile read_tin(std::string const& path, Run const& run) {
              .amount = static_cast<double>(file.split),
              .text = fmt::format("{}: {} faces with more than three corners are cut into triangles", path, file.split),
              .layer = path});
+    }
+    if (ends_in(path, ".obj")) {
+        turn_upright(file, axes, path);
+    }
+    if (!ends_in(path, ".2dm")) { // whose nodes have ids
+        weld(file, path);
     }
     return file;
 }

@@ -26,12 +26,16 @@ struct TinFile {
 /// \return true: a mesh
 bool holds_tin(std::string const& path);
 
-/// Reads a mesh: 2DM (E3T, E4Q, ND), Wavefront OBJ (v, f) or OFF; other words of 2DM and OBJ are skipped. Faces with
-/// more than three corners are split into triangles, quadrilaterals along the shorter diagonal, with a finding.
+/// Reads a mesh: 2DM (E3T, E4Q, ND), Wavefront OBJ (v, f; numbers from the last vertex; lines continued by a backslash)
+/// or OFF (also with colours, normals, places in pictures, which are skipped); other words of 2DM and OBJ are skipped.
+/// An OBJ with a comment "Y up" is turned (mesh_turned), and moved to the origin in its comments. Vertices of OBJ and
+/// OFF within 1e-8 of the extent become one (welded). Faces with more than three corners are split into triangles,
+/// quadrilaterals along the shorter diagonal (split_faces).
 /// \param path of the file
 /// \return vertices and triangles in the file's order; restores a TIN written by write_tin in these formats
 /// \throws BadInput naming file and line: an invalid number, a face without three corners or with a vertex that does
-/// not exist, heights that are not in metres, more than 2^30 bytes, no triangle
+/// not exist, heights that are not in metres, more than 2^30 bytes, no triangle; an OBJ that is folded in plan, and not
+/// with Y up, and says nothing of its axes
 ///
 /// Source: Aquaveo, 2DM files; Wavefront OBJ; Geomview OFF.
 TinFile read_tin(std::string const& path, Run const& run = {});

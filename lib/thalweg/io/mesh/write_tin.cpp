@@ -83,7 +83,7 @@ void write_ply(Bytes& out, Tin const& tin, std::string const& crs, bool faces, H
 }
 
 void write_obj(Bytes& out, Tin const& tin, std::string const& crs, HeightUnit unit) {
-    out.text("# thalweg\n");
+    out.text("# thalweg; Z up: x eastwards, y northwards, z height\n");
     if (!crs.empty()) {
         out.text("# crs {}\n", one_line(crs));
     }
