@@ -71,7 +71,7 @@ TEST(LatticeFiles, ObjIsYUpWithPlacesFromTheSouthWest) {
                           "v -10 0 -5\n", "v 10 20 5\n", "vt 0 1\n", "vt 1 0\n", "f 4/4 5/5 2/2\nf 4/4 2/2 1/1\n"));
     io::TinFile const read = io::read_tin(folder / "a.obj");
     EXPECT_EQ(read.tin.triangles, mesh.triangles);
-    EXPECT_EQ(read.tin.vertices[5], (Vec3{10.0, 20.0, 5.0}));
+    EXPECT_EQ(read.tin.vertices[5], (Vec3{500025.0, 5.0, 120.0})) << "upright again, at its place";
 }
 
 TEST(LatticeFiles, BadMeshesAreRefused) {
