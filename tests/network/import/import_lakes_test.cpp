@@ -39,6 +39,17 @@ RiverLines with_lakes(std::vector<Line> const& lines, std::vector<std::vector<Li
 
 Line const square{{0, 0}, {200, 0}, {200, 200}, {0, 200}};
 
+/// Of cells as large as those of on_cells.
+Grid frame_of(double west, double north, std::int64_t width, std::int64_t height) {
+    Grid grid;
+    grid.cell_m = on_cells.cell_m;
+    grid.west = west;
+    grid.north = north;
+    grid.width = width;
+    grid.height = height;
+    return grid;
+}
+
 std::vector<Finding> crossed(Imported const& imported) {
     std::vector<Finding> found = imported.repairs;
     std::erase_if(found, [](Finding const& f) { return !(f.kind == FindingKind("lake_crossed")); });
@@ -280,16 +291,22 @@ TEST(ImportLakes, ALakeWithoutAnOutflowIsNamed) {
 TEST(ImportLakes, ItsWaterMayLeaveItWhereTheBorderIsNearest) {
     RiverLines const lines =
         with_lakes({{{100, 500}, {100, 200}}, {{-300, 100}, {0, 100}}, {{100, 900}, {200, 150}}}, {{square}});
-    Grid grid;
-    grid.cell_m = 10.0;
-    grid.west = -400.0;
-    grid.north = 1000.0;
-    grid.width = 100;
-    grid.height = 110;
+    Grid const grid = frame_of(-400.0, 1000.0, 100, 110);
     Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     EXPECT_EQ(imported.network.node(imported.network.outlets()[0]).at.y, 0.0);
     EXPECT_EQ(crossed(imported).size(), 1U);
+}
+
+TEST(ImportLakes, OneTooSmallForAnOutflowKeepsItsWater) {
+    // Nowhere is its shore two cells away from both mouths, 36 m apart.
+    Line const pond{{0, 98}, {36, 98}, {36, 102}, {0, 102}};
+    RiverLines const lines = with_lakes({{{400, 100}, {36, 100}}, {{-300, 100}, {0, 100}}}, {{pond}});
+    Grid const grid = frame_of(-400.0, 1000.0, 100, 110);
+    Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid, .drains_lakes = true});
+    EXPECT_EQ(imported.network.outlets().size(), 2U);
+    ASSERT_EQ(imported.repairs.size(), 1U);
+    EXPECT_FALSE(test::has(imported.repairs[0].text, "its water leaves it")) << imported.repairs[0].text;
 }
 
 TEST(ImportLakes, ARiverFarBelowItIsNamed) {
@@ -325,12 +342,7 @@ TEST(ImportLakes, RiversOfIslandsAndLinesAfloatReachTheWater) {
 TEST(ImportLakes, ALakeMayLieBeyondTheGrid) {
     Line const large{{0, 0}, {200, 0}, {2000, 200}, {0, 200}};
     RiverLines const lines = with_lakes({{{20, 500}, {20, 200}}, {{20, 0}, {20, -300}}}, {{large}});
-    Grid grid;
-    grid.cell_m = 10.0;
-    grid.west = -10.0;
-    grid.north = 520.0;
-    grid.width = 12;
-    grid.height = 90;
+    Grid const grid = frame_of(-10.0, 520.0, 12, 90);
     Imported const imported = import_lines(lines, {.cell_m = 10.0, .frame = &grid});
     ASSERT_EQ(imported.network.outlets().size(), 1U);
     for (Arc const& arc : imported.network.arcs()) {

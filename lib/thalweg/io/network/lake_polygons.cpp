@@ -172,8 +172,10 @@ bool LakeFilter::is_lake(OGRFeature const& feature) const {
     if (landuse == "reservoir" || (is_water && !runs)) {
         return true;
     }
-    bool const is_land = std::ranges::any_of(land_keys, [&](char const* key) { return !tag(feature, key).empty(); });
-    if (is_tagged_ || runs || is_land || !natural.empty() || !landuse.empty()) {
+    auto const is_land = [&] {
+        return std::ranges::any_of(land_keys, [&](char const* key) { return !tag(feature, key).empty(); });
+    };
+    if (is_tagged_ || runs || !natural.empty() || !landuse.empty() || is_land()) {
         return false;
     }
     bool says_other = false;
@@ -245,32 +247,34 @@ std::vector<OGRLayer*> layers_of_areas(GDALDataset& data, std::string const& wha
 
 void drop_surroundings(std::vector<Polygon>& lakes, std::vector<RiverLine> const& lines,
                        std::vector<Finding>& findings) {
-    std::size_t vertices = 0;
-    for (RiverLine const& line : lines) {
-        vertices += line.vertices.size();
+    if (lakes.empty()) {
+        return;
     }
+    std::vector<Vec2> places;
+    std::vector<double> x;
+    std::vector<double> y;
+    for (RiverLine const& line : lines) {
+        for (Vec3 const& v : line.vertices) {
+            places.push_back(in_plan(v));
+            x.push_back(v.x);
+            y.push_back(v.y);
+        }
+    }
+    // What holds more than half of the places has the two middle ones of each axis between its limits.
+    std::size_t const half = places.size() / 2;
+    std::ranges::nth_element(x, x.begin() + static_cast<std::ptrdiff_t>(half));
+    std::ranges::nth_element(y, y.begin() + static_cast<std::ptrdiff_t>(half));
     std::erase_if(lakes, [&](Polygon const& lake) {
-        Vec2 low = lake.rings.front().front();
-        Vec2 high = low;
-        for (Vec2 const p : lake.rings.front()) {
-            low = {std::min(low.x, p.x), std::min(low.y, p.y)};
-            high = {std::max(high.x, p.x), std::max(high.y, p.y)};
-        }
-        std::vector<Vec2> about;
-        for (RiverLine const& line : lines) {
-            for (Vec3 const& v : line.vertices) {
-                if (v.x >= low.x && v.x <= high.x && v.y >= low.y && v.y <= high.y) {
-                    about.push_back(in_plan(v));
-                }
-            }
-        }
-        if (2 * about.size() <= vertices) {
+        std::vector<Vec2> const& shore = lake.rings.front();
+        auto const [west, east] = std::ranges::minmax_element(shore, {}, &Vec2::x);
+        auto const [south, north] = std::ranges::minmax_element(shore, {}, &Vec2::y);
+        if (x[half] < west->x || x[half] > east->x || y[half] < south->y || y[half] > north->y) {
             return false;
         }
-        auto const in = std::ranges::count_if(about, [&](Vec2 p) { return geometry::contains(lake.rings.front(), p); });
-        bool const is_around = 2 * static_cast<std::size_t>(in) > vertices;
+        auto const in = std::ranges::count_if(places, [&](Vec2 p) { return geometry::contains(shore, p); });
+        bool const is_around = 2 * static_cast<std::size_t>(in) > places.size();
         if (is_around) {
-            findings.push_back({"lake_left_out", lake.feature, lake.rings.front().front(), 0.0,
+            findings.push_back({"lake_left_out", lake.feature, shore.front(), 0.0,
                                 fmt::format("polygon {} is no lake: most of the rivers lie in it", lake.feature)});
         }
         return is_around;

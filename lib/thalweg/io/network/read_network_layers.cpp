@@ -95,8 +95,7 @@ RiverSource find_rivers(std::string const& path) {
     refuse_if<BadInput>(data->GetLayerCount() == 0 && data->GetRasterCount() > 0,
                         "io.find_rivers: {} is a raster, not river lines", source.path);
     require_lines(*data, source.path, "io.find_rivers");
-    bool const is_osm = data->GetDriver() != nullptr && EQUAL(data->GetDriver()->GetDescription(), "OSM");
-    source.layer = data->GetLayerByName("arcs") != nullptr ? "arcs" : is_osm ? "lines" : "";
+    source.layer = data->GetLayerByName("arcs") != nullptr ? "arcs" : is_osm_file(*data) ? "lines" : "";
     return source;
 }
 

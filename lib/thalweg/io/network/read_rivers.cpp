@@ -318,14 +318,14 @@ namespace {
 /// The lakes of a file's other layers. Of OpenStreetMap one layer is read at a time.
 std::vector<Polygon> other_lakes(ReadRiversParams const& params, GDALDataset& data, std::vector<OGRLayer*> const& read,
                                  IntoMetres const& metres, OGRSpatialReference const& own, Run const& run) {
-    if (data.GetDriver() == nullptr || !EQUAL(data.GetDriver()->GetDescription(), "OSM")) {
+    if (!is_osm_file(data)) {
         return lakes_of_layers(data, read, metres, own, run);
     }
     Dataset const again = open_unchanged(params.path, GDAL_OF_VECTOR);
     if (!again) {
         return {};
     }
-    again->ReleaseResultSet(again->ExecuteSQL("SET interest_layers = multipolygons", nullptr, nullptr));
+    read_osm_layer(*again, "multipolygons");
     return lakes_of_layers(*again, {}, metres, own, run);
 }
 

@@ -24,6 +24,14 @@ std::vector<OGRLayer*> layers_of(GDALDataset& data) {
     return {layers.begin(), layers.end()};
 }
 
+bool is_osm_file(GDALDataset& data) {
+    return data.GetDriver() != nullptr && EQUAL(data.GetDriver()->GetDescription(), "OSM");
+}
+
+void read_osm_layer(GDALDataset& data, char const* layer) {
+    data.ReleaseResultSet(data.ExecuteSQL(fmt::format("SET interest_layers = {}", layer).c_str(), nullptr, nullptr));
+}
+
 std::vector<std::string> layer_names(std::vector<OGRLayer*> const& layers) {
     std::vector<std::string> names;
     for (OGRLayer* const layer : layers) {
@@ -102,8 +110,8 @@ OGRLayer* ways_of(GDALDataset& data) {
     if (lines == nullptr || !is_osm(*lines, "lines")) {
         return nullptr;
     }
-    if (data.GetDriver() != nullptr && EQUAL(data.GetDriver()->GetDescription(), "OSM")) {
-        data.ReleaseResultSet(data.ExecuteSQL("SET interest_layers = lines", nullptr, nullptr));
+    if (is_osm_file(data)) {
+        read_osm_layer(data, "lines");
     }
     return lines;
 }

@@ -269,17 +269,13 @@ std::vector<std::string> names_to_copy(GDALDataset& source, std::string const& w
     return names;
 }
 
-bool is_osm_file(GDALDataset& data) {
-    return data.GetDriver() != nullptr && EQUAL(data.GetDriver()->GetDescription(), "OSM");
-}
-
 /// Adds the lakes of OpenStreetMap to a copy of its ways. Of its layers one is read at a time.
 bool append_osm_lakes(std::string const& source, std::string const& path, GdalProgress& gdal_progress) {
     Dataset const data = open_unchanged(source, GDAL_OF_VECTOR);
     if (!data) {
         return false;
     }
-    data->ReleaseResultSet(data->ExecuteSQL("SET interest_layers = multipolygons", nullptr, nullptr));
+    read_osm_layer(*data, "multipolygons");
     return copy_layers(*data, {"multipolygons"}, path, gdal_progress,
                        {"-update", "-where", "natural = 'water' OR landuse = 'reservoir'"}) != nullptr;
 }

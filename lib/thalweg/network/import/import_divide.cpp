@@ -10,7 +10,6 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
@@ -168,15 +167,7 @@ public:
         reached_.assign(p_.nodes.size(), 0);
         state_.assign(p_.nodes.size(), 0);
         border_m_ = border_distances(p_, lines);
-        double low_m = std::numeric_limits<double>::infinity();
-        double high_m = -low_m;
-        for (RiverLine const& line : lines) {
-            for (Vec3 const& v : line.vertices) {
-                low_m = std::min(low_m, v.z);
-                high_m = std::max(high_m, v.z);
-            }
-        }
-        noise_m_ = network::noise_of_heights(low_m, high_m);
+        noise_m_ = noise_of(lines);
     }
 
     Divided divide(Run const& run) {

@@ -43,26 +43,40 @@ Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
     return parts;
 }
 
-std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
-                          ImportParams const& params, Left& left, Run const& run) {
-    std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation, left.repairs);
-    FoundDirections const found = find_directions(pieces, lines, params, evidence, run);
-    bool const is_drawn_sure = std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
+bool is_drawing_sure(FoundDirections const& found) {
+    return std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
+}
+
+std::vector<int> flows_at_ends(Pieces const& pieces, std::vector<RiverLine> const& lines,
+                               std::vector<int> const& runs) {
     std::vector<int> flows(2 * lines.size(), 0);
     for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
         Piece const& piece = pieces.pieces[k];
-        int const runs = found.said[k] != 0 ? found.said[k] : is_drawn_sure ? found.runs[k] : 0;
         if (piece.first == 0) {
-            flows[2 * piece.line] = -runs;
+            flows[2 * piece.line] = -runs[k];
         }
         if (piece.last + 1 == lines[piece.line].vertices.size()) {
-            flows[2 * piece.line + 1] = runs;
+            flows[2 * piece.line + 1] = runs[k];
         }
     }
     return flows;
 }
 
 namespace {
+
+/// By end, as far as it is sure.
+std::vector<int> sure_flows(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
+                            ImportParams const& params, Left& left, Run const& run) {
+    std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation, left.repairs);
+    FoundDirections const found = find_directions(pieces, lines, params, evidence, run);
+    std::vector<int> runs = found.said;
+    if (is_drawing_sure(found)) {
+        for (PieceId k = 0; k < runs.size(); ++k) {
+            runs[k] = runs[k] != 0 ? runs[k] : found.runs[k];
+        }
+    }
+    return flows_at_ends(pieces, lines, runs);
+}
 
 /// A place to which an end may be joined.
 struct Joint {
@@ -267,7 +281,7 @@ bool close_gaps(std::vector<RiverLine>& lines, RiverLines const& file, ImportPar
     if (proposals.empty()) {
         return false;
     }
-    gaps.close(proposals, flows_of(pieces, lines, file, params, left, run));
+    gaps.close(proposals, sure_flows(pieces, lines, file, params, left, run));
     return true;
 }
 

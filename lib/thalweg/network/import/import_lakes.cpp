@@ -14,7 +14,6 @@
 #include <thalweg/geometry/diagram.hpp>
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
-#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
@@ -392,54 +391,38 @@ private:
 
 /// What is known of the ends of lines.
 struct Flows {
-    std::vector<int> flow;     ///< by end: 1: water leaves the line there, -1: it begins there, 0: that is not sure
-    std::vector<char> is_said; ///< by end: by more than the drawing
+    std::vector<int> of_end;        ///< as flows_at_ends
+    std::vector<char> is_part_said; ///< by connected part: by more than the drawing
 };
 
-/// By end, as the rivers would run without their lakes.
-Flows flows_without_lakes(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
-                          ImportParams const& params, Left& left, Run const& run) {
-    constexpr double much_as_drawn = 0.4; // share above a half by which a drawing is sure
+/// As the rivers would run without their lakes; nothing where that is not sure.
+Flows flows_without_lakes(Pieces const& pieces, Parts const& parts, std::vector<RiverLine>& lines,
+                          RiverLines const& file, ImportParams const& params, Left& left, Run const& run) {
     std::vector<Evidence> evidence = evidence_of(pieces, lines, file, params.orientation, left.repairs);
     FoundDirections const found = find_directions(pieces, lines, params, evidence, run);
-    bool const is_drawn_sure = std::fabs(found.report.drawn_downstream - 0.5) >= much_as_drawn;
     ImportParams undivided = params;
     undivided.divergences = Divergences::main;
     Pieces forest = pieces;
     Divided const divided = divide(forest, lines, file, params.orientation, evidence, found.runs, run);
     std::vector<PieceId> const leaves = orient(forest, lines, file, undivided, evidence, found.runs);
-    enum : char { silent, drawn, said };
-    Sets parts(pieces.nodes.size());
-    for (Piece const& piece : pieces.pieces) {
-        parts.join(piece.from, piece.to);
-    }
-    std::vector<char> known(pieces.nodes.size(), is_drawn_sure ? drawn : silent); // by part
+    auto const part = [&](PieceId k) { return parts.of_line[pieces.pieces[k].line]; };
+    std::vector<char> is_sure(parts.most, is_drawing_sure(found) ? 1 : 0); // by part
+    std::vector<char> is_said(parts.most, 0);
     for (Evidence const& e : evidence) {
         for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
-            char& of = known[parts.of(pieces.pieces[k].from)];
-            of = e.votes[k] == 0 ? of : std::max<char>(of, e.kind == Evidence::Kind::drawn ? drawn : said);
+            if (e.votes[k] != 0) {
+                is_sure[part(k)] = 1;
+                is_said[part(k)] = e.kind != Evidence::Kind::drawn ? 1 : is_said[part(k)];
+            }
         }
     }
-    Flows flows{std::vector<int>(2 * lines.size(), 0), std::vector<char>(2 * lines.size(), 0)};
-    for (PieceId k = 0; k < pieces.pieces.size(); ++k) {
-        Piece const& piece = pieces.pieces[k];
-        char const of = known[parts.of(piece.from)];
-        int const runs = of == silent                   ? 0
-                         : divided.reason[k] != nullptr ? divided.runs[k]
-                         : leaves[piece.from] == k      ? 1
-                                                        : -1;
-        auto const set = [&](std::size_t e, int flow) {
-            flows.flow[e] = flow;
-            flows.is_said[e] = of == said ? 1 : 0;
-        };
-        if (piece.first == 0) {
-            set(2 * piece.line, -runs);
-        }
-        if (piece.last + 1 == lines[piece.line].vertices.size()) {
-            set(2 * piece.line + 1, runs);
+    std::vector<int> runs(pieces.pieces.size(), 0);
+    for (PieceId k = 0; k < runs.size(); ++k) {
+        if (is_sure[part(k)] != 0) {
+            runs[k] = divided.reason[k] != nullptr ? divided.runs[k] : leaves[pieces.pieces[k].from] == k ? 1 : -1;
         }
     }
-    return flows;
+    return {flows_at_ends(pieces, lines, runs), std::move(is_said)};
 }
 
 /// Whether lines meet as they are drawn, away from lakes.
@@ -465,21 +448,16 @@ public:
         : lines_(lines), parts_(std::move(parts)), flows_(std::move(flows)), params_(params), has_z_(has_z),
           left_(left), joined_(parts_.most), near_m_(params.cell_m > 0.0 ? shore_cells * params.cell_m : params.snap_m),
           far_m_(params.cell_m > 0.0 ? inflow_cells * params.cell_m : params.snap_m),
-          tolerance_m_(tolerance_cells * std::max(params.cell_m, params.snap_m)) {
-        double low_z = std::numeric_limits<double>::infinity();
-        double high_z = -low_z;
+          tolerance_m_(tolerance_cells * std::max(params.cell_m, params.snap_m)), noise_m_(noise_of(lines)) {
         for (RiverLine const& line : lines) {
             Vec2 low = in_plan(line.vertices.front());
             Vec2 high = low;
             for (Vec3 const& v : line.vertices) {
                 low = {std::min(low.x, v.x), std::min(low.y, v.y)};
                 high = {std::max(high.x, v.x), std::max(high.y, v.y)};
-                low_z = std::min(low_z, v.z);
-                high_z = std::max(high_z, v.z);
             }
             boxes_.emplace_back(low, high);
         }
-        noise_m_ = noise_of_heights(low_z, high_z);
         for (std::size_t e = 0; e < parts_.is_open.size(); ++e) {
             if (parts_.is_open[e] != 0) {
                 open_.emplace_back(end_of(lines[e / 2], e).x, e);
@@ -514,8 +492,8 @@ public:
             return;
         }
         is_drawn_upstream_ = true;
-        for (std::size_t e = 0; e < flows_.flow.size(); ++e) {
-            flows_.flow[e] = flows_.is_said[e] != 0 ? flows_.flow[e] : -flows_.flow[e];
+        for (std::size_t e = 0; e < flows_.of_end.size(); ++e) {
+            flows_.of_end[e] = is_said(e / 2) ? flows_.of_end[e] : -flows_.of_end[e];
         }
     }
 
@@ -534,11 +512,14 @@ public:
         out_ = nowhere;
         if (passing.empty() && std::ranges::all_of(mouths, [](Mouth const& mouth) { return mouth.flow > 0; })) {
             note_closed(outline, lake.feature, mouths);
-            if (mouths.size() < 2 || !params_.drains_lakes || params_.frame == nullptr) {
+            bool const may_drain = mouths.size() > 1 && params_.drains_lakes && params_.frame != nullptr;
+            std::optional<Mouth> const made = may_drain ? made_outflow(outline, mouths) : std::nullopt;
+            if (!made) {
                 return; // its water stays in it
             }
-            make_outflow(outline, mouths);
-            closed_.back().out = mouths[root_of(mouths)].begin();
+            closed_.back().out = made->begin();
+            mouths.push_back(*made);
+            along_shore(mouths);
         }
         std::int64_t const others = keep_one_outflow(lake.feature, mouths, !passing.empty());
         std::optional<Mouth> const root = passing.empty() ? std::optional(mouths[root_of(mouths)]) : std::nullopt;
@@ -552,7 +533,7 @@ public:
                 {"lake_left_out", lake.feature, mouths.front().tip, 0.0,
                  fmt::format("rivers do not run through lake {}: {}", lake.feature, cannot.what())});
         }
-        join_afloat(outline, passing, root, first, afloat);
+        join_afloat(outline, passing, root, first, lake.feature, afloat);
         simplify_from(first);
         if (rivers_ > 0) {
             std::string const more = others == 0   ? ""
@@ -580,6 +561,7 @@ public:
 
 private:
     std::size_t part(std::size_t line) { return joined_.of(parts_.of_line[line]); }
+    bool is_said(std::size_t line) const { return flows_.is_part_said[parts_.of_line[line]] != 0; }
 
     /// The rivers that meet a lake.
     struct AtLake {
@@ -660,7 +642,7 @@ private:
             if (parts_.is_open[e] == 0 || !lake.is_about(tip, far_m_)) {
                 continue;
             }
-            Mouth mouth{e / 2, tip, flows_.flow[e], flows_.is_said[e] != 0, lake.nearest(tip), {}};
+            Mouth mouth{e / 2, tip, flows_.of_end[e], is_said(e / 2), lake.nearest(tip), {}};
             bool const is_inside = mouth.shore.distance_m > same_point_m && lake.contains(tip);
             if (is_inside && !goes_ashore(lake, e, mouth)) {
                 mouth.inside = {tip};
@@ -742,8 +724,8 @@ private:
     }
 
     /// Of several rivers that leave a lake its water takes the one that most inflows name, the lowest, of least rank,
-    /// of an inflow's name, else the first of the file. Others keep beginning at its shore. \return how many of these
-    /// there are
+    /// of an inflow's name, else the first of the file. Others keep beginning at its shore.
+    /// \return how many others there are
     std::int64_t keep_one_outflow(std::int64_t lake, std::vector<Mouth>& mouths, bool is_passed) {
         auto const key = [&](Mouth const& m) {
             RiverLine const& own = lines_[m.line];
@@ -790,7 +772,7 @@ private:
         for (; at != open_.end() && at->first <= outline.high().x + most_m; ++at) {
             std::size_t const e = at->second;
             Vec2 const tip = end_of(lines_[e / 2], e);
-            if (flows_.flow[e] < 0 && outline.is_about(tip, most_m) && !outline.contains(tip)) {
+            if (flows_.of_end[e] < 0 && outline.is_about(tip, most_m) && !outline.contains(tip)) {
                 double const m = outline.nearest(tip).distance_m;
                 if (m <= most_m && m < closed.next_m) {
                     closed.next = tip;
@@ -801,8 +783,8 @@ private:
         closed_.push_back(closed);
     }
 
-    /// Adds the place of the shore nearest to the border as one where water leaves.
-    void make_outflow(Outline const& outline, std::vector<Mouth>& mouths) const {
+    /// The place of the shore nearest to the border, and two cells away from mouths, as one where water leaves.
+    std::optional<Mouth> made_outflow(Outline const& outline, std::vector<Mouth> const& mouths) const {
         Grid const& grid = *params_.frame;
         std::vector<Vec2> const& shore = outline.shore();
         ShorePlace best;
@@ -819,7 +801,7 @@ private:
             }
         }
         if (!std::isfinite(best.distance_m)) {
-            return;
+            return std::nullopt;
         }
         double least_z = std::numeric_limits<double>::infinity();
         for (Mouth const& m : mouths) {
@@ -828,8 +810,7 @@ private:
         Vec2 const at = rounded(within_frame(best.at));
         Mouth out{mouths.front().line, at, -1, true, best, {at}};
         out.made_z = least_z;
-        mouths.push_back(std::move(out));
-        along_shore(mouths);
+        return out;
     }
 
     /// Warns of what lakes without an outflow, or with several as drawn, may mean.
@@ -1044,7 +1025,7 @@ private:
     /// Joins lines in the lake that reach no shore, and those of islands, straight to the nearest way of its water that
     /// is in sight.
     void join_afloat(Outline const& lake, std::vector<std::size_t> const& passing, std::optional<Mouth> const& root,
-                     std::size_t first, std::vector<Mouth> const& afloat) {
+                     std::size_t first, std::int64_t number, std::vector<Mouth> const& afloat) {
         struct Goal {
             Vec2 at;
             double m = std::numeric_limits<double>::infinity();
@@ -1090,7 +1071,15 @@ private:
                 }
             }
             bool const to_root = root && offer(root->begin(), height_at(*root));
-            if (!std::isfinite(goal.m) || !runs_down(mouth, goal.z)) {
+            if (!std::isfinite(goal.m)) {
+                left_.repairs.push_back({"lake_left_out", number, mouth.tip, 0.0,
+                                         fmt::format("river {} ends in lake {} at ({:.0f}, {:.0f}) out of sight of the "
+                                                     "ways through it, and is not led through it",
+                                                     lines_[mouth.line].number(), number, mouth.tip.x, mouth.tip.y)});
+                continue;
+            }
+            if (!runs_down(mouth, goal.z)) {
+                note_low(mouth, goal.z);
                 continue;
             }
             std::size_t const into = goal.on ? goal.on->line : root ? root->line : passing.front();
@@ -1219,7 +1208,7 @@ private:
     double near_m_;
     double far_m_;
     double tolerance_m_;
-    double noise_m_ = 0.0;
+    double noise_m_;
     bool is_drawn_upstream_ = false;
     std::vector<std::pair<Vec2, Vec2>> boxes_;         ///< by line
     std::vector<std::pair<double, std::size_t>> open_; ///< x and number of open ends, sorted
@@ -1268,8 +1257,9 @@ bool cross_lakes(std::vector<RiverLine>& lines, RiverLines const& file, ImportPa
     std::vector<SecondaryLine> secondary;
     Left nothing{notes, secondary};
     Pieces const pieces = cut(lines, nothing);
-    Lakes lakes(lines, parts_of(pieces, lines), flows_without_lakes(pieces, lines, file, params, left, run), params,
-                file.has_z, left);
+    Parts const parts = parts_of(pieces, lines);
+    Lakes lakes(lines, parts, flows_without_lakes(pieces, parts, lines, file, params, left, run), params, file.has_z,
+                left);
     if (params.orientation == Orientation::automatic && !meets_as_drawn(pieces)) {
         lakes.look_for_upstream(file.lakes);
     }

@@ -3,6 +3,7 @@
 #include <array>
 #include <cmath>
 #include <map>
+#include <optional>
 #include <tuple>
 #include <utility>
 
@@ -302,19 +303,19 @@ void turn_ranks(Pieces const& p, std::vector<RiverLine>& lines, std::string cons
                                    field.empty() ? "" : " ", field, sense.rises, sense.falls + sense.rises, sense.by)});
 }
 
+bool is_through_lake(Piece const& piece, std::vector<RiverLine> const& lines) {
+    return lines[piece.line].feature == 0;
+}
+
 /// The same pieces where each lake that lines run through is one place.
 Pieces with_lakes_as_places(Pieces const& pieces, std::vector<RiverLine> const& lines) {
-    auto const is_through_lake = [&](Piece const& piece) { return lines[piece.line].feature == 0; };
-    Pieces merged = pieces;
-    if (std::ranges::none_of(pieces.pieces, is_through_lake)) {
-        return merged;
-    }
     Sets places(pieces.nodes.size());
     for (Piece const& piece : pieces.pieces) {
-        if (is_through_lake(piece)) {
+        if (is_through_lake(piece, lines)) {
             places.join(piece.from, piece.to);
         }
     }
+    Pieces merged = pieces;
     merged.at_node.assign(pieces.nodes.size(), {});
     for (PieceId k = 0; k < merged.pieces.size(); ++k) {
         Piece& piece = merged.pieces[k];
@@ -332,7 +333,10 @@ Pieces with_lakes_as_places(Pieces const& pieces, std::vector<RiverLine> const& 
 
 std::vector<Evidence> evidence_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
                                   Orientation asked, std::vector<Finding>& repairs) {
-    Pieces const p = with_lakes_as_places(pieces, lines);
+    bool const any_lake =
+        std::ranges::any_of(pieces.pieces, [&](Piece const& piece) { return is_through_lake(piece, lines); });
+    std::optional<Pieces> const merged = any_lake ? std::optional(with_lakes_as_places(pieces, lines)) : std::nullopt;
+    Pieces const& p = merged ? *merged : pieces;
     if (asked != Orientation::rank) {
         turn_ranks(p, lines, file.rank_field, repairs);
     }

@@ -12,6 +12,7 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
+#include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/internal/import_lines.hpp>
 
 namespace thalweg::network::import_steps {
@@ -128,6 +129,18 @@ double diagonal_of(std::vector<RiverLine> const& lines) {
         }
     }
     return distance({low.x, low.y}, {high.x, high.y});
+}
+
+double noise_of(std::vector<RiverLine> const& lines) {
+    double low_m = std::numeric_limits<double>::infinity();
+    double high_m = -low_m;
+    for (RiverLine const& line : lines) {
+        for (Vec3 const& v : line.vertices) {
+            low_m = std::min(low_m, v.z);
+            high_m = std::max(high_m, v.z);
+        }
+    }
+    return noise_of_heights(low_m, high_m);
 }
 
 std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines) {

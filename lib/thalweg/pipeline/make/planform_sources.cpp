@@ -5,6 +5,7 @@
 #include <limits>
 #include <map>
 #include <optional>
+#include <span>
 
 #include <fmt/format.h>
 
@@ -405,26 +406,37 @@ double distance_to_lakes(Vec2 p, std::vector<Polygon> const& lakes) {
     return least_m;
 }
 
-/// Warns where rivers end or begin near a lake without reaching its shore. Of those at the shore lakes say themselves
-/// what they lack.
-void warn_of_shores(StreamNetwork const& network, Hollow const& hollow, std::vector<Polygon> const& lakes,
+/// Warns where rivers end or begin near a lake without reaching its shore.
+void warn_of_shores(StreamNetwork const& network, std::span<Hollow const> beside, std::vector<Polygon> const& lakes,
                     double cell_m, StageLog& stage_log) {
     constexpr double reached_cells = 2.0;
-    auto const to_shore = [&](NodeId end) { return distance_to_lakes(network.node(end).at, lakes); };
-    if (std::ranges::any_of(hollow.ends, [&](NodeId end) { return to_shore(end) <= reached_cells * cell_m; })) {
+    std::size_t rivers = 0;
+    double most_m = 0.0;
+    Vec2 at = nowhere;
+    for (Hollow const& hollow : beside) {
+        std::vector<NodeId> ends = hollow.ends;
+        auto const to_shore = [&](NodeId end) { return distance_to_lakes(network.node(end).at, lakes); };
+        if (std::ranges::any_of(ends, [&](NodeId end) { return to_shore(end) <= reached_cells * cell_m; })) {
+            continue; // lakes say themselves what they lack
+        }
+        ends.push_back(hollow.source);
+        rivers += ends.size();
+        for (NodeId const end : ends) {
+            if (double const m = to_shore(end); m > most_m) {
+                most_m = m;
+                at = network.node(end).at;
+            }
+        }
+    }
+    if (rivers == 0) {
         return;
     }
-    std::vector<NodeId> ends = hollow.ends;
-    ends.push_back(hollow.source);
-    NodeId const farthest = *std::ranges::max_element(ends, {}, to_shore);
-    double const most_m = to_shore(farthest);
-    Vec2 const at = network.node(farthest).at;
     stage_log.find(
         {.kind = "unjoined_ends",
          .where = at,
-         .amount = static_cast<double>(ends.size()),
+         .amount = static_cast<double>(rivers),
          .text = fmt::format("{} rivers end or begin beside a lake, up to {:.3g} m from its shore, at ({:.0f}, {:.0f})",
-                             ends.size(), most_m, at.x, at.y),
+                             rivers, most_m, at.x, at.y),
          .remedy = fmt::format("If they should meet it: --set network.lines.snap={}", std::ceil(most_m)),
          .key = "network.lines.snap",
          .numbers = {{"most", most_m, "m"}}});
@@ -434,16 +446,14 @@ void warn_of_shores(StreamNetwork const& network, Hollow const& hollow, std::vec
 /// \param lakes those whose outlines are given
 void warn_of_hollows(StreamNetwork const& network, std::vector<Hollow> found, std::vector<Polygon> const& lakes,
                      double cell_m, StageLog& stage_log) {
-    auto const is_beside = [&](Hollow const& hollow) {
-        constexpr double most_cells = 20.0;
-        return std::ranges::any_of(hollow.ends, [&](NodeId end) {
+    constexpr double most_cells = 20.0;
+    auto const beside = std::ranges::stable_partition(found, [&](Hollow const& hollow) {
+        return std::ranges::none_of(hollow.ends, [&](NodeId end) {
             return distance_to_lakes(network.node(end).at, lakes) <= most_cells * cell_m;
         });
-    };
-    if (auto const beside = std::ranges::find_if(found, is_beside); beside != found.end()) {
-        warn_of_shores(network, *beside, lakes, cell_m, stage_log);
-    }
-    std::erase_if(found, is_beside);
+    });
+    warn_of_shores(network, beside, lakes, cell_m, stage_log);
+    found.erase(beside.begin(), beside.end());
     if (found.empty()) {
         return;
     }

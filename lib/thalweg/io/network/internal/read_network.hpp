@@ -52,6 +52,12 @@ std::string listed(std::vector<std::string> const& names);
 
 std::vector<std::string> field_names(OGRLayer& layer);
 
+/// Whether GDAL reads OpenStreetMap's own files: one layer at a time, and past the others only when told so.
+bool is_osm_file(GDALDataset& data);
+
+/// Tells GDAL which layer of such a file is read.
+void read_osm_layer(GDALDataset& data, char const* layer);
+
 // Columns.
 
 /// What a file does not say.

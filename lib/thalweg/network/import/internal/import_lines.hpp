@@ -46,6 +46,9 @@ private:
 /// [m] diagonal of the box around all vertices.
 double diagonal_of(std::vector<RiverLine> const& lines);
 
+/// [m] By how much the lines' heights may be off by noise.
+double noise_of(std::vector<RiverLine> const& lines);
+
 /// The plan of the lines.
 std::vector<std::vector<Vec2>> plan_of(std::vector<RiverLine> const& lines);
 
@@ -148,10 +151,6 @@ struct Parts {
 
 Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines);
 
-/// By end: 1: water leaves the line there, -1: it begins there, 0: that is not sure.
-std::vector<int> flows_of(Pieces const& pieces, std::vector<RiverLine>& lines, RiverLines const& file,
-                          ImportParams const& params, Left& left, Run const& run);
-
 /// Leads rivers that end at a lake through it: from their open ends, within half a cell of its shore (two where water
 /// arrives) or inside, to its outflow, or to the river that passes through it. Straight where that way is in the water,
 /// else along the medial lines between the pieces of shore from one mouth to the next. The lines added have feature 0.
@@ -232,6 +231,13 @@ struct FoundDirections {
 /// drawn. Removes a direction column that contradicts itself from the evidence.
 FoundDirections find_directions(Pieces const& p, std::vector<RiverLine> const& lines, ImportParams const& params,
                                 std::vector<Evidence>& evidence, Run const& run);
+
+/// Whether the drawn direction, or its reverse, is that of the water.
+bool is_drawing_sure(FoundDirections const& found);
+
+/// By end: 1: water leaves the line there, -1: it begins there, 0: unknown.
+/// \param runs by piece: 1: as drawn, -1: against it, 0: unknown
+std::vector<int> flows_at_ends(Pieces const& pieces, std::vector<RiverLine> const& lines, std::vector<int> const& runs);
 
 /// Adds up reversed lengths, and reports evidence that more than a tenth of the network contradicts.
 Directions review_directions(Pieces const& p, std::vector<RiverLine> const& lines, FoundDirections const& found,
