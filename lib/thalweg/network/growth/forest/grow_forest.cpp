@@ -82,13 +82,16 @@ Cell moved(Cell c, Site by) {
 }
 
 /// Cells of the region that a walker can reach from a seed.
-Mask reached_from(std::vector<Cell> const& seeds, Mask const& region) {
+Mask reached_from(std::vector<Cell> const& seeds, Mask const& region, Run const& run) {
     Mask reached(region.grid(), 0);
     std::vector<Cell> open = seeds;
     for (Cell const s : seeds) {
         reached[s] = 1;
     }
-    while (!open.empty()) {
+    for (std::size_t visited = 0; !open.empty(); ++visited) {
+        if (visited % (1U << 18U) == 0) {
+            run.check();
+        }
         Cell const c = open.back();
         open.pop_back();
         for (Site const o : neighbour_offsets) {
@@ -111,9 +114,10 @@ Grid blocks_of(Grid const& grid, std::int64_t side) {
 
 } // namespace
 
-ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step)
-    : grid_(region.grid()), step_(step), land_(reached_from(seeds, region)), walk_(land_), nearest_(grid_, -1),
+ForestGrowth::ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step, Run const& run)
+    : grid_(region.grid()), step_(step), land_(reached_from(seeds, region, run)), walk_(land_), nearest_(grid_, -1),
       first_(blocks_of(grid_, step), -1), state_(grid_, State::far), is_start_(grid_, 0) {
+    run.check();
     for (std::int64_t i = 0; i < grid_.cells(); ++i) {
         cells_ += land_[i];
         state_[i] = land_[i] != 0 ? State::far : State::closed;
@@ -285,7 +289,7 @@ private:
 GrownForest grow_forest(Mask const& region, std::vector<Cell> const& seeds, ForestParams const& params,
                         Run const& run) {
     check(region, seeds, params);
-    ForestGrowth growth(region, seeds, params.step_cells);
+    ForestGrowth growth(region, seeds, params.step_cells, run);
     run.check();
     ArrivalCounts visits(region.grid(), params.visits);
     GrownForest forest;

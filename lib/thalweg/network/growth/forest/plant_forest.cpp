@@ -104,10 +104,13 @@ private:
 };
 
 /// The 4-connected cells of a mask around a cell; removes them from it.
-std::vector<Cell> take_piece(Cell from, Mask& left) {
+std::vector<Cell> take_piece(Cell from, Mask& left, Run const& run) {
     std::vector<Cell> piece{from};
     left[from] = 0;
     for (std::size_t k = 0; k < piece.size(); ++k) {
+        if (k % (1U << 18U) == 0) {
+            run.check();
+        }
         for (Site const o : neighbour_offsets) {
             Cell const next{piece[k].col + o.x, piece[k].row + o.y};
             if (left.grid().contains(next) && left[next] != 0) {
@@ -139,17 +142,18 @@ void check(Mask const& land, std::vector<Cell> const& coast, std::vector<Cell> c
 }
 
 /// Adds a tree to every inland piece without one, at the first coast cell with enough space.
-void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mouths, std::vector<Finding>& notes) {
+void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mouths, std::vector<Finding>& notes,
+                 Run const& run) {
     Mask left = inland;
     for (Mouth const& mouth : mouths.all()) {
         if (left[mouth.seed] != 0) {
-            take_piece(mouth.seed, left);
+            take_piece(mouth.seed, left, run);
         }
     }
     for (Cell const c : coast) {
         std::optional<Cell> const seed = mouths.seed_for(c);
         if (seed && left[*seed] != 0 && mouths.add(c)) {
-            take_piece(*seed, left);
+            take_piece(*seed, left, run);
             notes.push_back(
                 finding("added_outlet", inland.grid(), c, 0.0, "an outlet was added for land without one, at cell"));
         }
@@ -157,17 +161,17 @@ void add_missing(Mask const& inland, std::vector<Cell> const& coast, Mouths& mou
 }
 
 /// Notes each piece of land without a tree.
-void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>& notes) {
+void note_dry_land(Mask const& land, Mouths const& mouths, std::vector<Finding>& notes, Run const& run) {
     Mask left = land;
     for (Mouth const& mouth : mouths.all()) {
         if (left[mouth.outlet] != 0) {
-            take_piece(mouth.outlet, left);
+            take_piece(mouth.outlet, left, run);
         }
     }
     for (std::int64_t i = 0; i < land.cells(); ++i) {
         if (left[i] != 0) {
             Cell const c = land.grid().at(i);
-            auto const size = static_cast<double>(take_piece(c, left).size());
+            auto const size = static_cast<double>(take_piece(c, left, run).size());
             notes.push_back(finding("dry_land", land.grid(), c, size,
                                     fmt::format("a piece of land of {} cells has no room for a river, at cell", size)));
         }
@@ -229,9 +233,9 @@ PlantedForest plant_forest(Mask const& land, std::vector<Cell> const& outlets, F
         }
     }
     run.check();
-    add_missing(inland, coast, mouths, planted.notes);
+    add_missing(inland, coast, mouths, planted.notes, run);
     run.check();
-    note_dry_land(land, mouths, planted.notes);
+    note_dry_land(land, mouths, planted.notes, run);
     if (mouths.all().empty()) {
         throw BadInput(fmt::format("network.plant_forest: there is no room for a river: no cell is {} cells away "
                                    "from the sea; take smaller cells or shorter steps",

@@ -7,6 +7,7 @@
 
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/raster.hpp>
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/dla/internal/walk.hpp>
 
 namespace thalweg::network {
@@ -58,7 +59,7 @@ private:
 class ForestGrowth {
 public:
     /// \throws BadInput when seeds are closer than two steps.
-    ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step);
+    ForestGrowth(Mask const& region, std::vector<Cell> const& seeds, std::int64_t step, Run const& run);
 
     RegionWalk const& walk() const { return walk_; }
     std::vector<Cell> const& particles() const { return particles_; }
