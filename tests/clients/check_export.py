@@ -31,6 +31,11 @@ def heights_of(folder):
     return numpy.where(band.GetMaskBand().ReadAsArray() > 0, band.ReadAsArray(), numpy.nan)
 
 
+def first_cell(folder, says):
+    west, cell, _, north, _, _ = gdal.Open(str(pathlib.Path(folder) / "dem.tif")).GetGeoTransform()
+    return (round((says["north_west"][0] - west) / cell - 0.5), round((north - says["north_west"][1]) / cell - 0.5))
+
+
 def check_solid(found, mesh):
     points, corners = numpy.unique(mesh.points, axis=0, return_inverse=True)
     triangles = corners[mesh.cells_dict["triangle"]]
@@ -78,6 +83,11 @@ def main(thalweg, folder, exports=None):
 
         path, says = export("a.png")
         image = PIL.Image.open(path)
+        col, row = first_cell(folder, says)  # of the largest rectangle without a rim that has no data
+        is_whole = (says["height"], says["width"]) == dem.shape
+        dem = dem[row:row + says["height"], col:col + says["width"]]
+        found.unless(is_whole or says["rim"]["closed_by"] == "cut", "cut", says.get("rim"))
+        rows, columns = dem.shape
         found.equal("size", image.size, (columns, rows))
         if found.counts:
             return found.close({})
@@ -106,16 +116,15 @@ def main(thalweg, folder, exports=None):
 
         path, says = export("a.obj")
         points = meshio.read(path).points
-        if columns <= 1025 and rows <= 1025 and known.all():
+        if columns <= 1025 and rows <= 1025 and is_whole and known.all():
             error = numpy.abs(points[:, 1] + says["origin"][2] - dem.ravel()).max()
             found.unless(error < 1e-3, "heights of the OBJ", error)
         found.unless((path.parent / "a_texture.png").exists(), "no texture", "obj")
 
         path, _ = export("a.glb")
         figures = check_glb(found, path)
-        if known.all() or (pathlib.Path(folder) / "recipe.toml").exists():
-            path, _ = export("a.stl", "--size", f"{1 + (columns - 1) // 4}x{1 + (rows - 1) // 4}")
-            figures.update(check_solid(found, meshio.read(path)))
+        path, _ = export("a.stl", "--size", f"{1 + (columns - 1) // 4}x{1 + (rows - 1) // 4}")
+        figures.update(check_solid(found, meshio.read(path)))
     return found.close({"size": [columns, rows], **figures})
 
 

@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/pipeline/commands/export.hpp>
+#include <thalweg/surface/gaps/close_gaps.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -114,6 +115,18 @@ Command add_export(CLI::App& app, Session& session) {
         "--base", params->base,
         "Make a solid this thick below its lowest height: of stl [m], default a tenth of the relief, at least a "
         "cell; of print3d [mm], default 3.");
+    app.add_option(
+        "--rim", params->rim,
+        "Treat cells without data that are connected with the border: " + names_in_words(surface::rim_gaps()) +
+            ". cut takes the largest rectangle without them, nearest fills them from the nearest cells, "
+            "minimum with the lowest height, sea with --sea-level. Default: cut.");
+    app.add_option("--holes", params->holes,
+                   "Treat cells without data that land encloses: " + names_in_words(surface::enclosed_gaps()) +
+                       ". shore makes each gap level at the lowest cell beside it. Default: shore. Without --rim, "
+                       "--holes and --sea-level, glb, obj and --for web leave cells without data open.");
+    app.add_option("--sea-level", params->sea_level_m,
+                   "The sea of a DEM lies at this height [m]: cells at or below it are water, unless land encloses "
+                   "them. Default: a DEM has no sea.");
     add_dem_options(app, params->reading);
     add_json_option(app, session);
     add_overwrite_option(app, params->existing, "Replace files of the same names.");

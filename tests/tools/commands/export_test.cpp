@@ -159,18 +159,56 @@ TEST(Export, SizesKeepTheShapeAndTheCorners) {
     expect_refused(place, "export dem.asc -o b.glb --size", {"1x1", "4099x2733"});
 }
 
-TEST(Export, HolesOfHeightmapsAreTheLowestAndOfSolidsRefused) {
+TEST(Export, RimsAreCutOrFilledAsAsked) {
     Workplace const place;
     write_dem(place, "-9999");
-    auto const json = expect_run(place, "export dem.asc -o a.r32 --json", 0, "1 of 35 cells have no data").json();
+    auto const json = expect_run(place, "export dem.asc -o a.r32 --json", 0, "1 of 35 cells have no data",
+                                 "largest rectangle", "6 x 5 of 7 x 5 cells from column 1, row 0")
+                          .json();
     EXPECT_EQ(json["cells_without_data"], 1);
-    EXPECT_EQ(json["without_data_m"], 1.0);
-    EXPECT_EQ(number_at<float>(file_bytes(place / "a.r32"), 0), 1.0F);
+    EXPECT_EQ(json["rim"], (nlohmann::json{{"closed_by", "cut"}, {"cells", 1}}));
+    EXPECT_EQ(json["width"], 6);
+    EXPECT_EQ(json["north_west"], (nlohmann::json{500015.0, 4000045.0}));
+    EXPECT_EQ(number_at<float>(file_bytes(place / "a.r32"), 0), 10.0F);
+    expect_run(place, "export dem.asc -o near.r32 --rim nearest", 0, "nearest cell");
+    EXPECT_EQ(number_at<float>(file_bytes(place / "near.r32"), 0), 10.0F);
+    EXPECT_EQ(file_bytes(place / "near.r32").size(), 4U * 35);
+    expect_run(place, "export dem.asc -o low.r32 --rim minimum", 0, "lowest height");
+    EXPECT_EQ(number_at<float>(file_bytes(place / "low.r32"), 0), 1.0F);
+    auto const sea = expect_run(place, "export dem.asc -o sea.r32 --rim sea --sea-level -2 --json", 0).json();
+    EXPECT_EQ(number_at<float>(file_bytes(place / "sea.r32"), 0), -2.0F);
+    EXPECT_EQ(sea["sea_level_m"], -2.0);
     auto const mesh = expect_run(place, "export dem.asc -o a.glb --json", 0, "the mesh has holes").json();
     EXPECT_EQ(mesh["vertices"], 34);
     EXPECT_EQ(mesh["triangles"], 47);
-    expect_run(place, "export dem.asc -o a.stl", 2, "1 of 35 cells have no data", "gdal_fillnodata");
-    EXPECT_FALSE(fs::exists(place / "a.stl"));
+    auto const cut = expect_run(place, "export dem.asc -o cut.glb --rim cut --json", 0).json();
+    EXPECT_EQ(cut["vertices"], 30);
+    EXPECT_EQ(expect_run(place, "export dem.asc -o a.stl --json", 0).json()["width"], 6);
+    expect_run(place, "export dem.asc --for print3d -o print", 0, "largest rectangle");
+    expect_refused(place, "export dem.asc -o b.r32", {"--rim sea", "--rim neares", "--holes cut", "--sea-level nan"});
+}
+
+TEST(Export, HolesAreLevelAtTheirLowestShore) {
+    Workplace const place;
+    std::string rows;
+    for (int row = 0; row < 5; ++row) {
+        for (int col = 0; col < 7; ++col) {
+            rows += row > 0 && row < 4 && col > 2 && col < 5 ? "-9999 " : std::to_string(100 + 10 * col + row) + " ";
+        }
+        rows += "\n";
+    }
+    place.write("dem.asc",
+                "ncols 7\nnrows 5\nxllcorner 500000\nyllcorner 4000000\ncellsize 10\nNODATA_value -9999\n" + rows);
+    auto const height = [&](std::string const& file) { return number_at<float>(file_bytes(place / file), 4 * 17); };
+    auto const json = expect_run(place, "export dem.asc -o a.r32 --json", 0, "6 of 35 cells", "1 gaps").json();
+    EXPECT_EQ(json["holes"]["levels_m"], (nlohmann::json{120.0, 120.0}));
+    EXPECT_EQ(height("a.r32"), 120.0F);
+    expect_run(place, "export dem.asc -o near.r32 --holes nearest", 0);
+    EXPECT_EQ(height("near.r32"), 122.0F);
+    expect_run(place, "export dem.asc -o low.r32 --holes minimum", 0);
+    EXPECT_EQ(height("low.r32"), 100.0F);
+    EXPECT_EQ(expect_run(place, "export dem.asc -o open.obj --json", 0).json()["cells_without_data"], 6);
+    EXPECT_EQ(expect_run(place, "export dem.asc -o shut.obj --holes shore --json", 0).json()["vertices"], 35);
 }
 
 TEST(Export, GlbHasTerrainTextureAndRivers) {

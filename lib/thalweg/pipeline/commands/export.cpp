@@ -16,6 +16,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/mesh/lattice_files.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
+#include <thalweg/pipeline/commands/internal/export_gaps.hpp>
 #include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/glb.hpp>
 #include <thalweg/pipeline/commands/internal/read_scene.hpp>
@@ -72,6 +73,7 @@ void require_options(ExportParams const& params, ExportFormat format) {
         "to a single file");
     refuse_if<BadParameter>(params.width.has_value() != params.height.has_value(),
                             "pipeline.run_export: a size has a width and a height");
+    require_gap_options(params);
     for (auto const& [name, value] : {std::pair{"exaggeration", params.exaggeration}, {"base", params.base}}) {
         if (value) {
             require_in("pipeline.run_export", name, *value, Range::above(0.0));
@@ -157,10 +159,7 @@ ExportJson json_of(ExportResult const& made, std::string const& source) {
             sixteen ? "16-bit unsigned: min_m + number x metres_per_step" : "32-bit floating point, metres";
         json["byte_order"] = made.format == ExportFormat::png16 ? "big-endian, as in every PNG" : "little-endian";
     }
-    json["cells_without_data"] = made.holes;
-    if (made.hole_m) {
-        json["without_data_m"] = *made.hole_m;
-    }
+    json.update(ExportJson::parse(description_of_gaps(made)));
     return json;
 }
 
@@ -278,6 +277,10 @@ ExportResult run_export(ExportParams const& params, Run const& run) {
         read_scene({.source = params.source, .network = {}, .reading = params.reading, .most_side = longest_side}, run);
     refuse_if<BadInput>(!read.scene.dem, "pipeline.run_export: {} holds no dem.tif", params.source);
     made.findings = std::move(read.findings);
+    bool const keeps_gaps = made.format == ExportFormat::glb || made.format == ExportFormat::obj;
+    if (!keeps_gaps || asks_for_gaps(params)) {
+        close_gaps_of(read.scene, params, made, run);
+    }
     ExportSize const size = size_of(params, made.format, read.scene.dem->grid(), made.findings);
     Lattice const ground = sampled(read.scene, size, made, run);
     made.width = ground.z.width();

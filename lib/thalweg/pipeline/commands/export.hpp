@@ -63,6 +63,21 @@ struct ExportParams {
     std::optional<std::int64_t> mask_bits = {}; ///< of a preset: 8 or 16; 8 if not set
     std::optional<double> runoff_mm = {};       ///< [mm/a] > 0, of a preset's rivers; 300 if not set
     std::optional<double> tree_line_m = {};     ///< [m] of a preset's land cover; 1800 if not set
+    // Cells without data. Meshes of glb and obj, and the preset web, keep them unless one of these is set.
+    std::string rim = {};                   ///< a name of surface::rim_gaps(); "": cut
+    std::string holes = {};                 ///< a name of surface::enclosed_gaps(); "": shore
+    std::optional<double> sea_level_m = {}; ///< [m] of a DEM; nothing: it has no sea
+};
+
+/// What became of the cells without data.
+struct ExportedGaps {
+    std::string rim = {}; ///< how those connected with the border were treated; "": there are none, or they stay
+    std::int64_t rim_cells = 0;
+    bool is_cut = false;    ///< the DEM became smaller
+    std::string holes = {}; ///< how the others were treated; "": there are none, or they stay
+    std::int64_t hole_cells = 0;
+    Vec2 hole_levels_m = {};                ///< [m] the lowest and the highest that they got
+    std::optional<double> sea_level_m = {}; ///< [m] by --sea-level
 };
 
 /// What run_export() wrote.
@@ -70,37 +85,39 @@ struct ExportResult {
     std::vector<std::string> files; ///< paths: the file named, its companions, its description (FILE.json)
     std::vector<Finding> findings;  ///< changes and choices
     ExportFormat format = ExportFormat::png16;
-    std::int64_t width = 0;            ///< samples or vertices of a row, of all tiles together
-    std::int64_t height = 0;           ///< samples or vertices of a column
-    Vec2 step_m;                       ///< between neighbours of a row, and of a column
-    Vec2 north_west;                   ///< [m] position of the first sample or vertex
-    std::string crs;                   ///< as in Grid
-    double min_m = 0.0;                ///< lowest height
-    double max_m = 0.0;                ///< highest height
-    double metres_per_step = 0.0;      ///< of 16 bits; else 0
-    std::int64_t holes = 0;            ///< cells of the DEM without data
-    std::optional<double> hole_m = {}; ///< height that they were given; not set: there are none, or left out
-    std::int64_t vertices = 0;         ///< of a mesh; else 0
-    std::int64_t triangles = 0;        ///< of a mesh; else 0
-    std::int64_t river_lines = 0;      ///< of a glb
-    Vec3 origin;                       ///< [m] of a mesh's frame
-    double exaggeration = 1.0;         ///< of a mesh
-    double base_m = 0.0;               ///< of a solid; else 0
-    std::string description;           ///< what FILE.json or export.json says: one JSON object
+    std::int64_t width = 0;       ///< samples or vertices of a row, of all tiles together
+    std::int64_t height = 0;      ///< samples or vertices of a column
+    Vec2 step_m;                  ///< between neighbours of a row, and of a column
+    Vec2 north_west;              ///< [m] position of the first sample or vertex
+    std::string crs;              ///< as in Grid
+    double min_m = 0.0;           ///< lowest height
+    double max_m = 0.0;           ///< highest height
+    double metres_per_step = 0.0; ///< of 16 bits; else 0
+    std::int64_t holes = 0;       ///< cells of the DEM without data
+    /// the level of the sea that they were given; not set: there is none, they are left out, or closed as gaps says
+    std::optional<double> hole_m = {};
+    ExportedGaps gaps = {};
+    std::int64_t vertices = 0;    ///< of a mesh; else 0
+    std::int64_t triangles = 0;   ///< of a mesh; else 0
+    std::int64_t river_lines = 0; ///< of a glb
+    Vec3 origin;                  ///< [m] of a mesh's frame
+    double exaggeration = 1.0;    ///< of a mesh
+    double base_m = 0.0;          ///< of a solid; else 0
+    std::string description;      ///< what FILE.json or export.json says: one JSON object
 };
 
 /// Runs `thalweg export`: writes the heights of a terrain as one file for game engines, 3D programs and printers, and
 /// beside it FILE.json, which says sizes, heights, axes and position. All files are written, or none. The corners are
-/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32, exr: as io::write_heightmap; cells
-/// without data get the level of the sea if the folder's recipe has one, else the lowest height. glb, obj, stl: metres
-/// from a local origin in the middle at the lowest height; the sea is level, other cells without data are holes. glb
-/// and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a folder:
-/// heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as grey
-/// PNG; rivers with width and discharge as JSON; for godot and blender a GLB; for web tiles and pages, for print3d a
-/// solid; export.json, which says all of it in numbers. \return what was written; the same bytes for any number of
+/// the centres of the DEM's corner cells (thalweg::lattice). png16, r16, r32, exr: as io::write_heightmap. glb, obj,
+/// stl: metres from a local origin in the middle at the lowest height. Cells without data get the level of the sea if
+/// the folder's recipe has one; else surface::close_gaps closes them, in glb, obj and for the web only where asked.
+/// glb and obj are Y up, with a texture; glb has rivers as lines. stl is a closed solid, Z up. A preset leaves a
+/// folder: heights in the format and sizes of its program, in tiles that share their edges; a colour texture; masks as
+/// grey PNG; rivers with width and discharge as JSON; for godot and blender a GLB; for web tiles and pages, for print3d
+/// a solid; export.json, which says all of it in numbers. \return what was written; the same bytes for any number of
 /// threads \throws BadParameter for an unknown format, preset or mask, an option of another one or a size that it
 /// cannot have; for exr in a build without OpenEXR \throws BadInput when masks of rivers are asked for and there are
-/// none, the size would stretch the DEM by more than 1 %, a solid would have holes, a file exists already; as the
+/// none, the size would stretch the DEM by more than 1 %, a file exists already; as surface::close_gaps; as the
 /// readers
 ExportResult run_export(ExportParams const& params, Run const& run = {});
 

@@ -18,6 +18,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
+#include <thalweg/pipeline/commands/internal/export_gaps.hpp>
 #include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/glb.hpp>
 #include <thalweg/pipeline/commands/internal/land_masks.hpp>
@@ -237,6 +238,7 @@ void require_options_for(ExportParams const& params, ExportPreset preset) {
         require_in("pipeline.run_export", "tiles", count.value_or(1), Range::between(1.0, 64.0));
     }
     require_in("pipeline.run_export", "runoff", params.runoff_mm.value_or(300.0), Range{0.0, 1e5, false, true}, "mm/a");
+    require_gap_options(params);
     require_in("pipeline.run_export", "tree-line", params.tree_line_m.value_or(0.0), Range::finite(), "m");
     std::int64_t const bits = params.mask_bits.value_or(8);
     refuse_if<BadParameter>(bits != 8 && bits != 16, "pipeline.run_export: masks have 8 or 16 bits, not {}", bits);
@@ -408,13 +410,16 @@ void write_land_colours(Scene const& scene, LandMasks& masks, ExportSize size, s
     io::write_colour_png(pixels, path, run);
 }
 
+double runoff_of(ExportParams const& params) {
+    return params.runoff_mm.value_or(300.0);
+}
+
 /// What a preset writes, step by step.
 class ForProgram {
 public:
-    ForProgram(ExportParams const& params, Program const& program, Scene const& scene, io::OutputFolder const& out,
-               Run const& run)
-        : params_(params), program_(program), scene_(scene), out_(out), run_(run),
-          rivers_(scene.network ? river_splines(scene, runoff_mm(), run) : std::vector<RiverSpline>()),
+    ForProgram(ExportParams const& params, Program const& program, Scene const& scene,
+               std::vector<RiverSpline> const& rivers, io::OutputFolder const& out, Run const& run)
+        : params_(params), program_(program), scene_(scene), out_(out), run_(run), rivers_(rivers),
           masks_(scene, rivers_, tree_line_m()), tiles_(tiles_of(params, program, scene.dem->grid())) {}
 
     ForJson write(ExportResult& made) {
@@ -450,7 +455,6 @@ public:
     }
 
 private:
-    double runoff_mm() const { return params_.runoff_mm.value_or(300.0); }
     double tree_line_m() const { return params_.tree_line_m.value_or(1800.0); }
 
     void tell_changes(ExportResult& made) const {
@@ -479,11 +483,8 @@ private:
                      {"step_m", {made.step_m.x, made.step_m.y}},
                      {"size_m", {ground_.extent_m().x, ground_.extent_m().y}},
                      {"north_west", {made.north_west.x, made.north_west.y}},
-                     {"crs", made.crs},
-                     {"cells_without_data", made.holes}};
-        if (made.hole_m) {
-            json["without_data_m"] = *made.hole_m;
-        }
+                     {"crs", made.crs}};
+        json.update(ForJson::parse(description_of_gaps(made)));
         return json;
     }
     ForJson heights(io::HeightmapScale const& scale) const {
@@ -626,7 +627,7 @@ private:
         ForJson facts{{"file", "rivers.json"},
                       {"rivers", rivers.size()},
                       {"axes", frame.axes},
-                      {"runoff_mm", runoff_mm()},
+                      {"runoff_mm", runoff_of(params_)},
                       {"point", {"x", "y", "z", "width_m", "discharge_m3s", "ground"}},
                       {"ground", "height of the heightmap there, in the unit and direction of heights"}};
         if (outside > 0) {
@@ -677,7 +678,7 @@ private:
     Scene const& scene_;
     io::OutputFolder const& out_;
     Run const& run_;
-    std::vector<RiverSpline> rivers_;
+    std::vector<RiverSpline> const& rivers_;
     LandMasks masks_;
     Tiles tiles_;
     Lattice ground_;
@@ -702,20 +703,22 @@ ForJson print_for(ExportParams const& params, Scene const& scene, io::OutputFold
     made.exaggeration = print.exaggeration;
     made.vertices = printed.vertices;
     made.triangles = printed.triangles;
-    return {{"width", made.width},
-            {"height", made.height},
-            {"min_m", made.min_m},
-            {"max_m", made.max_m},
-            {"file", "terrain.stl"},
-            {"axes", "millimetres: x east, y north, z up from the corner of the plate"},
-            {"size_mm", {printed.size_mm.x, printed.size_mm.y, printed.size_mm.z}},
-            {"scale", printed.scale},
-            {"relief_mm", printed.relief_mm},
-            {"base_mm", print.base_mm},
-            {"exaggeration", print.exaggeration},
-            {"vertices", printed.vertices},
-            {"triangles", printed.triangles},
-            {"crs", scene.dem->grid().crs}};
+    ForJson json{{"width", made.width},
+                 {"height", made.height},
+                 {"min_m", made.min_m},
+                 {"max_m", made.max_m},
+                 {"file", "terrain.stl"},
+                 {"axes", "millimetres: x east, y north, z up from the corner of the plate"},
+                 {"size_mm", {printed.size_mm.x, printed.size_mm.y, printed.size_mm.z}},
+                 {"scale", printed.scale},
+                 {"relief_mm", printed.relief_mm},
+                 {"base_mm", print.base_mm},
+                 {"exaggeration", print.exaggeration},
+                 {"vertices", printed.vertices},
+                 {"triangles", printed.triangles},
+                 {"crs", scene.dem->grid().crs}};
+    json.update(ForJson::parse(description_of_gaps(made)));
+    return json;
 }
 
 /// Writes what a web server takes.
@@ -730,24 +733,25 @@ ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder
     made.min_m = written.min_m;
     made.max_m = written.max_m;
     made.exaggeration = web.exaggeration;
-    made.holes = written.holes;
+    made.holes = std::max(made.holes, written.holes);
     io::DegreeBox const& box = written.bounds;
-    return {{"width", made.width},
-            {"height", made.height},
-            {"min_m", made.min_m},
-            {"max_m", made.max_m},
-            {"metres_per_step", 0.1},
-            {"heights", "heights/{z}/{x}/{y}.png: -10000 m + (65536 red + 256 green + blue) x 0.1 m"},
-            {"colour", "colour/{z}/{x}/{y}.png"},
-            {"axes", "tiles in EPSG:3857, y from the north; heights 256 x 256, colours 512 x 512 pixels"},
-            {"min_zoom", written.min_zoom},
-            {"max_zoom", written.max_zoom},
-            {"max_zoom_of_terrain_html", written.page_max_zoom},
-            {"bounds_degrees", {box.west, box.south, box.east, box.north}},
-            {"tiles", written.tiles},
-            {"exaggeration", made.exaggeration},
-            {"cells_without_data", written.holes},
-            {"crs", scene.dem->grid().crs}};
+    ForJson json{{"width", made.width},
+                 {"height", made.height},
+                 {"min_m", made.min_m},
+                 {"max_m", made.max_m},
+                 {"metres_per_step", 0.1},
+                 {"heights", "heights/{z}/{x}/{y}.png: -10000 m + (65536 red + 256 green + blue) x 0.1 m"},
+                 {"colour", "colour/{z}/{x}/{y}.png"},
+                 {"axes", "tiles in EPSG:3857, y from the north; heights 256 x 256, colours 512 x 512 pixels"},
+                 {"min_zoom", written.min_zoom},
+                 {"max_zoom", written.max_zoom},
+                 {"max_zoom_of_terrain_html", written.page_max_zoom},
+                 {"bounds_degrees", {box.west, box.south, box.east, box.north}},
+                 {"tiles", written.tiles},
+                 {"exaggeration", made.exaggeration},
+                 {"crs", scene.dem->grid().crs}};
+    json.update(ForJson::parse(description_of_gaps(made)));
+    return json;
 }
 
 /// Files of an earlier export in a folder.
@@ -794,7 +798,17 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
     ForJson json{
         {"thalweg", version()}, {"source", name.empty() || name == "." ? params.source : name}, {"for", params.preset}};
     Program const* const program = program_of(preset);
-    json.update(program != nullptr            ? ForProgram(params, *program, read.scene, out, run).write(made)
+    std::vector<RiverSpline> rivers;
+    if (program != nullptr && read.scene.network) {
+        rivers = river_splines(read.scene, runoff_of(params), run);
+    }
+    if (preset != ExportPreset::web || asks_for_gaps(params)) {
+        close_gaps_of(read.scene, params, made, run);
+    }
+    if (made.gaps.is_cut) {
+        rivers = rivers_inside(rivers, read.scene.dem->grid());
+    }
+    json.update(program != nullptr            ? ForProgram(params, *program, read.scene, rivers, out, run).write(made)
                 : preset == ExportPreset::web ? web_for(params, read.scene, out, made, run)
                                               : print_for(params, read.scene, out, made, run));
     std::vector<std::string> files = out.files();

@@ -38,11 +38,12 @@ ExportSize fitting(Grid const& grid, std::int64_t longer) {
 
 Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run) {
     Raster<float> const& dem = *scene.dem;
-    made.holes = std::count_if(dem.values().begin(), dem.values().end(), [](float z) { return std::isnan(z); });
-    auto const count = [&] { return fmt::format("{} of {} cells", made.holes, dem.cells()); };
-    if (made.holes == 0) {
+    auto const holes = std::ranges::count_if(dem.values(), [](float z) { return std::isnan(z); });
+    if (holes == 0) {
         return lattice(dem, size.width, size.height, run);
     }
+    made.holes = holes;
+    auto const count = [&] { return fmt::format("{} of {} cells", holes, dem.cells()); };
     if (scene.sea) {
         made.hole_m = scene.sea->level_m;
         made.findings.push_back({.kind = "level_sea",
@@ -52,27 +53,10 @@ Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run con
         fill_holes(filled, *made.hole_m);
         return lattice(filled, size.width, size.height, run);
     }
-    if (made.format == ExportFormat::stl) {
-        throw BadInput(fmt::format("pipeline.run_export: {} have no data: a solid has no holes; fill them first "
-                                   "(gdal_fillnodata.py)",
-                                   count()));
-    }
-    Lattice out = lattice(dem, size.width, size.height, run);
-    if (is_mesh(made.format)) {
-        made.findings.push_back({.kind = "holes",
-                                 .amount = static_cast<double>(made.holes),
-                                 .text = fmt::format("{} have no data: the mesh has holes there", count())});
-        return out;
-    }
-    auto const range = height_range(out.z);
-    refuse_if<BadInput>(!range, "pipeline.run_export: no sample has a height");
-    made.hole_m = range->first;
-    made.findings.push_back(
-        {.kind = "holes",
-         .amount = static_cast<double>(made.holes),
-         .text = fmt::format("{} have no data: their samples get the lowest height, {:.6g} m", count(), *made.hole_m)});
-    fill_holes(out.z, *made.hole_m);
-    return out;
+    made.findings.push_back({.kind = "holes",
+                             .amount = static_cast<double>(made.holes),
+                             .text = fmt::format("{} have no data: the mesh has holes there", count())});
+    return lattice(dem, size.width, size.height, run);
 }
 
 std::string texture_of(Scene const& scene, Run const& run) {

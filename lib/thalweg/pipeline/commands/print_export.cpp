@@ -34,12 +34,10 @@ Raster<float> without_holes(Scene const& scene) {
         std::ranges::replace_if(dem.values(), is_hole, static_cast<float>(scene.sea->level_m));
     }
     auto const holes = std::ranges::count_if(dem.values(), is_hole);
-    refuse_if<BadInput>(
-        holes > 0,
-        "pipeline.write_print: {} of {} cells have no data: a solid has no holes; fill them first "
-        "(gdal_fillnodata.py), or, along the rim of a DEM that came into metres from degrees or another "
-        "CRS, cut a rectangle (gdalwarp -novshift -t_srs -te)",
-        holes, dem.cells());
+    refuse_if<BadInput>(holes > 0,
+                        "pipeline.write_print: {} of {} cells have no data: a solid has no holes; close them first "
+                        "(surface.close_gaps)",
+                        holes, dem.cells());
     return dem;
 }
 

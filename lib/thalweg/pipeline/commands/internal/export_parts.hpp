@@ -22,8 +22,7 @@ struct ExportSize {
 /// \return the size nearest to a DEM's shape whose longer side has this many samples
 ExportSize fitting(Grid const& grid, std::int64_t longer);
 
-/// Samples the DEM with the level of the sea or, in heightmaps, the lowest height in place of holes, and says so in the
-/// result (its format decides).
+/// Samples the DEM, whose gaps get the level of the sea or, in meshes without one, stay, and says so in the result.
 Lattice sampled(Scene const& scene, ExportSize size, ExportResult& made, Run const& run);
 
 /// \return PNG of the ground; corners as a lattice's
