@@ -58,6 +58,7 @@ class WhatTheProgramTakes(Case):
                     "--ensemble", "--seeds", "--vary", "--shards", "--share",  # many terrains, for which QGIS has batch runs
                     "--source-crs", "--layer", "--arcs-layer", "--nodes-layer",  # of the layer
                     "--band", "--encoding",  # of files of several bands, of which QGIS takes one: Raster > Translate
+                    "--raw-size", "--raw-cell", "--raw-heights",  # of heightmaps, which QGIS does not show
                     "--from", "--table"}  # FROM; a database is no file
         for command in runner.STAGES:
             sources = SOURCES[command] + SOURCES["network_input"] + SOURCES["algorithm"]

@@ -2,9 +2,16 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include "commands/options.hpp"
 
+#include <algorithm>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
+#include <string>
 #include <system_error>
+#include <utility>
+#include <vector>
+
+#include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/network/schema.hpp>
@@ -62,6 +69,31 @@ void add_overwrite_option(CLI::App& app, io::Existing& existing, std::string con
         "--overwrite", [&existing] { existing = io::Existing::replace; }, meaning);
 }
 
+namespace {
+
+/// The finite numbers between marks; empty: a part is none.
+std::vector<double> numbers_in(std::string const& word, char mark) {
+    std::vector<double> numbers;
+    for (std::size_t begin = 0; begin <= word.size();) {
+        std::size_t const end = std::min(word.find(mark, begin), word.size());
+        double number = 0.0;
+        auto const [rest, fault] = std::from_chars(word.data() + begin, word.data() + end, number);
+        if (fault != std::errc() || rest != word.data() + end || !std::isfinite(number)) {
+            return {};
+        }
+        numbers.push_back(number);
+        begin = end + 1;
+    }
+    return numbers;
+}
+
+bool is_side(double number) {
+    constexpr double most = 65536.0;
+    return number >= 1.0 && number <= most && number == std::floor(number);
+}
+
+} // namespace
+
 void add_dem_options(CLI::App& app, io::ReadDemParams& reading) {
     app.add_option("--nodata", reading.nodata,
                    "Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every "
@@ -76,6 +108,36 @@ void add_dem_options(CLI::App& app, io::ReadDemParams& reading) {
                                                                      {"terrarium", io::HeightEncoding::terrarium}};
     app.add_option("--encoding", reading.encoding, "Decode the DEM's heights from the colours of a picture.")
         ->transform(CLI::CheckedTransformer(encodings, CLI::ignore_case));
+    app.add_option_function<std::string>(
+           "--raw-size",
+           [&reading](std::string const& word) {
+               auto const numbers = numbers_in(word, 'x');
+               bool const is_size = !numbers.empty() && numbers.size() <= 2 && std::ranges::all_of(numbers, is_side);
+               if (!is_size) {
+                   throw CLI::ValidationError("--raw-size", fmt::format("'{}' is not N or WIDTHxHEIGHT", word));
+               }
+               reading.raw_width = static_cast<std::int64_t>(numbers.front());
+               reading.raw_height = static_cast<std::int64_t>(numbers.back());
+           },
+           "Samples of a heightmap without a header (.r16, .r32, .raw): N a side, or WIDTHxHEIGHT. Default: as "
+           "FILE.json "
+           "says, else a square.")
+        ->type_name("N|WxH");
+    app.add_option("--raw-cell", reading.raw_cell_m,
+                   "Distance [m] between samples of a heightmap. Default: as FILE.json says, else 1.")
+        ->check(CLI::PositiveNumber);
+    app.add_option_function<std::string>(
+           "--raw-heights",
+           [&reading](std::string const& word) {
+               auto const numbers = numbers_in(word, ',');
+               if (numbers.size() != 2 || !(numbers[0] < numbers[1])) {
+                   throw CLI::ValidationError("--raw-heights",
+                                              fmt::format("'{}' is not LOW,HIGH, such as 0,1500", word));
+               }
+               reading.raw_heights = std::pair{numbers[0], numbers[1]};
+           },
+           "Heights [m] of a heightmap's numbers 0 and 65535. Default: as FILE.json says, else numbers are metres.")
+        ->type_name("LOW,HIGH");
 }
 
 std::string is_seed(std::string const& word) {

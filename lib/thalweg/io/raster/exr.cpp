@@ -3,16 +3,25 @@
 #include <algorithm>
 #include <cstddef>
 #include <cstdint>
+#include <string>
+#include <vector>
+
+#include <fmt/format.h>
+#include <fmt/ranges.h>
 
 #include <OpenEXR/Iex.h>
 #include <OpenEXR/ImfChannelList.h>
 #include <OpenEXR/ImfFrameBuffer.h>
 #include <OpenEXR/ImfHeader.h>
 #include <OpenEXR/ImfIO.h>
+#include <OpenEXR/ImfInputFile.h>
 #include <OpenEXR/ImfOutputFile.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
+#include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/internal/exr.hpp>
+#include <thalweg/io/raster/internal/read_dem.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -65,6 +74,42 @@ std::string exr(Raster<float> const& heights, Run const& run) {
         throw IoError(std::string("io.exr: ") + fault.what());
     }
     return out.bytes();
+}
+
+Raster<float> heights_of_exr(std::string const& path, std::string const& what) {
+    try {
+        Imf::InputFile file(path.c_str(), 0);
+        Imf::ChannelList const& channels = file.header().channels();
+        std::vector<std::string> names;
+        for (auto channel = channels.begin(); channel != channels.end(); ++channel) {
+            names.emplace_back(channel.name());
+        }
+        bool const has_heights = channels.findChannel(exr_channel) != nullptr;
+        refuse_if<BadInput>(!has_heights && names.size() != 1,
+                            "{} has channels {}, of which none is called Y: keep the one with the heights (oiiotool "
+                            "FILE.exr --ch R -o HEIGHTS.exr)",
+                            what, fmt::join(names, ", "));
+        auto const box = file.header().dataWindow();
+        Grid grid;
+        grid.width = std::int64_t{box.max.x} - box.min.x + 1;
+        grid.height = std::int64_t{box.max.y} - box.min.y + 1;
+        require_size(grid, what);
+        require_memory(grid, what);
+        Raster<float> heights(grid);
+        constexpr std::size_t sample = sizeof(float);
+        std::size_t const row = sample * static_cast<std::size_t>(grid.width);
+        // The slice begins at the place of sample (0, 0), which may lie outside the window.
+        char* const origin = reinterpret_cast<char*>(heights.values().data()) -
+                             static_cast<std::ptrdiff_t>(sample) * box.min.x -
+                             static_cast<std::ptrdiff_t>(row) * box.min.y;
+        Imf::FrameBuffer samples;
+        samples.insert(has_heights ? exr_channel : names.front(), Imf::Slice(Imf::FLOAT, origin, sample, row));
+        file.setFrameBuffer(samples);
+        file.readPixels(box.min.y, box.max.y);
+        return heights;
+    } catch (Iex::BaseExc const& fault) {
+        throw BadInput(what + " cannot be read as OpenEXR: " + fault.what());
+    }
 }
 
 } // namespace thalweg::io

@@ -11,4 +11,9 @@ std::string exr(Raster<float> const&, Run const&) {
                        "libopenexr-dev and build again, or use r32, which has the same heights");
 }
 
+Raster<float> heights_of_exr(std::string const&, std::string const& what) {
+    throw BadParameter(what + " is an OpenEXR, and this thalweg was built without it; install libopenexr-dev and build "
+                              "again, or convert the file to TIFF (oiiotool FILE.exr -o FILE.tif)");
+}
+
 } // namespace thalweg::io

@@ -22,6 +22,7 @@
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/raster/internal/height_bands.hpp>
+#include <thalweg/io/raster/internal/heightmap_files.hpp>
 #include <thalweg/io/raster/internal/netcdf_axes.hpp>
 #include <thalweg/io/raster/internal/read_dem.hpp>
 #include <thalweg/io/raster/internal/undeclared_nodata.hpp>
@@ -72,7 +73,15 @@ OpenedHeights::OpenedHeights(Source const& source, ReadDemParams const& params, 
     : params_(params), wanted_(params.values == CellValues::heights ? wanted : HeightsIn::stored),
       what_(std::move(what)), path_(source.path), name_(std::filesystem::path(source.path).filename().string()),
       bands_(std::make_unique<Bands>()) {
-    bands_->of = choose_bands(open_file(source, GDAL_OF_RASTER, what_), params_, what_);
+    if (is_heightmap(source)) {
+        Dataset const picture = is_picture_of_heights(source) ? open_file(source, GDAL_OF_RASTER, what_) : Dataset();
+        OpenedHeightmap opened = open_heightmap(source, params_, picture, what_);
+        find(std::move(opened.finding));
+        bands_->of = choose_bands(std::move(opened.data), params_, what_);
+        params_.nodata = params_.nodata.value_or(not_there); // 65535 is a height
+    } else {
+        bands_->of = choose_bands(open_file(source, GDAL_OF_RASTER, what_), params_, what_);
+    }
     if (bands_->of.choice) {
         find(*bands_->of.choice);
     }

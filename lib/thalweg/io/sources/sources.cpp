@@ -30,6 +30,7 @@
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
 #include <thalweg/io/raster/internal/height_bands.hpp>
+#include <thalweg/io/raster/internal/heightmap_files.hpp>
 
 namespace thalweg::io {
 namespace {
@@ -61,6 +62,9 @@ FileContent content_of(Source const& source) {
         return content;
     }
     Driver const driver;
+    if (is_heightmap({content.path, source.access})) {
+        return content;
+    }
     Dataset const data = open_file({content.path, source.access}, GDAL_OF_RASTER | GDAL_OF_VECTOR, what);
     bool const has_variables = data->GetLayerCount() == 0 && data->GetMetadata("SUBDATASETS") != nullptr;
     if (data->GetRasterCount() > 0 || has_variables) {
@@ -94,6 +98,9 @@ bool has_layer(Source const& source, std::string const& layer) {
 
 std::vector<std::string> dataset_files(Source const& source) {
     Driver const driver;
+    if (is_heightmap(source)) {
+        return heightmap_files(source);
+    }
     Dataset const data = open_unchanged(source, GDAL_OF_RASTER | GDAL_OF_VECTOR);
     if (!data) {
         throw BadInput("io.dataset_files: " + source.path + " is not a vector or raster source");

@@ -15,4 +15,11 @@ namespace thalweg::io {
 /// \throws BadParameter in a build without OpenEXR
 std::string exr(Raster<float> const& heights, Run const& run);
 
+/// Reads the heights of an OpenEXR file.
+/// \param what for messages
+/// \return [m] of channel Y, or of the only channel; rows from the north, cells of 1
+/// \throws BadInput for several channels without Y, and for a file that cannot be read
+/// \throws BadParameter in a build without OpenEXR
+Raster<float> heights_of_exr(std::string const& path, std::string const& what);
+
 } // namespace thalweg::io
