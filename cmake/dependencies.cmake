@@ -16,6 +16,9 @@ thalweg_find(fmt)
 thalweg_find(nlohmann_json)
 find_package(OpenCL QUIET) # optional: --device opencl
 find_package(OpenEXR CONFIG QUIET) # optional: the format exr of `thalweg export`
+list(APPEND CMAKE_MODULE_PATH ${CMAKE_CURRENT_LIST_DIR})
+find_package(LASzip MODULE QUIET) # optional: point clouds in LAZ and COPC
+list(POP_BACK CMAKE_MODULE_PATH)
 foreach(LIBRARY muparser cairo fontconfig libpng)
   if(NOT TARGET PkgConfig::${LIBRARY})
     pkg_check_modules(${LIBRARY} REQUIRED IMPORTED_TARGET GLOBAL ${LIBRARY})

@@ -22,7 +22,7 @@ configure_package_config_file(cmake/thalwegConfig.cmake.in ${PROJECT_BINARY_DIR}
 # Before 1.0 a minor version may change an interface.
 write_basic_package_version_file(${PROJECT_BINARY_DIR}/thalwegConfigVersion.cmake COMPATIBILITY SameMinorVersion)
 install(FILES ${PROJECT_BINARY_DIR}/thalwegConfig.cmake ${PROJECT_BINARY_DIR}/thalwegConfigVersion.cmake
-  cmake/dependencies.cmake DESTINATION ${PACKAGE_DIR} COMPONENT library)
+  cmake/dependencies.cmake cmake/FindLASzip.cmake DESTINATION ${PACKAGE_DIR} COMPONENT library)
 
 # For pkg-config: each library by name, since Requires.private would ask for all that GDAL itself was linked to.
 cmake_path(RELATIVE_PATH CMAKE_INSTALL_FULL_LIBDIR BASE_DIRECTORY ${CMAKE_INSTALL_PREFIX} OUTPUT_VARIABLE LIBDIR)
@@ -36,6 +36,9 @@ if(OpenCL_FOUND)
 endif()
 if(OpenEXR_FOUND)
   string(APPEND LIBRARIES " -lOpenEXR -lIex")
+endif()
+if(LASzip_FOUND)
+  string(APPEND LIBRARIES " -llaszip")
 endif()
 file(CONFIGURE OUTPUT ${PROJECT_BINARY_DIR}/thalweg.pc @ONLY CONTENT [[
 prefix=${pcfiledir}/../@UP@

@@ -169,6 +169,9 @@ endif()
 if(OpenEXR_FOUND)
   list(APPEND OPTIONAL exr)
 endif()
+if(LASzip_FOUND)
+  list(APPEND OPTIONAL laszip)
+endif()
 debian_package(library libthalweg-dev libdevel "\
 terrain from its rivers outward - C++ library
 thalweg reads river networks from files, or grows them, and makes the terrain

@@ -44,7 +44,7 @@ LEFT_OUT = [
     ),
     (
         r"io::(is_pipe_or_device|refuse_pipe|read_text|write_text|copy_file|tar_entry|tar_end|names_connection|require_allowed|is_recipe_file|confine_proj|packed|base64"
-        r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|holds_tin"
+        r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|is_point_cloud|holds_tin"
         r"|web_pyramid|web_tiles_at|write_web_tiles|lines_in_degrees)",
         "files and formats inside io",
     ),

@@ -38,9 +38,9 @@ class Tin(Algorithm):
         self.add(QgsProcessingParameterFeatureSource("POINTS", "Points with heights", [QgsProcessing.TypeVectorPoint],
                                                      optional=True),
                  "Points with Z.")
-        self.add(QgsProcessingParameterFile("TEXT", "Points as text", optional=True,
-                                            fileFilter="Text (*.csv *.xyz *.txt);;All files (*)"),
-                 "A file of lines with x, y and z (CSV or XYZ).")
+        self.add(QgsProcessingParameterFile("TEXT", "Points as text, or a point cloud", optional=True,
+                                            fileFilter="Text and point clouds (*.csv *.xyz *.txt *.las *.laz);;All files (*)"),
+                 "A file of lines with x, y and z (CSV or XYZ), or a point cloud (LAS, LAZ).")
         self.add(QgsProcessingParameterFeatureSource("LINES", "Lines with heights", [QgsProcessing.TypeVectorLine],
                                                      optional=True),
                  "Lines with Z, as edges: rivers, ridges, contours.")
@@ -57,6 +57,15 @@ class Tin(Algorithm):
         self.add(QgsProcessingParameterString("COLUMNS", "Columns of points as text", optional=True),
                  "Names of the first line or numbers from 1, such as 3,2,4; or pnezd (number, northing, easting, height, "
                  "description).",
+                 advanced=True)
+        self.add(QgsProcessingParameterString("CLASSES", "Classes of a point cloud", optional=True),
+                 "Take points of these classes: ground (2 and 8), water (9), all (but noise), or numbers, separated by commas. "
+                 "Default: ground, or all of a cloud that is not classified.",
+                 advanced=True)
+        self.add(QgsProcessingParameterNumber("THIN", "Cells of a point cloud [m]", QgsProcessingParameterNumber.Double,
+                                              optional=True, minValue=0),
+                 "Keep the point nearest to the centre of each cell of this side; 0: all points. Default: the side that leaves "
+                 "about a million points, if there are more.",
                  advanced=True)
         self.add(QgsProcessingParameterEnum("DUPLICATES", "Points at one place but unequal heights", ["mean", "error"],
                                             optional=True,
@@ -94,7 +103,7 @@ class Tin(Algorithm):
         source = next((files[name].path for name in SOURCES if name in files), None) or self.parameterAsFile(parameters, "TEXT",
                                                                                                              context)
         options = self.options(parameters, context, ERROR="--error", COLUMNS="--columns", DUPLICATES="--duplicates",
-                               FORMAT="--format", NODATA="--nodata")
+                               CLASSES="--classes", THIN="--thin", FORMAT="--format", NODATA="--nodata")
         for name, flag in (("CRS", "--crs"), ("SOURCE_CRS", "--source-crs")):
             crs = self.crs(parameters, name, context)
             options += [f"{flag}={crs}"] if crs else []

@@ -27,7 +27,7 @@ FOREIGN = {
     "skeleton": ["noise/", "libnoise/"],
     "surface": ["muParser"],
     "draw": ["cairo", "fontconfig/", "png.h"],
-    "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/", "boost/crc.hpp"],
+    "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/", "laszip/", "boost/crc.hpp"],
     "serve": ["boost/asio/", "boost/beast/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "studio": ["nlohmann/"],

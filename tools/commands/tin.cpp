@@ -85,8 +85,10 @@ int tin(pipeline::TinParams const& params, Session const& session) {
 Command add_tin(CLI::App& app, Session& session) {
     auto const params = std::make_shared<pipeline::TinParams>();
     std::string const formats = names_in_words(io::tin_formats());
-    app.add_option("SOURCE", params->path,
-                   "A DEM, points (CSV or XYZ text, any point layer), lines with heights, or a folder written by make.")
+    app.add_option(
+           "SOURCE", params->path,
+           "A DEM, points (CSV or XYZ text, LAS, LAZ, any point layer), lines with heights, or a folder written by "
+           "make.")
         ->required();
     app.add_option("-o,--output", params->output, "Write this file.")->required();
     app.add_option("--error", params->error_m, "Limit the vertical error of a DEM's TIN [m]. Default: 1.");
@@ -102,6 +104,14 @@ Command add_tin(CLI::App& app, Session& session) {
                    "Take x, y and z of text points from these columns: names of the first line or numbers from 1, such "
                    "as 3,2,4; or pnezd (number, northing, easting, height, description).")
         ->type_name("X,Y,Z");
+    app.add_option("--classes", params->classes,
+                   "Take points of these classes from a point cloud: ground (2 and 8), water (9), all (but noise), or "
+                   "numbers, separated by commas. Default: ground, or all of a cloud that is not classified.")
+        ->type_name("CLASS,...");
+    app.add_option(
+        "--thin", params->thin_m,
+        "Keep of a point cloud the point nearest to the centre of each cell of this side [m]; 0: all points. "
+        "Default: the side that leaves about a million points, if there are more.");
     app.add_option_function<std::string>(
            "--duplicates",
            [params](std::string const& word) {

@@ -6,6 +6,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/vec.hpp>
 
 namespace thalweg {
@@ -13,11 +14,12 @@ namespace thalweg {
 /// Points through which the terrain passes: surveyed, read from a file, or random (\cite zhang). Law: all coordinates
 /// and heights are finite.
 struct FeaturePoints {
-    std::vector<Vec3> points;   ///< [m]
-    std::string crs;            ///< as in Grid; "" for none
-    std::int64_t left_out = 0;  ///< points whose height stood for no data
-    std::int64_t averaged = 0;  ///< places where points had unequal heights and took their mean
-    double averaged_dz_m = 0.0; ///< [m] the largest difference of heights at one of them
+    std::vector<Vec3> points;           ///< [m]
+    std::string crs;                    ///< as in Grid; "" for none
+    std::int64_t left_out = 0;          ///< points whose height stood for no data
+    std::int64_t averaged = 0;          ///< places where points had unequal heights and took their mean
+    double averaged_dz_m = 0.0;         ///< [m] the largest difference of heights at one of them
+    std::vector<Finding> findings = {}; ///< how a point cloud was read
 };
 
 /// A crest between the areas of two streams.

@@ -28,7 +28,7 @@ using namespace thalweg::pipeline;
 namespace {
 
 Raster<float> random_dem() {
-    Grid grid = test::frame(*rc::gen::inRange<std::int64_t>(2, 24), *rc::gen::inRange<std::int64_t>(2, 24),
+    Grid grid = test::frame(*rc::gen::inRange<std::int64_t>(3, 24), *rc::gen::inRange<std::int64_t>(3, 24),
                             static_cast<double>(*rc::gen::inRange(1, 200)) / 4.0);
     grid.crs = "EPSG:32631";
     grid.west = 500000.0 + 0.25 * *rc::gen::inRange(-4000, 4000);

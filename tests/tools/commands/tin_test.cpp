@@ -5,6 +5,7 @@
 
 #include <fmt/format.h>
 #include <gtest/gtest.h>
+#include <io/las_files.hpp>
 #include <support.hpp>
 
 #include "command.hpp"
@@ -90,6 +91,56 @@ TEST(Tin, PointsTakeACrsColumnsAndAMeanOfDuplicates) {
     expect_refused(
         place, "tin -o c.2dm",
         {"bare.csv", "bare.csv --columns 1,2", "twice.csv --duplicates error", "twice.csv --duplicates none"});
+}
+
+TEST(Tin, OfAPointCloudByClassesAndCells) {
+    Workplace const place;
+    las_files::File cloud{.records = {las_files::keys({{1024, 1}, {3072, 32631}})}};
+    for (int i = 0; i < 100; ++i) {
+        cloud.points.push_back({{500000.5 + i % 10, 4000000.5 + i / 10, 100.0 + i % 7}, i % 2 == 0 ? 2 : 5});
+    }
+    place.write("cloud", las_files::bytes_of(cloud)); // known by its content
+    Outcome const ground = expect_run(place, "tin cloud -o a.2dm --json", 0);
+    auto const json = ground.json();
+    EXPECT_EQ(json["source"], "points");
+    EXPECT_EQ(json["crs"], "EPSG:32631");
+    EXPECT_EQ(json["vertices"], 50);
+    ASSERT_EQ(json["findings"].size(), 1U);
+    EXPECT_EQ(json["findings"][0]["kind"], "cloud_classes");
+    EXPECT_TRUE(test::has(ground.err, "cloud has 100 points; 50 of them, of the ground (classes 2 and 8), are taken"));
+    EXPECT_EQ(expect_run(place, "tin cloud --classes all -o b.2dm --json", 0).json()["vertices"], 100);
+    auto const thin = expect_run(place, "tin cloud --classes 2,5 --thin 5 -o c.2dm --json", 0).json();
+    EXPECT_EQ(thin["vertices"], 4);
+    EXPECT_EQ(thin["findings"][1]["kind"], "cloud_thinned");
+    EXPECT_EQ(thin["findings"][1]["amount"], 5);
+    expect_run(place, "tin cloud --classes grund -o d.2dm", 2, "Did you mean 'ground'?");
+    place.write("p.csv", points);
+    write_dem(place);
+    expect_refused(place, "tin -o d.2dm",
+                   {"p.csv --classes 2", "p.csv --thin 2", "dem.asc --classes 2", "dem.asc --thin 2", "cloud --thin -1",
+                    "cloud --columns 1,2,3", "cloud --height-column z", "cloud --error 1"});
+    place.write("scan.e57", "ASTM-E57" + std::string(40, '\0'));
+    expect_run(place, "tin scan.e57 -o d.2dm", 2, "is E57", "pdal translate scan.e57 scan.las");
+}
+
+TEST(Tin, APointCloudGivesASkeletonItsPoints) {
+    Workplace const place;
+    las_files::File cloud{.records = {las_files::keys({{1024, 1}, {3072, 32631}})}};
+    for (int i = 0; i < 64; ++i) {
+        cloud.points.push_back({{500060.0 + 120.0 * (i % 8), 4998300.0 + 120.0 * (i / 8), 100.0 + 3 * (i % 7)}, 2});
+    }
+    cloud.points.push_back(cloud.points.back()); // two points at one place: of a cloud nobody can remove one
+    cloud.points.back().at.z += 2.0;
+    place.write("cloud.las", las_files::bytes_of(cloud));
+    Outcome const made = expect_run(
+        place,
+        "make --set grid.cell=30 "
+        "--set grid.width=64 --set grid.height=64 --set surface.method=diffuse --set skeleton.points=cloud.las -o out",
+        0);
+    EXPECT_TRUE(test::has(made.err, "cloud.las has 65 points; 65 of them, of the ground (classes 2 and 8), are taken"));
+    EXPECT_TRUE(file_bytes(place / "out/inputs/points/cloud.las") == file_bytes(place / "cloud.las"));
+    fs::remove(place / "cloud.las");
+    expect_run(place, "replay out --verify", 0);
 }
 
 TEST(Tin, HeightsMayStandInAColumn) {

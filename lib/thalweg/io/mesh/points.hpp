@@ -28,7 +28,7 @@ enum class DuplicatePoints : std::uint8_t {
 
 /// Options of read_points().
 struct ReadPointsParams {
-    Source path = {};          ///< text (.csv, .txt, .xyz) or anything OGR opens
+    Source path = {};          ///< text (.csv, .txt, .xyz), a point cloud (LAS, LAZ) or anything OGR opens
     std::string layer = {};    ///< "" takes the only layer of points
     std::string z_field = "z"; ///< heights of points that have none themselves
     std::string crs = {};      ///< of the result; "" takes the file's own when projected in metres, else its UTM zone;
@@ -47,25 +47,42 @@ struct ReadPointsParams {
     std::optional<std::string> columns = {};
     /// CRS of a file that has none, text included ("": crs); nothing: the user has no option to name it
     std::optional<std::string> source_crs = {};
+    /// Classes of a point cloud that are taken, separated by commas: ground (2 and 8, model key-points), water (9), all
+    /// but noise (7 and 18), or numbers in [0, 255]. "": ground, or all of a cloud that is not classified; nothing: the
+    /// user has no option to name them
+    std::optional<std::string> classes = {};
+    /// [m] >= 0, of a point cloud: the point nearest to the centre of each cell of this side is kept, on a lattice
+    /// through the origin of the file's CRS; 0: all points. Nothing: the smallest of 1, 2 or 5 times a power of ten
+    /// that leaves about a million points, if there are more
+    std::optional<double> thin_m = {};
 };
 
 /// Reads points with heights. Text: one point per line, x y z in three columns, in those named by a first line (x, y, z
 /// in any case and order) or by params.columns, separated by commas, semicolons or blanks; empty lines and those that
 /// begin with # are skipped. OGR: points and multi-points, their Z or the field z, reprojected and rounded to 1e-6 m
-/// like read_rivers.
-/// \return in the file's order
+/// like read_rivers. Point clouds: LAS 1.0 to 1.4 of any point format, LAZ and COPC where LASzip is installed, by their
+/// content; withheld points are left out.
+/// \return in the file's order; of a thinned point cloud by cell, so that the order of its points does not matter
 /// \throws BadInput naming file and line or feature: missing file, layer or height, several layers of points, no
 /// points, a feature that is not a point, a value that is not a finite number, no CRS (except text), coordinates that
 /// cannot be reprojected, text without names that has more than three columns, text without a CRS that can only be
-/// longitudes and latitudes (if params.source_crs is set)
-/// \throws BadParameter when columns are not three
-/// \throws IoError when the file cannot be read to its end
+/// longitudes and latitudes (if params.source_crs is set), a point cloud that is damaged, truncated, compressed in a
+/// build without LASzip, in E57, or has no points of the classes
+/// \throws BadParameter when columns are not three, when classes or thin_m are wrong, or when an option does not apply
+/// to the file \throws IoError when the file cannot be read to its end
+///
+/// Source: ASPRS, LAS specification version 1.4-R15.
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});
 
 /// Tells whether a path's extension is that of text with points.
 /// \param path of the file
 /// \return true: .csv, .txt or .xyz
 bool is_text_of_points(std::string const& path);
+
+/// Tells whether a file begins as a point cloud does, or is named as one.
+/// \param path of the file
+/// \return true: LAS, LAZ (COPC too) or E57, which read_points() refuses with what to do
+bool is_point_cloud(std::string const& path);
 
 /// Formats of point clouds.
 enum class PointFormat : std::uint8_t {

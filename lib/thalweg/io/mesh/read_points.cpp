@@ -25,10 +25,13 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/crs/internal/into_metres.hpp>
+#include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/mesh/internal/read_cloud.hpp>
+#include <thalweg/io/mesh/internal/read_las.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/raster/internal/undeclared_nodata.hpp>
 
@@ -442,16 +445,12 @@ FeaturePoints read_layer(ReadPointsParams const& params, std::string const& name
     return read;
 }
 
-FeaturePoints read_point_text(ReadPointsParams const& params, std::string const& name, Run const& run) {
-    constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
-    Driver const driver;
-    FeaturePoints read;
-    read.points =
-        without_nodata(parse(read_text(params.path.path, most_bytes), params, name, run), params, name, read.left_out);
-    OGRSpatialReference const own = crs_of_layer(nullptr, params.source_crs.value_or(""));
+/// Brings points of a file that may have no CRS into metres.
+void place_points(FeaturePoints& read, OGRSpatialReference const& own, ReadPointsParams const& params,
+                  std::string const& name, Driver const& driver) {
     if (own.IsEmpty() == 0 && !read.points.empty()) {
         reproject_points(read, own, params.crs, name, driver);
-        return read;
+        return;
     }
     if (params.source_crs && params.crs.empty() && are_degrees(read.points)) {
         refuse_points(fmt::format("the numbers of {} are longitudes and latitudes, by their size; name their CRS: "
@@ -459,6 +458,58 @@ FeaturePoints read_point_text(ReadPointsParams const& params, std::string const&
                                   name));
     }
     read.crs = params.crs.empty() ? "" : projected_crs(params.crs);
+}
+
+FeaturePoints read_point_text(ReadPointsParams const& params, std::string const& name, Run const& run) {
+    constexpr std::int64_t most_bytes = std::int64_t{1} << 34;
+    Driver const driver;
+    FeaturePoints read;
+    read.points =
+        without_nodata(parse(read_text(params.path.path, most_bytes), params, name, run), params, name, read.left_out);
+    place_points(read, crs_of_layer(nullptr, params.source_crs.value_or("")), params, name, driver);
+    return read;
+}
+
+/// What becomes of the heights of a point cloud; nothing: they are in metres.
+std::optional<Finding> heights_of_cloud(OGRSpatialReference const& own, std::string const& name) {
+    bool const has_unit = has_vertical_unit(&own);
+    OGRSpatialReference plan(own);
+    double const height_m = has_unit ? plan.GetTargetLinearUnits("VERT_CS") : 1.0;
+    plan.StripVertical();
+    double const plan_m = plan.IsProjected() != 0 ? plan.GetLinearUnits() : 1.0;
+    double const unit_m = has_unit ? height_m : plan_m;
+    if (own.IsEmpty() != 0 || std::fabs(unit_m - 1.0) < 1e-9) {
+        return std::nullopt;
+    }
+    return Finding{
+        .kind = "heights_in_metres",
+        .amount = height_m,
+        .text = has_unit ? fmt::format("heights of {} in {} are converted into metres", name, words_for_unit(height_m))
+                         : fmt::format("{} names no unit of its heights: they count as metres, and "
+                                       "coordinates are in {}",
+                                       name, words_for_unit(plan_m)),
+        .layer = name};
+}
+
+FeaturePoints read_cloud_points(ReadPointsParams const& params, std::string const& name, Run const& run) {
+    std::string const& path = params.path.path;
+    if (cloud_format(path) == CloudFormat::e57) {
+        refuse_e57(path, "io.read_points");
+    }
+    LasHeader const header = read_las_header(path);
+    Driver const driver;
+    OGRSpatialReference const file_crs = crs_of_las(header);
+    OGRSpatialReference const own = crs_of_layer(&file_crs, params.source_crs.value_or(""));
+    Cloud cloud = read_cloud(header, params, own, run);
+    refuse_nodata(cloud.points, params, name);
+    FeaturePoints read;
+    read.points = std::move(cloud.points);
+    read.findings = std::move(cloud.findings);
+    read.left_out = cloud.left_out;
+    if (auto heights = heights_of_cloud(own, name); heights && params.heights == PointHeights::wanted) {
+        read.findings.push_back(*std::move(heights));
+    }
+    place_points(read, own, params, name, driver);
     return read;
 }
 
@@ -537,23 +588,40 @@ bool is_text_of_points(std::string const& path) {
     return ending == ".csv" || ending == ".txt" || ending == ".xyz";
 }
 
-FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
-    auto const name = std::filesystem::path(params.path.path).filename().string();
+namespace {
+
+/// Refuses options that do not apply to the file.
+void refuse_unfit(ReadPointsParams const& params, bool is_cloud, std::string const& name) {
     refuse_if<BadParameter>(!params.columns.value_or("").empty() && !is_text_of_points(params.path.path),
                             "io.read_points: {} is not text of points (.csv, .txt, .xyz): it has no columns to name",
                             name);
+    refuse_if<BadParameter>(is_cloud && !params.height_column.value_or("").empty(),
+                            "io.read_points: {} is a point cloud: it has no column '{}' of heights", name,
+                            params.height_column.value_or(""));
+    refuse_if<BadParameter>(!is_cloud && !params.classes.value_or("").empty(),
+                            "io.read_points: {} is not a point cloud (LAS, LAZ): it has no classes", name);
+    refuse_if<BadParameter>(!is_cloud && params.thin_m,
+                            "io.read_points: {} is not a point cloud (LAS, LAZ): other points are not thinned", name);
+}
+
+} // namespace
+
+FeaturePoints read_points(ReadPointsParams const& params, Run const& run) {
+    auto const name = std::filesystem::path(params.path.path).filename().string();
+    bool const is_text = is_text_of_points(params.path.path);
+    bool const is_cloud = !is_text && is_point_cloud(params.path.path);
+    refuse_unfit(params, is_cloud, name);
     if (params.source_crs && !params.crs.empty() && read_reference(params.crs).IsGeographic() != 0) {
         refuse_points(fmt::format("{0} is in degrees, and the result lies in metres: if {1} is in it, name it by "
                                   "--source-crs {0}; --crs names the CRS of the result",
                                   params.crs, name));
     }
-    FeaturePoints read;
-    if (is_text_of_points(params.path.path)) {
+    if (is_text || is_cloud) {
         require_allowed(params.path);
-        read = read_point_text(params, name, run);
-    } else {
-        read = read_layer(params, name, run);
     }
+    FeaturePoints read = is_text    ? read_point_text(params, name, run)
+                         : is_cloud ? read_cloud_points(params, name, run)
+                                    : read_layer(params, name, run);
     if (read.points.empty()) {
         refuse_points(name + " holds no points");
     }

@@ -77,6 +77,7 @@ CPLJSONObject json_beside(std::string const& path) {
         return none;
     }
     CPLErrorStateBackuper const kept;
+    CPLErrorHandlerPusher const quiet(CPLQuietErrorHandler);
     CPLJSONDocument document;
     if (!document.LoadMemory(read_text(path, largest))) {
         return none;
@@ -187,6 +188,7 @@ std::optional<MapDescription> described(std::string const& path) {
 
 bool has_gdal_driver(std::string const& path) {
     CPLErrorStateBackuper const kept;
+    CPLErrorHandlerPusher const quiet(CPLQuietErrorHandler);
     return GDALIdentifyDriver(path.c_str(), nullptr) != nullptr;
 }
 

@@ -26,6 +26,7 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
+#include <thalweg/io/mesh/internal/read_las.hpp>
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/network/internal/read_network.hpp>
@@ -58,6 +59,14 @@ FileContent content_of(Source const& source) {
         std::filesystem::is_directory(path, ignored) ? (std::filesystem::path(path) / "network.gpkg").string() : path;
     std::string const what = "io.content_of: " + content.path;
     if (is_text_of_points(content.path) && std::filesystem::exists(content.path, ignored)) {
+        content.kind = FileContent::Kind::points;
+        return content;
+    }
+    if (CloudFormat const cloud = cloud_format(content.path); cloud != CloudFormat::none) {
+        if (cloud == CloudFormat::e57) {
+            refuse_e57(content.path, "io.content_of");
+        }
+        require_allowed({content.path, source.access});
         content.kind = FileContent::Kind::points;
         return content;
     }
@@ -190,7 +199,7 @@ std::string unit_in_plan(OGRSpatialReference const& crs, std::optional<FileBox> 
 
 std::vector<std::string> conversions_of(Source const& source, std::string const& layer, std::string const& crs,
                                         std::string const& source_crs) {
-    if (is_text_of_points(source.path) || crs.empty()) {
+    if (is_text_of_points(source.path) || is_point_cloud(source.path) || crs.empty()) {
         return {};
     }
     Driver const driver;

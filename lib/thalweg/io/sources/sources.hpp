@@ -19,11 +19,11 @@ struct FileContent {
     std::string layer; ///< of lines: "arcs" in thalweg's own files, else ""
 };
 
-/// Looks into a file: a raster, text or a layer of points, or lines; where there are both, lines. A folder stands for
-/// its network.gpkg.
+/// Looks into a file: a raster, text, a cloud or a layer of points, or lines; where there are both, lines. A folder
+/// stands for its network.gpkg.
 /// \param source the file
 /// \return what it holds
-/// \throws BadInput when there is none, GDAL cannot read it or it holds neither
+/// \throws BadInput when there is none, GDAL cannot read it or it holds neither; for E57, with what to do
 /// \throws IoError when features cannot be read
 FileContent content_of(Source const& source);
 

@@ -7,6 +7,7 @@
 #include <cstdint>
 #include <filesystem>
 #include <string>
+#include <tuple>
 #include <utility>
 #include <vector>
 
@@ -132,16 +133,25 @@ TinResult of_points(std::vector<Vec3> const& points, Breaklines const& breakline
     return made;
 }
 
+/// Refuses options of points for a DEM and lines.
+void refuse_options_of_points(TinParams const& params, io::FileContent const& content) {
+    if (content.kind == Kind::points) {
+        return;
+    }
+    for (auto const& [option, to, given] : {std::tuple{"--duplicates", "points only", params.duplicates.has_value()},
+                                            std::tuple{"--columns", "text with points", !params.columns.empty()},
+                                            std::tuple{"--classes", "point clouds", !params.classes.empty()},
+                                            std::tuple{"--thin", "point clouds", params.thin_m.has_value()}}) {
+        if (given) {
+            throw BadParameter(fmt::format("pipeline.run_tin: {} applies to {}; {} holds {}", option, to, content.path,
+                                           content.kind == Kind::raster ? "a DEM" : "lines"));
+        }
+    }
+}
+
 TinResult tin_of(TinParams const& params, Run const& run) {
     io::FileContent const content = io::content_of(params.path);
-    if (params.duplicates && content.kind != Kind::points) {
-        throw BadParameter(fmt::format("pipeline.run_tin: --duplicates applies to points only; {} holds {}",
-                                       content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
-    }
-    if (!params.columns.empty() && content.kind != Kind::points) {
-        throw BadParameter(fmt::format("pipeline.run_tin: --columns applies to text with points; {} holds {}",
-                                       content.path, content.kind == Kind::raster ? "a DEM" : "lines"));
-    }
+    refuse_options_of_points(params, content);
     if (content.kind == Kind::raster) {
         refuse_if<BadParameter>(
             !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty() ||
@@ -169,8 +179,11 @@ TinResult tin_of(TinParams const& params, Run const& run) {
                              .height_column = params.height_column,
                              .nodata = params.reading.nodata,
                              .columns = params.columns,
-                             .source_crs = params.source_crs},
+                             .source_crs = params.source_crs,
+                             .classes = params.classes,
+                             .thin_m = params.thin_m},
                             run);
+        run.report(points.findings);
         Breaklines breaklines{{}, points.crs};
         if (!params.breaklines.empty()) {
             breaklines = read_lines(params.breaklines, params, points.crs, LinesAre::more, run);
@@ -179,6 +192,7 @@ TinResult tin_of(TinParams const& params, Run const& run) {
         made.without_height = points.left_out;
         made.averaged = points.averaged;
         made.averaged_dz_m = points.averaged_dz_m;
+        made.findings = points.findings;
         return made;
     }
     Breaklines network = read_lines(content.path, params, params.crs, LinesAre::all, run);

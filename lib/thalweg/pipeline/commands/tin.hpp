@@ -18,7 +18,7 @@ namespace thalweg::pipeline {
 
 /// Options of run_tin().
 struct TinParams {
-    std::string path = {};   ///< a DEM, points, lines with heights, or a folder written by make
+    std::string path = {};   ///< a DEM, points (clouds too), lines with heights, or a folder written by make
     std::string output = {}; ///< a new file
     io::Existing existing = io::Existing::refuse;
     std::string format = {};            ///< a name of io::tin_formats(); "": by the output's extension
@@ -29,8 +29,10 @@ struct TinParams {
     std::string source_crs = {};        ///< of points and lines whose file has no CRS; "": none
     /// for points; averaged if not set
     std::optional<io::DuplicatePoints> duplicates = {};
-    std::string columns = {};       ///< of text with points, as io::ReadPointsParams; "": none
-    io::ReadDemParams reading = {}; ///< how the DEM is read; nodata also applies to points
+    std::string columns = {};          ///< of text with points, as io::ReadPointsParams; "": none
+    std::string classes = {};          ///< of a point cloud, as io::ReadPointsParams; "": ground
+    std::optional<double> thin_m = {}; ///< [m] >= 0, of a point cloud, as io::ReadPointsParams
+    io::ReadDemParams reading = {};    ///< how the DEM is read; nodata also applies to points
 };
 
 /// A TIN and the statistics of its construction.
@@ -48,7 +50,7 @@ struct TinResult {
     std::int64_t crossings = 0;
     double crossings_dz_m = 0.0;
     std::optional<double> flat = {};    ///< [0, 1] share of the area in level triangles, for lines and points
-    std::vector<Finding> findings = {}; ///< how a DEM was read
+    std::vector<Finding> findings = {}; ///< how a DEM or a point cloud was read
 };
 
 /// Runs `thalweg tin`: reads a file and writes a TIN of its content, completely or not at all: of a DEM within an

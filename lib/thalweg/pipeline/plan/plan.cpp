@@ -155,7 +155,9 @@ std::vector<Cell> at_points(Recipe const& recipe, Mask const& land, StageLog& st
     params.heights = io::PointHeights::passed_over;
     std::vector<Cell> const coast = network::coast_cells(land);
     std::vector<Cell> outlets;
-    for (Vec3 const& p : io::read_points(params, run).points) {
+    FeaturePoints const points = io::read_points(params, run);
+    stage_log.find(points.findings);
+    for (Vec3 const& p : points.points) {
         run.check();
         Vec2 const at{p.x, p.y};
         auto const nearest = std::ranges::min_element(coast, {}, [&](Cell c) {
@@ -209,7 +211,7 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, StageLog& stage_l
         std::vector<Cell> const coast = network::coast_cells(land);
         return coast.empty() ? coast : spread(recipe, land, coast, run);
     }
-    bool const points = io::is_text_of_points(file.path) ||
+    bool const points = io::is_text_of_points(file.path) || io::is_point_cloud(file.path) ||
                         (!io::holds_polygons(file) && io::content_of(file).kind == io::FileContent::Kind::points);
     return points ? at_points(recipe, land, stage_log, run)
                   : spread(recipe, land, coast_along_file(recipe, land, run), run);
@@ -415,7 +417,11 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
     if (recipe.skeleton && !recipe.skeleton->points.empty()) {
         std::string const& name = recipe.skeleton->points;
-        points = io::read_points({.path = file_in(recipe, name), .crs = crs}, run);
+        io::Source const file = file_in(recipe, name);
+        // Of a cloud nobody can remove one of two points.
+        auto const duplicates =
+            io::is_point_cloud(file.path) ? io::DuplicatePoints::averaged : io::DuplicatePoints::refused;
+        points = io::read_points({.path = file, .crs = crs, .duplicates = duplicates}, run);
     }
     if (points.crs.empty()) {
         points.crs = io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
@@ -443,6 +449,7 @@ FeaturePoints inside(FeaturePoints points, Recipe const& recipe, Grid const& gri
 /// Reads the points and ridges of [skeleton].
 Plan with_skeleton(Plan plan, StageLog& stage_log, Run const& run) {
     plan.points = plan.recipe.skeleton ? given_points(plan.recipe, run) : FeaturePoints{};
+    stage_log.find(plan.points.findings);
     plan.ridge_lines = read_ridge_lines(plan.recipe, run);
     stage_log.find(plan.ridge_lines.findings);
     if (plan.grid && plan.recipe.grid.clip) {
@@ -453,9 +460,10 @@ Plan with_skeleton(Plan plan, StageLog& stage_log, Run const& run) {
 }
 
 /// Plans terrain without rivers.
-Plan plan_points(Recipe recipe, Run const& run) {
+Plan plan_points(Recipe recipe, StageLog& stage_log, Run const& run) {
     Plan plan;
     plan.points = given_points(recipe, run);
+    stage_log.find(plan.points.findings);
     recipe.grid.crs = plan.points.crs;
     plan.grid = frame_land(plan.points, recipe.grid);
     plan.recipe = std::move(recipe);
@@ -465,7 +473,7 @@ Plan plan_points(Recipe recipe, Run const& run) {
 /// Plans by the source of rivers and terrain.
 Plan by_source(Recipe const& recipe, Raster<float> const& raster, StageLog& stage_log, Run const& run) {
     if (!recipe.network) {
-        return plan_points(recipe, run);
+        return plan_points(recipe, stage_log, run);
     }
     switch (recipe.network->source) {
     case Source::dla: return plan_cluster(recipe);

@@ -137,9 +137,9 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
                        std::string const& into) {
     fs::path const given(name);
     fs::path const path = folder.empty() || given.is_absolute() ? given : fs::path(folder) / given;
-    std::vector<std::string> const files = io::is_text_of_points(path.string())
-                                               ? std::vector<std::string>{path.string()}
-                                               : io::dataset_files({path.string(), io::Access::recipe});
+    bool const is_points = io::is_text_of_points(path.string()) || io::is_point_cloud(path.string());
+    std::vector<std::string> const files =
+        is_points ? std::vector<std::string>{path.string()} : io::dataset_files({path.string(), io::Access::recipe});
     std::string const own = name_in_utf8(path.filename().string());
     std::string const place = into + (fs::is_directory(path) ? own + "/" : "");
     for (std::string const& file : files) {
@@ -152,7 +152,7 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
 
 /// Whether a recipe may name a file as it is.
 bool is_plain(std::string const& path) {
-    return io::is_text_of_points(path) || io::is_recipe_file(path);
+    return io::is_text_of_points(path) || io::is_point_cloud(path) || io::is_recipe_file(path);
 }
 
 } // namespace

@@ -380,7 +380,7 @@ std::span<Row const> recipe_rows() {
             "none",
             [](Recipe& r, Item) -> Field { return &r.skeleton->midpoint_inverse_cells; }),
         key("skeleton.points", file, "", {}, "((from_points) or through_features) and skeleton.scatter = 0",
-            "points with heights: CSV, XYZ, or a file of points (GeoPackage, ...)",
+            "points with heights: CSV, XYZ, LAS, or a file of points (GeoPackage, ...)",
             [](Recipe& r, Item) -> Field { return &r.skeleton->points; }),
         key("skeleton.ridge_lines", file, "", {}, "through_features",
             "lines that are ridges, with or without Z (GeoPackage, Shapefile, ...): no water crosses them, and the "
