@@ -11,5 +11,6 @@
 #include <thalweg/surface/equilibrium/features.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
+#include <thalweg/surface/tin/level_areas.hpp>
 #include <thalweg/surface/tin/rasterise_tin.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>

@@ -67,6 +67,8 @@ class Tin(Algorithm):
                  "Keep the point nearest to the centre of each cell of this side; 0: all points. Default: the side that leaves "
                  "about a million points, if there are more.",
                  advanced=True)
+        self.add(QgsProcessingParameterBoolean("MEDIAL_POINTS", "Fill in level areas of contours", defaultValue=False),
+                 "Add points with heights between the contours where the TIN of contours would be flat.", advanced=True)
         self.add(QgsProcessingParameterEnum("DUPLICATES", "Points at one place but unequal heights", ["mean", "error"],
                                             optional=True,
                                             usesStaticStrings=True),
@@ -107,6 +109,7 @@ class Tin(Algorithm):
         for name, flag in (("CRS", "--crs"), ("SOURCE_CRS", "--source-crs")):
             crs = self.crs(parameters, name, context)
             options += [f"{flag}={crs}"] if crs else []
+        options += ["--medial-points"] if self.parameterAsBool(parameters, "MEDIAL_POINTS", context) else []
         options += [f"--breaklines={files['BREAKLINES'].path}"] if "BREAKLINES" in files else []
         return [source, f"--output={self.output}", *options, "--overwrite"]
 

@@ -65,8 +65,9 @@ public:
               test::geojson(polygon(square(500700, 5000500, 400)) + "," + polygon(square(500600, 4998600, 800))));
         write("points.csv", points(0.0));
         write("higher.csv", points(200.0));
-        write("crests.geojson", test::geojson(line("[500300,4999300,700],[500900,4999400,650],[501400,4999000,700]") +
-                                              "," + line("[501000,4998700],[501600,4998500]")));
+        write("crests.geojson",
+              test::geojson(line("[500300,4999300,700],[500900,4999400,650],[501400,4999000,700]", R"("crest":820)") +
+                            "," + line("[501000,4998700],[501600,4998500]", R"("crest":800)")));
         write("patch_mask.geojson", test::geojson(polygon(square(500800, 4998900, 200))));
         raster("mask.asc", 64, 30, 500000, 4998080, [](int c, int r) { return c + r < 6 ? 0.0 : 1.0; });
         raster("uplift.asc", 100, 60, 498000, 4998000, [](int c, int) { return 1.0 + 0.05 * c; });
@@ -95,13 +96,14 @@ private:
     }
     /// Points of a bumpy slope over both places.
     static std::string points(double lift) {
-        std::string text = "x,y,z\n";
+        std::string text = "x,y,z,top\n";
         for (int i = 0; i < 14; ++i) {
             for (int k = 0; k < 14; ++k) {
                 double const x = 500010.0 + 140.0 * i + 17.0 * (k % 3);
                 double const y = 4998100.0 + 140.0 * k + 23.0 * (i % 4);
                 double const z = 100.0 + lift + 0.03 * (x - 500000.0) + 30.0 * std::sin(i * 1.3 + k * k * 0.7);
-                text += std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "\n";
+                text += std::to_string(x) + "," + std::to_string(y) + "," + std::to_string(z) + "," +
+                        std::to_string(z + 40.0 * (i % 3)) + "\n";
             }
         }
         return text;

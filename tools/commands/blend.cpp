@@ -118,7 +118,7 @@ int blend(BlendOptions& options, Session const& session) {
 Command add_blend(CLI::App& app, Session& session) {
     auto const options = std::make_shared<BlendOptions>();
     pipeline::BlendIntoParams& params = options->params.patch;
-    app.add_option("TARGET", params.target, "The DEM to paste into, or a mesh: .2dm, .obj or .off.")
+    app.add_option("TARGET", params.target, "The DEM to paste into, or a mesh: .2dm, .obj, .off or .glb.")
         ->type_name("FILE")
         ->required();
     app.add_option("SOURCE", params.source.path,

@@ -66,7 +66,7 @@ int deform(DeformOptions& options, Session const& session) {
 
 Command add_deform(CLI::App& app, Session& session) {
     auto const options = std::make_shared<DeformOptions>();
-    app.add_option("TARGET", options->params.target, "The DEM to bend, or a mesh: .2dm, .obj or .off.")
+    app.add_option("TARGET", options->params.target, "The DEM to bend, or a mesh: .2dm, .obj, .off or .glb.")
         ->type_name("FILE")
         ->required();
     app.add_option("-o,--output", options->params.output, "Write this GeoTIFF; of a mesh any format of `thalweg tin`.")

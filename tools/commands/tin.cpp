@@ -31,6 +31,9 @@ nlohmann::ordered_json json_of(pipeline::TinResult const& made, std::string cons
                                 {"crossings", made.crossings},
                                 {"crossings_dz_m", made.crossings_dz_m},
                                 {"left_out", made.left_out}};
+    if (made.source == "network") {
+        json["medial_points"] = made.medial;
+    }
     if (made.flat) {
         json["flat"] = *made.flat;
     }
@@ -49,7 +52,12 @@ std::string tin_in_words(pipeline::TinResult const& made) {
         words += fmt::format("; {} isolated cells are left out", made.left_out);
     }
     if (made.flat.value_or(0.0) >= 0.005) {
-        words += fmt::format("; {:.1f} % of the area is flat", 100.0 * *made.flat);
+        words += fmt::format("; {:.1f} % of the area is flat{}", 100.0 * *made.flat,
+                             made.source == "network" && made.medial == 0 ? " (of contours --medial-points fills it in)"
+                                                                          : "");
+    }
+    if (made.medial > 0) {
+        words += fmt::format("; {} points are added in level areas", made.medial);
     }
     if (made.without_height > 0) {
         words += fmt::format("; {} point{} of no data left out", made.without_height,
@@ -96,6 +104,9 @@ Command add_tin(CLI::App& app, Session& session) {
     app.add_option("--height-column", params->height_column,
                    "Take the heights of points or lines from this field, as of contours.")
         ->type_name("NAME");
+    app.add_flag("--medial-points", params->medial_points,
+                 "Add points with heights between the contours where the TIN of contours would be flat: on spurs, in "
+                 "valleys, on summits. Lakes of --breaklines stay level.");
     app.add_option("--crs", params->crs, "Set the CRS of text points, or reproject points and lines to this CRS.");
     app.add_option("--source-crs", params->source_crs,
                    "Read text points, and files that have no CRS, in this one; --crs is the CRS of the TIN.")

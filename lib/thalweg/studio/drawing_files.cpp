@@ -135,7 +135,12 @@ void read_rivers_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
 }
 
 void read_pins_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
-    io::ReadPointsParams const params{.path = file_of(recipe, recipe.skeleton->points), .crs = drawing.grid.crs};
+    io::ReadPointsParams const params{.path = file_of(recipe, recipe.skeleton->points),
+                                      .crs = drawing.grid.crs,
+                                      .height_column = recipe.skeleton->height_column,
+                                      .nodata = recipe.skeleton->nodata,
+                                      .height_option = "skeleton.height_column = ",
+                                      .nodata_option = "skeleton.nodata = "};
     for (Vec3 const& p : io::read_points(params, run).points) {
         drawing.pins.push_back({in_plan(p), p.z});
     }
@@ -143,7 +148,9 @@ void read_pins_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
 
 /// Heights as the terrain has them: none in a file that fills Z with 0.
 void read_ridges_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
-    io::ReadRiversParams const params{.path = file_of(recipe, recipe.skeleton->ridge_lines), .crs = drawing.grid.crs};
+    io::ReadRiversParams const params{.path = file_of(recipe, recipe.skeleton->ridge_lines),
+                                      .crs = drawing.grid.crs,
+                                      .height_field = recipe.skeleton->ridge_height_column};
     std::vector<RiverLine> const lines = io::read_rivers(params, run).lines;
     bool const has_heights = std::ranges::any_of(lines, [](RiverLine const& line) {
         return std::ranges::any_of(line.vertices, [](Vec3 const& v) { return std::isfinite(v.z) && v.z != 0.0; });
@@ -455,6 +462,14 @@ void set_rivers(std::vector<Step>& steps, Document const& document, Drawing cons
     }
 }
 
+void drop_key(std::vector<Step>& steps, Document const& document, std::string const& key) {
+    auto const keys = pipeline::key_values(document.recipe);
+    auto const now = std::ranges::find(keys, key, &pipeline::KeyValue::path);
+    if (now != keys.end() && now->text) {
+        steps.emplace_back(UnsetKey{key});
+    }
+}
+
 /// A key that names a file of what is drawn, or none where there is nothing in it.
 void set_file(std::vector<Step>& steps, Document const& document, std::string const& key, std::size_t count,
               std::function<TakeInput()> const& put) {
@@ -462,11 +477,7 @@ void set_file(std::vector<Step>& steps, Document const& document, std::string co
         steps.emplace_back(put());
         return;
     }
-    auto const keys = pipeline::key_values(document.recipe);
-    auto const now = std::ranges::find(keys, key, &pipeline::KeyValue::path);
-    if (now != keys.end() && now->text) {
-        steps.emplace_back(UnsetKey{key});
-    }
+    drop_key(steps, document, key);
 }
 
 void set_lakes(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
@@ -482,6 +493,8 @@ void set_masks(std::vector<Step>& steps, Document const& document, Drawing const
 }
 
 void set_pins(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    drop_key(steps, document, "skeleton.height_column"); // the file that is drawn has Z
+    drop_key(steps, document, "skeleton.nodata");
     if (!drawing.pins.empty() && document.recipe.skeleton && document.recipe.skeleton->scatter > 0) {
         steps.emplace_back(UnsetKey{"skeleton.scatter"}); // points are random or given
     }
@@ -491,6 +504,7 @@ void set_pins(std::vector<Step>& steps, Document const& document, Drawing const&
 }
 
 void set_ridges(std::vector<Step>& steps, Document const& document, Drawing const& drawing, PutInput const& put) {
+    drop_key(steps, document, "skeleton.ridge_height_column");
     set_file(steps, document, "skeleton.ridge_lines", drawing.ridges.size(), [&] {
         return put("skeleton.ridge_lines", "ridges.gpkg",
                    [&](std::string const& path) { write_ridges(drawing, path); });

@@ -159,8 +159,8 @@ TEST(PrintExport, TheSeaIsLevelAndOtherHolesAreRefused) {
     Scene scene = plane();
     (*scene.dem)[Cell{0, 0}] = std::numeric_limits<float>::quiet_NaN();
     (*scene.dem)[Cell{1, 0}] = std::numeric_limits<float>::quiet_NaN();
-    EXPECT_TRUE(test::has(test::message_of<BadInput>([&] { print(scene); }), "2 of 35 cells have no data",
-                          "close them first"));
+    EXPECT_TRUE(
+        test::has(test::message_of<BadInput>([&] { print(scene); }), "2 of 35 cells have no data", "close them first"));
     scene.sea = pipeline::Sea{.level_m = 98.0};
     Printed const printed = print(scene);
     expect_closed(printed.triangles);

@@ -86,18 +86,22 @@ RC_GTEST_PROP(RoundTrips, HeightmapsAreReadBackWithinHalfAStep, ()) {
     }
 }
 
-RC_GTEST_PROP(RoundTrips, AnObjIsReadBackAtItsPlace, ()) {
+RC_GTEST_PROP(RoundTrips, MeshesAreReadBackAtTheirPlaceWithoutExaggeration, ()) {
     Raster<float> const dem = random_dem();
     ScratchFolder const folder;
     io::write_dem(dem, folder / "dem.tif");
-    run_export(export_to(folder / "dem.tif", folder / "a.obj"));
-    io::TinFile const read = io::read_tin(folder / "a.obj");
-    RC_ASSERT(static_cast<std::int64_t>(read.tin.vertices.size()) == dem.cells());
-    for (Vec3 const& v : read.tin.vertices) {
-        Cell const c = dem.grid().cell_of({v.x, v.y});
-        RC_ASSERT(dem.grid().contains(c));
-        RC_ASSERT(distance(dem.grid().centre(c), {v.x, v.y}) < 2e-3);
-        RC_ASSERT(std::fabs(v.z - static_cast<double>(dem[c])) < 2e-3);
+    for (std::string const ending : {"obj", "glb"}) {
+        ExportParams params = export_to(folder / "dem.tif", folder / ("a." + ending));
+        params.exaggeration = *rc::gen::element(1.0, 1.5, 3.0);
+        run_export(params);
+        io::TinFile const read = io::read_tin(params.output);
+        RC_ASSERT(static_cast<std::int64_t>(read.tin.vertices.size()) == dem.cells());
+        for (Vec3 const& v : read.tin.vertices) {
+            Cell const c = dem.grid().cell_of({v.x, v.y});
+            RC_ASSERT(dem.grid().contains(c));
+            RC_ASSERT(distance(dem.grid().centre(c), {v.x, v.y}) < 2e-3);
+            RC_ASSERT(std::fabs(v.z - static_cast<double>(dem[c])) < 2e-3);
+        }
     }
 }
 

@@ -1,5 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <iterator>
 #include <string>
 
@@ -179,6 +180,37 @@ TEST(Tin, HeightsMayStandInAColumn) {
     EXPECT_NEAR(bend["flat"].get<double>(), 5000.0 / 20000.0, 1e-9);
 }
 
+TEST(Tin, FlatAreasOfContoursAreFilledInAndLakesStay) {
+    Workplace const place;
+    auto const ring = [](double radius, std::string const& properties, std::string const& z) {
+        std::string places;
+        for (int k = 0; k <= 36; ++k) {
+            double const angle = 6.283185307179586 * (k % 36) / 36;
+            places += fmt::format("{}[{},{}{}]", k == 0 ? "" : ",", 500000.0 + radius * std::cos(angle),
+                                  4000000.0 + radius * std::sin(angle), z);
+        }
+        return fmt::format(R"({{"type":"Feature","properties":{{{}}},"geometry":{{"type":"LineString",)"
+                           R"("coordinates":[{}]}}}})",
+                           properties, places);
+    };
+    std::string contours;
+    for (int i = 0; i < 4; ++i) {
+        contours += (i == 0 ? "" : ",") + ring(400.0 - 100.0 * i, fmt::format(R"("elev":{})", 10 * i + 10), "");
+    }
+    place.write("hill.geojson", test::geojson(contours));
+    place.write("lake.geojson", test::geojson(ring(60.0, "", ",40")));
+    std::string const tin = "tin hill.geojson --height-column elev --json -o ";
+    auto const flat = expect_run(place, tin + "a.2dm", 0, "--medial-points fills it in").json();
+    EXPECT_GT(flat["flat"].get<double>(), 0.05);
+    auto const cured = expect_run(place, tin + "b.2dm --medial-points", 0, "points are added").json();
+    EXPECT_LT(cured["flat"].get<double>(), 0.002);
+    EXPECT_GT(cured["medial_points"].get<int>(), 0);
+    auto const lake = expect_run(place, tin + "c.2dm --medial-points --breaklines lake.geojson", 0).json();
+    EXPECT_GT(lake["flat"].get<double>(), 0.01);
+    place.write("points.csv", "x,y,z\n0,0,1\n9,0,2\n0,9,3\n");
+    expect_refused(place, "tin points.csv -o d.2dm", {"--medial-points"});
+}
+
 TEST(Tin, PointsOfNoDataAreNoPoints) {
     Workplace const place;
     place.write("p.csv", "x,y,z\n0,0,101\n10,0,102\n10,10,-9999\n0,10,104\n5,5,109\n");
@@ -194,7 +226,7 @@ TEST(Tin, PointsOfNoDataAreNoPoints) {
     expect_run(place,
                "make --set grid.width=160 --set grid.height=128 --set grid.cell=30 --set surface.method=diffuse "
                "--set skeleton.points=p.csv -o out",
-               2, "-9999", "Remove these points");
+               2, "-9999", "--set skeleton.nodata=-9999 leaves them out");
 }
 
 TEST(Tin, ShoresAreLevelBreaklines) {

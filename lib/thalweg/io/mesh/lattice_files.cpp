@@ -98,6 +98,9 @@ void write_textured_obj(LatticeMesh const& mesh, std::string const& path, ObjNam
         text("# crs {}\n", one_line(names.crs));
     }
     text("# origin {} {} {} (east, north, height)\n", mesh.origin.x, mesh.origin.y, mesh.origin.z);
+    if (names.exaggeration != 1.0) {
+        text("# exaggeration {} (of heights above the origin)\n", names.exaggeration);
+    }
     text("mtllib {}\nusemtl {}\n", names.library, names.material);
     std::size_t const items = 2 * mesh.vertices.size() + mesh.triangles.size();
     for (std::size_t i = 0; i < mesh.vertices.size(); ++i) {

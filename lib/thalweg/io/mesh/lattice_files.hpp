@@ -26,6 +26,7 @@ struct ObjNames {
     std::string crs;     ///< as in Grid, "": none; a comment
     std::string library; ///< file name of its materials (MTL)
     std::string material;
+    double exaggeration = 1.0; ///< of the mesh's heights; a comment unless 1
 };
 
 /// Writes a mesh with texture coordinates as a new Wavefront OBJ. Y is up: x is the mesh's x, y its z, z its -y, as

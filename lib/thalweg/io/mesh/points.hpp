@@ -55,6 +55,9 @@ struct ReadPointsParams {
     /// through the origin of the file's CRS; 0: all points. Nothing: the smallest of 1, 2 or 5 times a power of ten
     /// that leaves about a million points, if there are more
     std::optional<double> thin_m = {};
+    // How a user names height_column and nodata, for messages.
+    std::string height_option = "--height-column ";
+    std::string nodata_option = "--nodata ";
 };
 
 /// Reads points with heights. Text: one point per line, x y z in three columns, in those named by a first line (x, y, z

@@ -298,10 +298,9 @@ std::vector<std::string> number_fields(OGRLayer& layer) {
 /// How to name a column of heights, where a user can and there is one; "": not.
 std::string offered_columns(OGRLayer& layer, ReadPointsParams const& params) {
     std::vector<std::string> const names = number_fields(layer);
-    return !params.height_column || names.empty()
-               ? ""
-               : fmt::format("; if one of its fields holds heights, name it: --height-column {}",
-                             fmt::join(names, " or "));
+    return !params.height_column || names.empty() ? ""
+                                                  : fmt::format("; if one of its fields holds heights, name it: {}{}",
+                                                                params.height_option, fmt::join(names, " or "));
 }
 
 std::vector<Vec3> take(OGRLayer& layer, ReadPointsParams const& params, std::string const& name, Run const& run) {
@@ -373,14 +372,14 @@ void refuse_nodata(std::vector<Vec3> const& points, ReadPointsParams const& para
     }
     if (auto const at = sentinel_among(points)) {
         double const z = points[*at].z;
-        refuse_points(fmt::format("{} of {} points of {} have the height {:.9g}, the first at ({:.10g}, {:.10g}), and "
-                                  "none is near it: does it stand for no data? {}",
-                                  std::ranges::count(points, z, &Vec3::z), points.size(), name, z, points[*at].x,
-                                  points[*at].y,
-                                  params.height_column ? fmt::format("--nodata {:.9g} leaves them out, --nodata nan "
-                                                                     "keeps them",
-                                                                     z)
-                                                       : "Remove these points"));
+        refuse_points(fmt::format(
+            "{} of {} points of {} have the height {:.9g}, the first at ({:.10g}, {:.10g}), and "
+            "none is near it: does it stand for no data? {}",
+            std::ranges::count(points, z, &Vec3::z), points.size(), name, z, points[*at].x, points[*at].y,
+            params.height_column
+                ? fmt::format("{}{:.9g} leaves them out{}", params.nodata_option, z,
+                              params.nodata_option.starts_with("--nodata") ? ", --nodata nan keeps them" : "")
+                : "Remove these points"));
     }
 }
 

@@ -7,6 +7,7 @@
 #include <cmath>
 #include <cstdint>
 #include <limits>
+#include <optional>
 #include <string_view>
 #include <unordered_map>
 #include <utility>
@@ -17,6 +18,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/mesh/internal/read_glb.hpp>
 #include <thalweg/io/mesh/tin.hpp>
 
 namespace thalweg::io {
@@ -199,10 +202,33 @@ void read_2dm(Words& words, TinFile& file, FaceList& faces) {
 struct ObjAxes {
     bool says_y_up = false;
     bool says_z_up = false;
-    Vec3 origin = {}; ///< east, north, height
+    Vec3 origin = {};          ///< east, north, height
+    double exaggeration = 1.0; ///< of heights above the origin
 };
 
-/// Reads "Y up", "y-up", "z is up" and the like, and the origin that write_textured_obj writes.
+/// Reads the numbers that follow a word at the beginning of a comment of write_textured_obj.
+template <std::size_t Count>
+std::optional<std::array<double, Count>> numbers_after(std::string_view word, std::string_view text) {
+    if (!text.starts_with(word)) {
+        return std::nullopt;
+    }
+    std::array<double, Count> values{};
+    char const* at = text.data() + word.size();
+    char const* const last = text.data() + text.size();
+    for (double& value : values) {
+        while (at != last && *at == ' ') {
+            ++at;
+        }
+        auto const [end, error] = std::from_chars(at, last, value);
+        if (error != std::errc() || !std::isfinite(value)) {
+            return std::nullopt;
+        }
+        at = end;
+    }
+    return values;
+}
+
+/// Reads "Y up", "y-up", "z is up" and the like, and the origin and exaggeration that write_textured_obj writes.
 void take_axes(std::string_view text, ObjAxes& axes) {
     std::string simple;
     for (char const c : text) {
@@ -217,22 +243,11 @@ void take_axes(std::string_view text, ObjAxes& axes) {
     };
     axes.says_y_up = axes.says_y_up || says("y");
     axes.says_z_up = axes.says_z_up || says("z");
-    constexpr std::string_view begin = "origin ";
-    if (text.substr(0, begin.size()) == begin) {
-        std::array<double, 3> value{};
-        char const* at = text.data() + begin.size();
-        char const* const last = text.data() + text.size();
-        for (double& v : value) {
-            while (at != last && *at == ' ') {
-                ++at;
-            }
-            auto const [end, error] = std::from_chars(at, last, v);
-            if (error != std::errc()) {
-                return;
-            }
-            at = end;
-        }
-        axes.origin = {value[0], value[1], value[2]};
+    if (auto const origin = numbers_after<3>("origin ", text)) {
+        axes.origin = {(*origin)[0], (*origin)[1], (*origin)[2]};
+    }
+    if (auto const factor = numbers_after<1>("exaggeration ", text); factor && (*factor)[0] > 0.0) {
+        axes.exaggeration = (*factor)[0];
     }
 }
 
@@ -421,7 +436,7 @@ void turn_upright(TinFile& file, ObjAxes const& axes, std::string const& path) {
         return;
     }
     for (Vec3& v : file.tin.vertices) {
-        v = {v.x + axes.origin.x, axes.origin.y - v.z, v.y + axes.origin.z};
+        v = {v.x + axes.origin.x, axes.origin.y - v.z, v.y / axes.exaggeration + axes.origin.z};
     }
     file.findings.push_back(
         {.kind = "mesh_turned",
@@ -506,15 +521,35 @@ void weld(TinFile& file, std::string const& path) {
          .layer = path});
 }
 
+/// A GLB, whose axes the format sets.
+TinFile read_glb_file(std::string const& bytes, std::string const& path) {
+    Driver const driver;
+    GlbTriangles read = read_glb(bytes, "io.read_tin: " + path);
+    refuse_if<BadInput>(read.tin.triangles.empty(), "io.read_tin: {} has no triangles", path);
+    TinFile file;
+    file.tin = std::move(read.tin);
+    file.crs = std::move(read.crs);
+    ObjAxes axes;
+    axes.says_y_up = true;
+    axes.origin = read.origin;
+    axes.exaggeration = read.exaggeration;
+    turn_upright(file, axes, path);
+    weld(file, path);
+    return file;
+}
+
 } // namespace
 
 bool holds_tin(std::string const& path) {
-    return ends_in(path, ".2dm") || ends_in(path, ".obj") || ends_in(path, ".off");
+    return ends_in(path, ".2dm") || ends_in(path, ".obj") || ends_in(path, ".off") || ends_in(path, ".glb");
 }
 
 TinFile read_tin(std::string const& path, Run const& run) {
-    refuse_if<BadInput>(!holds_tin(path), "io.read_tin: {} is not a mesh in 2DM, OBJ or OFF", path);
+    refuse_if<BadInput>(!holds_tin(path), "io.read_tin: {} is not a mesh in 2DM, OBJ, OFF or GLB", path);
     std::string const text = read_text(path, most_bytes);
+    if (ends_in(path, ".glb")) {
+        return read_glb_file(text, path);
+    }
     Words words(path, text, run);
     TinFile file;
     FaceList faces;

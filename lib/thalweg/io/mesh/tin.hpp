@@ -21,15 +21,17 @@ struct TinFile {
     std::vector<Finding> findings = {};
 };
 
-/// Tells whether a file name has the extension of a mesh that read_tin reads: .2dm, .obj or .off.
+/// Tells whether a file name has the extension of a mesh that read_tin reads: .2dm, .obj, .off or .glb.
 /// \param path of the file
 /// \return true: a mesh
 bool holds_tin(std::string const& path);
 
 /// Reads a mesh: 2DM (E3T, E4Q, ND), Wavefront OBJ (v, f; numbers from the last vertex; lines continued by a backslash)
-/// or OFF (also with colours, normals, places in pictures, which are skipped); other words of 2DM and OBJ are skipped.
-/// An OBJ with a comment "Y up" is turned (mesh_turned), and moved to the origin in its comments. Vertices of OBJ and
-/// OFF within 1e-8 of the extent become one (welded). Faces with more than three corners are split into triangles,
+/// OFF (also with colours, normals, places in pictures, which are skipped) or GLB (triangles at the places of their
+/// nodes; no compressed ones); other words of 2DM and OBJ are skipped.
+/// An OBJ with a comment "Y up" and a GLB are turned (mesh_turned), and those of export moved to their origin, without
+/// exaggeration. Vertices of OBJ, OFF
+/// and GLB within 1e-8 of the extent become one (welded). Faces with more than three corners are split into triangles,
 /// quadrilaterals along the shorter diagonal (split_faces).
 /// \param path of the file
 /// \return vertices and triangles in the file's order; restores a TIN written by write_tin in these formats
@@ -37,7 +39,7 @@ bool holds_tin(std::string const& path);
 /// not exist, heights that are not in metres, more than 2^30 bytes, no triangle; an OBJ that is folded in plan, and not
 /// with Y up, and says nothing of its axes
 ///
-/// Source: Aquaveo, 2DM files; Wavefront OBJ; Geomview OFF.
+/// Source: Aquaveo, 2DM files; Wavefront OBJ; Geomview OFF; Khronos, glTF 2.0.
 TinFile read_tin(std::string const& path, Run const& run = {});
 
 /// Formats of a TIN, or of its vertices alone.

@@ -24,6 +24,7 @@
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
+#include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/internal/exr.hpp>
 
 namespace thalweg::io {
@@ -338,6 +339,11 @@ bool is_heightmap(Source const& source) {
         return described(path).has_value();
     }
     return is_raw_name(path) && (described(path) || !has_gdal_driver(path));
+}
+
+bool is_heightmap_file(std::string const& path) {
+    Driver const driver;
+    return is_heightmap(path);
 }
 
 std::vector<std::string> heightmap_files(Source const& source) {

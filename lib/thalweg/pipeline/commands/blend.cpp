@@ -47,9 +47,10 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
 }
 
 BlendedDem blend_dems(BlendParams const& params, Run const& run) {
-    refuse_if<BadParameter>(!params.source_crs.empty(),
-                            "pipeline.run_blend: --source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS "
-                            "by gdal_edit.py -a_srs");
+    refuse_if<BadParameter>(
+        !params.source_crs.empty(),
+        "pipeline.run_blend: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
+        "by gdal_edit.py -a_srs");
     BlendIntoParams const& patch = params.patch;
     io::OutputFile file(params.output, params.existing);
     io::DemFile const read = io::read_dem_file(patch.target, patch.reading, run);
@@ -86,10 +87,11 @@ MeshBox box_of(Tin const& tin) {
 
 void check_mesh_params(BlendIntoParams const& params) {
     for (std::string const& path : {params.target, params.source.path}) {
-        refuse_if<BadParameter>(!io::holds_tin(path),
-                                "pipeline.run_blend: {} is not a mesh (.2dm, .obj, .off), the other file is; `thalweg "
-                                "tin` makes a mesh of a DEM",
-                                path);
+        refuse_if<BadParameter>(
+            !io::holds_tin(path),
+            "pipeline.run_blend: {} is not a mesh (.2dm, .obj, .off, .glb), the other file is; `thalweg "
+            "tin` makes a mesh of a DEM",
+            path);
     }
     for (auto const& [name, given] :
          {std::pair{"--window", params.window.has_value()}, std::pair{"--mask", !params.mask.path.empty()},

@@ -21,13 +21,15 @@ namespace thalweg::pipeline {
 namespace {
 
 DeformedDem deform_dem(DeformParams const& params, Run const& run) {
-    refuse_if<BadParameter>(params.rotate_deg != 0.0 || params.axis,
-                            "pipeline.run_deform: --rotate and --axis turn meshes (.2dm, .obj, .off); a DEM has one "
-                            "height a cell. `thalweg tin` makes a mesh of it, `thalweg blend --rotate` turns a patch "
-                            "about the vertical");
-    refuse_if<BadParameter>(!params.source_crs.empty(),
-                            "pipeline.run_deform: --source-crs is for meshes (.2dm, .obj, .off); assign a DEM its CRS "
-                            "by gdal_edit.py -a_srs");
+    refuse_if<BadParameter>(
+        params.rotate_deg != 0.0 || params.axis,
+        "pipeline.run_deform: --rotate and --axis turn meshes (.2dm, .obj, .off, .glb); a DEM has one "
+        "height a cell. `thalweg tin` makes a mesh of it, `thalweg blend --rotate` turns a patch "
+        "about the vertical");
+    refuse_if<BadParameter>(
+        !params.source_crs.empty(),
+        "pipeline.run_deform: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
+        "by gdal_edit.py -a_srs");
     io::OutputFile file(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
                             "pipeline.run_deform: nothing to do: give a scale or heights to pull to");

@@ -20,7 +20,7 @@ namespace thalweg::pipeline {
 
 /// Options of run_deform().
 struct DeformParams {
-    std::string target = {}; ///< a DEM, or a mesh: 2DM, OBJ or OFF
+    std::string target = {}; ///< a DEM, or a mesh: 2DM, OBJ, OFF or GLB
     /// the region: for a DEM a raster on its grid, or polygons; for a mesh polygons around the vertices that move
     std::string mask = {};
     std::string output = {}; ///< a new GeoTIFF; of a mesh in any of io::tin_formats()

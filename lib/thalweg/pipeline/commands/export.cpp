@@ -214,10 +214,10 @@ private:
     io::OutputFolder out_;
 };
 
-void write_obj(LatticeMesh const& mesh, Scene const& scene, ExportFiles const& files, std::string const& crs,
+void write_obj(LatticeMesh const& mesh, Scene const& scene, ExportFiles const& files, ExportResult const& made,
                Run const& run) {
     constexpr char const* material = "ground";
-    io::write_textured_obj(mesh, files.path(0), {crs, files.name(1), material}, run);
+    io::write_textured_obj(mesh, files.path(0), {made.crs, files.name(1), material, made.exaggeration}, run);
     io::write_text(files.path(1),
                    fmt::format("# thalweg\nnewmtl {}\nKa 0 0 0\nKd 1 1 1\nKs 0 0 0\nillum 1\nmap_Kd {}\n", material,
                                files.name(2)));
@@ -241,7 +241,7 @@ void write_mesh(Lattice const& ground, Scene const& scene, ExportParams const& p
         return;
     }
     if (made.format == ExportFormat::obj) {
-        write_obj(mesh, scene, files, made.crs, run);
+        write_obj(mesh, scene, files, made, run);
         return;
     }
     std::string const texture = texture_of(scene, run);

@@ -655,7 +655,11 @@ private:
         mesh.origin.z = made.min_m;
         constexpr std::int64_t most_bytes = 1 << 30;
         std::string const texture = io::read_text(out_.path(colour_), most_bytes);
-        GlbScene shown{mesh, texture, {}, "thalweg " + version(), "{}"};
+        ForJson const facts{{"thalweg", version()},
+                            {"crs", ground.z.grid().crs},
+                            {"origin", {mesh.origin.x, mesh.origin.y, mesh.origin.z}},
+                            {"exaggeration", made.exaggeration}};
+        GlbScene shown{mesh, texture, {}, "thalweg " + version(), facts.dump()};
         if (scene_.network) {
             shown.rivers = rivers_on_mesh(*scene_.network, ground, mesh, made.exaggeration);
         }

@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/commands/tin.hpp>
 
-#include <array>
+#include <algorithm>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -24,6 +24,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/surface/tin/level_areas.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -106,17 +107,28 @@ TinResult of_dem(std::string const& path, TinParams const& params, Run const& ru
     return made;
 }
 
-/// The share of a TIN's area in triangles whose corners are at one height, as within the bends of contours.
-double level_share(Tin const& tin) {
-    double level_m2 = 0.0;
-    double all_m2 = 0.0;
-    for (auto const& t : tin.triangles) {
-        std::array<Vec3, 3> const v{tin.vertices[t[0]], tin.vertices[t[1]], tin.vertices[t[2]]};
-        double const m2 = 0.5 * std::fabs(cross(in_plan(v[0]), in_plan(v[1]), in_plan(v[2])));
-        all_m2 += m2;
-        level_m2 += v[0].z == v[1].z && v[1].z == v[2].z ? m2 : 0.0;
+/// Whether a line closes around a place at one height, as the shore of a lake does.
+bool is_lake_around(std::vector<Vec3> const& line, Vec2 place) {
+    bool const is_ring = line.size() > 3 && in_plan(line.front()) == in_plan(line.back()) &&
+                         std::ranges::all_of(line, [&](Vec3 const& v) { return v.z == line.front().z; });
+    bool is_inside = false;
+    for (std::size_t i = 1; is_ring && i < line.size(); ++i) {
+        Vec2 const a = in_plan(line[i - 1]);
+        Vec2 const b = in_plan(line[i]);
+        if ((a.y > place.y) != (b.y > place.y) && place.x < a.x + (place.y - a.y) / (b.y - a.y) * (b.x - a.x)) {
+            is_inside = !is_inside;
+        }
     }
-    return all_m2 > 0.0 ? level_m2 / all_m2 : 0.0;
+    return is_inside;
+}
+
+/// Points for the level areas of contours, but not for lakes among the breaklines.
+std::vector<Vec3> points_for_level_areas(Lines const& contours, Lines const& breaklines, Run const& run) {
+    std::vector<Vec3> points = surface::medial_points(geometry::triangulate({}, contours, run), run);
+    for (auto const& line : breaklines) {
+        std::erase_if(points, [&](Vec3 const& p) { return is_lake_around(line, in_plan(p)); });
+    }
+    return points;
 }
 
 TinResult of_points(std::vector<Vec3> const& points, Breaklines const& breaklines, char const* source, Run const& run) {
@@ -129,7 +141,7 @@ TinResult of_points(std::vector<Vec3> const& points, Breaklines const& breakline
     made.merged_dz_m = triangulation.merged_dz_m;
     made.crossings = triangulation.crossings;
     made.crossings_dz_m = triangulation.crossings_dz_m;
-    made.flat = level_share(made.tin);
+    made.flat = surface::level_share(made.tin);
     return made;
 }
 
@@ -155,9 +167,9 @@ TinResult tin_of(TinParams const& params, Run const& run) {
     if (content.kind == Kind::raster) {
         refuse_if<BadParameter>(
             !params.breaklines.empty() || !params.crs.empty() || !params.source_crs.empty() ||
-                !params.height_column.empty(),
-            "pipeline.run_tin: --breaklines, --height-column, --crs and --source-crs apply to points and lines, not to "
-            "a DEM");
+                !params.height_column.empty() || params.medial_points,
+            "pipeline.run_tin: --breaklines, --height-column, --medial-points, --crs and --source-crs apply to points "
+            "and lines, not to a DEM");
         return of_dem(content.path, params, run);
     }
     for (auto const& [option, given] :
@@ -169,6 +181,8 @@ TinResult tin_of(TinParams const& params, Run const& run) {
                                            content.path, content.kind == Kind::points ? "points" : "lines"));
         }
     }
+    refuse_if<BadParameter>(params.medial_points && content.kind == Kind::points,
+                            "pipeline.run_tin: --medial-points applies to contours; {} holds points", content.path);
     refuse_if<BadParameter>(params.reading.nodata && content.kind == Kind::lines,
                             "pipeline.run_tin: --nodata applies to a DEM or points; {} holds lines", content.path);
     if (content.kind == Kind::points) {
@@ -203,11 +217,18 @@ TinResult tin_of(TinParams const& params, Run const& run) {
             network.lines.push_back(std::move(line.vertices));
         }
     }
+    std::vector<Vec3> points;
+    Lines more;
     if (!params.breaklines.empty()) {
-        Breaklines more = read_lines(params.breaklines, params, network.crs, LinesAre::more, run);
-        network.lines.insert(network.lines.end(), more.lines.begin(), more.lines.end());
+        more = read_lines(params.breaklines, params, network.crs, LinesAre::more, run).lines;
     }
-    return of_points({}, network, "network", run);
+    if (params.medial_points) {
+        points = points_for_level_areas(network.lines, more, run);
+    }
+    network.lines.insert(network.lines.end(), more.begin(), more.end());
+    TinResult made = of_points(points, network, "network", run);
+    made.medial = static_cast<std::int64_t>(points.size());
+    return made;
 }
 
 } // namespace

@@ -32,6 +32,7 @@ struct TinParams {
     std::string columns = {};          ///< of text with points, as io::ReadPointsParams; "": none
     std::string classes = {};          ///< of a point cloud, as io::ReadPointsParams; "": ground
     std::optional<double> thin_m = {}; ///< [m] >= 0, of a point cloud, as io::ReadPointsParams
+    bool medial_points = false;        ///< surface::medial_points() for the level areas of lines
     io::ReadDemParams reading = {};    ///< how the DEM is read; nodata also applies to points
 };
 
@@ -49,6 +50,7 @@ struct TinResult {
     double averaged_dz_m = 0.0;
     std::int64_t crossings = 0;
     double crossings_dz_m = 0.0;
+    std::int64_t medial = 0;            ///< points in level areas, by medial_points
     std::optional<double> flat = {};    ///< [0, 1] share of the area in level triangles, for lines and points
     std::vector<Finding> findings = {}; ///< how a DEM or a point cloud was read
 };

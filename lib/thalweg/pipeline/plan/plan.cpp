@@ -421,7 +421,14 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
         // Of a cloud nobody can remove one of two points.
         auto const duplicates =
             io::is_point_cloud(file.path) ? io::DuplicatePoints::averaged : io::DuplicatePoints::refused;
-        points = io::read_points({.path = file, .crs = crs, .duplicates = duplicates}, run);
+        points = io::read_points({.path = file,
+                                  .crs = crs,
+                                  .duplicates = duplicates,
+                                  .height_column = recipe.skeleton->height_column,
+                                  .nodata = recipe.skeleton->nodata,
+                                  .height_option = "--set skeleton.height_column=",
+                                  .nodata_option = "--set skeleton.nodata="},
+                                 run);
     }
     if (points.crs.empty()) {
         points.crs = io::projected_crs(crs.empty() ? "EPSG:32631" : crs);

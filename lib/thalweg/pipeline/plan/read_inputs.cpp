@@ -331,7 +331,8 @@ RiverLines read_ridge_lines(Recipe const& recipe, Run const& run) {
         return {};
     }
     RiverLines ridges = io::read_rivers({.path = file_in(recipe, recipe.skeleton->ridge_lines),
-                                         .crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs)},
+                                         .crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs),
+                                         .height_field = recipe.skeleton->ridge_height_column},
                                         run);
     bool const all_zero = std::ranges::all_of(ridges.lines, [](RiverLine const& ridge) {
         return std::ranges::all_of(ridge.vertices, [](Vec3 const& v) { return !std::isfinite(v.z) || v.z == 0.0; });

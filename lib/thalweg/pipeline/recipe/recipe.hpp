@@ -195,7 +195,10 @@ struct SkeletonRecipe {
     double ridge_wavelength_m = 1000.0;  ///< [m] > 0, of its longest waves
     double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
     std::string points;                  ///< file of points with heights; "" for none
+    std::string height_column;           ///< of points: their heights; "": their own
+    std::optional<double> nodata;        ///< height that stands for no data: such points are left out; NaN: none does
     std::string ridge_lines;             ///< file of ridges, with or without heights; "" for none
+    std::string ridge_height_column;     ///< of ridge_lines: the height of all of a line; "": those of its vertices
     std::int64_t scatter = 0;            ///< points at random; 0 for none
     double spacing_cells = 0.0;          ///< [cells] least distance of points at random
     skeleton::HeightLaw law = skeleton::HeightLaw::uniform;

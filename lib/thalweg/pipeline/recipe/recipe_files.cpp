@@ -13,6 +13,7 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/mesh/points.hpp>
+#include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
@@ -152,7 +153,8 @@ std::string keep_input(io::OutputFolder const& out, std::string const& folder, s
 
 /// Whether a recipe may name a file as it is.
 bool is_plain(std::string const& path) {
-    return io::is_text_of_points(path) || io::is_point_cloud(path) || io::is_recipe_file(path);
+    return io::is_text_of_points(path) || io::is_point_cloud(path) || io::is_heightmap_file(path) ||
+           io::is_recipe_file(path);
 }
 
 } // namespace
