@@ -29,22 +29,52 @@ namespace {
 
 using Classes = std::bitset<256>;
 
-/// Calls visit(LasPoint) for all points that are not withheld.
-/// \param begin,end of the share done
-template <class Visit> void each_point(LasHeader const& header, double begin, double end, Run const& run, Visit visit) {
-    auto const records = open_las(header);
-    std::vector<LasPoint> points;
-    std::uint64_t seen = 0;
-    for (records->next(points); !points.empty(); records->next(points)) {
-        run.at(begin + (end - begin) * static_cast<double>(seen) / static_cast<double>(header.count), "read");
-        for (LasPoint const& p : points) {
-            if (!p.is_withheld) {
-                visit(p);
+/// The points of a file, which are needed up to three times. Decoding takes longest, so up to some half a gigabyte of
+/// them are kept.
+class CloudFile {
+public:
+    explicit CloudFile(LasHeader const& of) : header(of), keeps_(of.count <= most_kept) {}
+
+    /// Calls visit(LasPoint) for all points that are not withheld.
+    /// \param begin,end of the share done
+    template <class Visit> void each_point(double begin, double end, Run const& run, Visit visit) {
+        if (is_kept_) {
+            for (std::size_t i = 0; i < kept_.size(); ++i) {
+                if (i % steps_between_checks == 0) {
+                    run.at(end, "read");
+                }
+                visit(kept_[i]);
             }
+            return;
         }
-        seen += points.size();
+        auto const records = open_las(header);
+        std::vector<LasPoint> points;
+        std::uint64_t seen = 0;
+        for (records->next(points); !points.empty(); records->next(points)) {
+            run.at(begin + (end - begin) * static_cast<double>(seen) / static_cast<double>(header.count), "read");
+            for (LasPoint const& p : points) {
+                if (!p.is_withheld) {
+                    visit(p);
+                    if (keeps_) {
+                        kept_.push_back(p);
+                    }
+                }
+            }
+            seen += points.size();
+        }
+        is_kept_ = keeps_;
     }
-}
+
+    LasHeader const& header;
+
+private:
+    static constexpr std::uint64_t most_kept = std::uint64_t{1} << 25U;
+    static constexpr std::size_t steps_between_checks = std::size_t{1} << 18U;
+
+    bool keeps_;
+    bool is_kept_ = false;
+    std::vector<LasPoint> kept_;
+};
 
 /// The points of one class.
 struct OfClass {
@@ -73,9 +103,9 @@ struct OfClass {
 /// All classes, without points that are withheld.
 using Census = std::array<OfClass, 256>;
 
-Census count_classes(LasHeader const& header, Run const& run) {
+Census count_classes(CloudFile& file, Run const& run) {
     Census census;
-    each_point(header, 0.0, 0.4, run, [&](LasPoint const& p) { census[p.kind].add(p); });
+    file.each_point(0.0, 0.4, run, [&](LasPoint const& p) { census[p.kind].add(p); });
     return census;
 }
 
@@ -349,7 +379,7 @@ double round_side(double least_m) {
 }
 
 /// Chooses cells that leave at most so many points, by the area that is not empty in a lattice of a million cells.
-double fitting_side(LasHeader const& header, TakenPoints const& taken, Metres const& metres, OfClass const& points,
+double fitting_side(CloudFile& file, TakenPoints const& taken, Metres const& metres, OfClass const& points,
                     Run const& run) {
     Vec2 const low = metres.of(points.west, points.south);
     Vec2 const high = metres.of(points.east, points.north);
@@ -360,7 +390,7 @@ double fitting_side(LasHeader const& header, TakenPoints const& taken, Metres co
     auto const cols = static_cast<std::size_t>(wide / side_m) + 1;
     auto const rows = static_cast<std::size_t>(tall / side_m) + 1;
     std::vector<std::uint8_t> has_points(cols * rows, 0);
-    each_point(header, 0.4, 0.7, run, [&](LasPoint const& p) {
+    file.each_point(0.4, 0.7, run, [&](LasPoint const& p) {
         if (taken.is_chosen(p)) {
             Vec2 const at = metres.of(p.x, p.y);
             auto const col = std::min(static_cast<std::size_t>((at.x - low.x) / side_m), cols - 1);
@@ -373,10 +403,11 @@ double fitting_side(LasHeader const& header, TakenPoints const& taken, Metres co
 }
 
 /// Takes the points, one of each cell if there are cells.
-Cloud take_points(LasHeader const& header, TakenPoints const& taken, std::uint64_t count, Run const& run) {
+Cloud take_points(CloudFile& file, TakenPoints const& taken, std::uint64_t count, Run const& run) {
+    LasHeader const& header = file.header;
     Cloud cloud;
     cloud.points.reserve(static_cast<std::size_t>(count));
-    each_point(header, 0.7, 1.0, run, [&](LasPoint const& p) {
+    file.each_point(0.7, 1.0, run, [&](LasPoint const& p) {
         if (taken.has(p)) {
             cloud.points.push_back(header.place(p));
         }
@@ -385,8 +416,9 @@ Cloud take_points(LasHeader const& header, TakenPoints const& taken, std::uint64
     return cloud;
 }
 
-Cloud take_thinned(LasHeader const& header, TakenPoints const& taken, OfClass const& points, Metres const& metres,
+Cloud take_thinned(CloudFile& file, TakenPoints const& taken, OfClass const& points, Metres const& metres,
                    double side_m, Run const& run) {
+    LasHeader const& header = file.header;
     CloudCells const cells(metres, side_m, points);
     constexpr double most = 4294967295.0;
     refuse_if<BadParameter>(!(cells.cols() < most) || !(cells.rows() < most),
@@ -394,7 +426,7 @@ Cloud take_thinned(LasHeader const& header, TakenPoints const& taken, OfClass co
                             "one",
                             side_m, header.name, most);
     NearestPoints nearest;
-    each_point(header, 0.7, 1.0, run, [&](LasPoint const& p) {
+    file.each_point(0.7, 1.0, run, [&](LasPoint const& p) {
         if (taken.has(p)) {
             auto const [cell, off_centre] = cells.place_of(p);
             nearest.offer(cell, off_centre, p);
@@ -424,7 +456,8 @@ Cloud read_cloud(LasHeader const& header, ReadPointsParams const& params, OGRSpa
     if (header.count == 0) {
         return {};
     }
-    Census const census = count_classes(header, run);
+    CloudFile file(header);
+    Census const census = count_classes(file, run);
     refuse_if<BadInput>(sum_of(census, ~Classes()).count == 0,
                         "io.read_points: all {} points of {} are marked as withheld: not to be used", header.count,
                         header.name);
@@ -433,10 +466,10 @@ Cloud read_cloud(LasHeader const& header, ReadPointsParams const& params, OGRSpa
     TakenPoints const taken(header, chosen, params);
     Metres const metres = metres_of(header, crs, points);
     double const side_m = params.thin_m         ? thin_m
-                          : points.count > many ? fitting_side(header, taken, metres, points, run)
+                          : points.count > many ? fitting_side(file, taken, metres, points, run)
                                                 : 0.0;
-    Cloud cloud = side_m > 0.0 ? take_thinned(header, taken, points, metres, side_m, run)
-                               : take_points(header, taken, points.count, run);
+    Cloud cloud = side_m > 0.0 ? take_thinned(file, taken, points, metres, side_m, run)
+                               : take_points(file, taken, points.count, run);
     cloud.findings.insert(cloud.findings.begin(), finding_of(chosen, header));
     refuse_if<BadInput>(cloud.points.empty(), "io.read_points: all points of {} have the height {:.9g} of --nodata",
                         header.name, params.nodata.value_or(0.0));
