@@ -19,6 +19,7 @@
 #include <ogr_spatialref.h>
 
 #include <thalweg/core/numbers/elementary.hpp>
+#include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
@@ -33,7 +34,9 @@ using Classes = std::bitset<256>;
 /// them are kept.
 class CloudFile {
 public:
-    explicit CloudFile(LasHeader const& of) : header(of), keeps_(of.count <= most_kept) {}
+    explicit CloudFile(LasHeader const& of) : header(of), keeps_(of.count <= most_kept) {
+        kept_.reserve(keeps_ ? static_cast<std::size_t>(of.count) : 0);
+    }
 
     /// Calls visit(LasPoint) for all points that are not withheld.
     /// \param begin,end of the share done
@@ -73,7 +76,7 @@ private:
 
     bool keeps_;
     bool is_kept_ = false;
-    std::vector<LasPoint> kept_;
+    std::vector<LasPoint, LargePages<LasPoint>> kept_;
 };
 
 /// The points of one class.
@@ -294,11 +297,11 @@ private:
     std::optional<double> nodata_;
 };
 
-/// Of each cell the best point so far: a table with open addressing.
+/// Of each cell the best point so far.
 class NearestPoints {
 public:
     struct Entry {
-        std::uint64_t cell = empty;
+        std::uint64_t cell = 0;
         double off_centre = 0.0;
         std::int32_t x = 0;
         std::int32_t y = 0;
@@ -306,56 +309,65 @@ public:
     };
 
     void offer(std::uint64_t cell, double off_centre, LasPoint const& p) {
-        Entry const entry{cell, off_centre, p.x, p.y, p.z};
         ++offered_;
-        Entry& place = place_of(cell);
-        if (place.cell == empty) {
-            place = entry;
-            if (++count_ * 2 > entries_.size()) {
+        std::uint32_t& number = number_of(cell);
+        if (number == none) {
+            number = static_cast<std::uint32_t>(entries_.size());
+            entries_.push_back({cell, off_centre, p.x, p.y, p.z});
+            if (entries_.size() * 2 > numbers_.size()) {
                 grow();
             }
-        } else if (order_of(entry) < order_of(place)) {
-            place = entry;
+            return;
+        }
+        Entry& best = entries_[number];
+        if (off_centre > best.off_centre) {
+            return;
+        }
+        Entry const entry{cell, off_centre, p.x, p.y, p.z};
+        if (order_of(entry) < order_of(best)) {
+            best = entry;
         }
     }
 
     std::uint64_t offered() const { return offered_; }
     /// \return by number of their cells
     std::vector<Entry> take() {
-        std::erase_if(entries_, [](Entry const& e) { return e.cell == empty; });
         std::ranges::sort(entries_, {}, &Entry::cell);
         return std::move(entries_);
     }
 
 private:
-    static constexpr std::uint64_t empty = std::numeric_limits<std::uint64_t>::max();
+    static constexpr std::uint32_t none = std::numeric_limits<std::uint32_t>::max();
 
     // Equally near ones are ordered too, so that the order of points in the file does not matter.
     static std::tuple<double, std::int32_t, std::int32_t, std::int32_t> order_of(Entry const& e) {
         return {e.off_centre, e.x, e.y, e.z};
     }
 
-    Entry& place_of(std::uint64_t cell) {
-        std::uint64_t const mask = entries_.size() - 1;
+    /// The number of a cell's entry, in a table with open addressing; none: it has none.
+    std::uint32_t& number_of(std::uint64_t cell) {
+        std::uint64_t const mask = numbers_.size() - 1;
         std::uint64_t at = (cell ^ (cell >> 29U)) * 0x9e3779b97f4a7c15U; // Fibonacci hashing
         at ^= at >> 32U;
-        while (entries_[at & mask].cell != empty && entries_[at & mask].cell != cell) {
+        while (numbers_[at & mask] != none && entries_[numbers_[at & mask]].cell != cell) {
             ++at;
         }
-        return entries_[at & mask];
+        return numbers_[at & mask];
     }
 
     void grow() {
-        std::vector<Entry> const old = std::exchange(entries_, std::vector<Entry>(2 * entries_.size()));
-        for (Entry const& e : old) {
-            if (e.cell != empty) {
-                place_of(e.cell) = e;
-            }
+        refuse_if<BadInput>(entries_.size() >= none / 2,
+                            "io.read_points: more than {} cells have points; name larger "
+                            "ones (thin)",
+                            none / 2);
+        numbers_ = std::vector<std::uint32_t>(2 * numbers_.size(), none);
+        for (std::size_t i = 0; i < entries_.size(); ++i) {
+            number_of(entries_[i].cell) = static_cast<std::uint32_t>(i);
         }
     }
 
-    std::vector<Entry> entries_ = std::vector<Entry>(std::size_t{1} << 12U);
-    std::size_t count_ = 0;
+    std::vector<Entry> entries_;
+    std::vector<std::uint32_t> numbers_ = std::vector<std::uint32_t>(std::size_t{1} << 12U, none);
     std::uint64_t offered_ = 0;
 };
 
