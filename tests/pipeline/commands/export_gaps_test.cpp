@@ -40,10 +40,13 @@ Scene beside_a_rim() {
 
 TEST(RiversInside, AreCutAtTheBorderAndKeepTheirNumbers) {
     Grid const grid{10, 10, 1.0, 0.0, 10.0, ""};
+    ExportResult made;
     std::vector<RiverSpline> const parts =
         rivers_inside({river({{-2, 5, 40}, {2, 5, 36}, {12, 5, 26}, {12, 3, 24}, {8, 3, 20}}),
                        river({{20, 1, 1}, {30, 1, 0}}), river({{1, 1, 5}, {9, 9, 4}})},
-                      grid);
+                      grid, made);
+    ASSERT_EQ(made.findings.size(), 1U);
+    EXPECT_TRUE(test::has(made.findings[0].text, "5 of 9 points of rivers"));
     ASSERT_EQ(parts.size(), 3U);
     EXPECT_EQ(parts[0].line, (std::vector<Vec3>{{0, 5, 38}, {2, 5, 36}, {10, 5, 28}}));
     EXPECT_EQ(parts[0].discharge_m3s, (std::vector<double>{0.5, 1.0, 1.8}));

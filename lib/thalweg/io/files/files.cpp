@@ -126,6 +126,13 @@ void remove_stale_temporaries(fs::path const& folder) noexcept {
 
 } // namespace
 
+std::string lower_extension(std::string const& path) {
+    std::string extension = fs::path(path).extension().string();
+    std::ranges::transform(extension, extension.begin(),
+                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    return extension;
+}
+
 std::string simple_name(std::string_view name) {
     std::string out;
     for (char const c : name) {

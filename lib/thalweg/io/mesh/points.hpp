@@ -71,8 +71,8 @@ struct ReadPointsParams {
 /// cannot be reprojected, text without names that has more than three columns, text without a CRS that can only be
 /// longitudes and latitudes (if params.source_crs is set), a point cloud that is damaged, truncated, compressed in a
 /// build without LASzip, in E57, or has no points of the classes
-/// \throws BadParameter when columns are not three, when classes or thin_m are wrong, or when an option does not apply
-/// to the file \throws IoError when the file cannot be read to its end
+/// \throws BadParameter when columns are not three, classes or thin_m are wrong, or an option does not suit the file
+/// \throws IoError when the file cannot be read to its end
 ///
 /// Source: ASPRS, LAS specification version 1.4-R15.
 FeaturePoints read_points(ReadPointsParams const& params, Run const& run = {});

@@ -196,9 +196,7 @@ CloudFormat cloud_format(std::string const& path) {
     std::ifstream file(path, std::ios::binary);
     file.read(first.data(), first.size());
     std::string_view const bytes(first.data(), first.size());
-    std::string ending = fs::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
+    std::string const ending = lower_extension(path);
     if (bytes.starts_with("LASF")) {
         return CloudFormat::las;
     }

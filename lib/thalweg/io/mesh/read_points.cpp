@@ -27,6 +27,7 @@
 #include <thalweg/io/crs/internal/into_metres.hpp>
 #include <thalweg/io/crs/internal/units.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
@@ -582,8 +583,7 @@ void settle_duplicates(FeaturePoints& read, DuplicatePoints duplicates, std::str
 } // namespace
 
 bool is_text_of_points(std::string const& path) {
-    std::string ending = std::filesystem::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(), lowered);
+    std::string const ending = lower_extension(path);
     return ending == ".csv" || ending == ".txt" || ending == ".xyz";
 }
 

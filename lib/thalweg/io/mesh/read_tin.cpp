@@ -440,7 +440,9 @@ void turn_upright(TinFile& file, ObjAxes const& axes, std::string const& path) {
     }
     file.findings.push_back(
         {.kind = "mesh_turned",
-         .text = fmt::format("{}: Y is up in it; x is taken as east, -z as north, y as the height", path),
+         .text = fmt::format(
+             "{}: Y is up in it; x is taken as east, -z as north, y as the height{}", path,
+             axes.exaggeration == 1.0 ? "" : fmt::format(" without its exaggeration of {:.6g}", axes.exaggeration)),
          .layer = path});
 }
 

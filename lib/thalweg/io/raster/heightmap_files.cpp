@@ -23,6 +23,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/internal/exr.hpp>
@@ -45,15 +46,8 @@ struct MapDescription {
     bool from_south = false;
 };
 
-std::string small_ending(std::string const& path) {
-    std::string ending = fs::path(path).extension().string();
-    std::ranges::transform(ending, ending.begin(),
-                           [](char c) { return c >= 'A' && c <= 'Z' ? static_cast<char>(c - 'A' + 'a') : c; });
-    return ending;
-}
-
 bool is_raw_name(std::string const& path) {
-    std::string const ending = small_ending(path);
+    std::string const ending = lower_extension(path);
     return ending == ".r16" || ending == ".r32" || ending == ".raw";
 }
 
@@ -242,7 +236,7 @@ std::vector<float> read_raw(std::string const& path, MapDescription& map, ReadDe
                             std::string const& what) {
     constexpr std::int64_t largest = std::int64_t{1} << 31;
     std::string const bytes = read_text(path, largest);
-    bool const is_r32 = small_ending(path) == ".r32" ||
+    bool const is_r32 = lower_extension(path) == ".r32" ||
                         (!map.by.empty() && !map.heights_m); // a description without steps is one of metres
     take_size(map, bytes.size(), is_r32 ? sizeof(float) : sizeof(std::uint16_t), params, what);
     return is_r32 ? raw_samples<float>(bytes, [](float z) { return z; })
@@ -356,7 +350,7 @@ std::vector<std::string> heightmap_files(Source const& source) {
 }
 
 bool is_picture_of_heights(Source const& source) {
-    return small_ending(source.path) == ".png";
+    return lower_extension(source.path) == ".png";
 }
 
 OpenedHeightmap open_heightmap(Source const& source, ReadDemParams const& params, Dataset const& picture,
@@ -373,7 +367,7 @@ OpenedHeightmap open_heightmap(Source const& source, ReadDemParams const& params
         map.crs.clear();
     }
     bool const has_numbers =
-        !is_exr_file(source.path) && small_ending(source.path) != ".r32" && (map.by.empty() || map.heights_m);
+        !is_exr_file(source.path) && lower_extension(source.path) != ".r32" && (map.by.empty() || map.heights_m);
     Dataset data = shown(samples, map, what);
     return {std::move(data), finding_of(map, has_numbers, params)};
 }

@@ -27,6 +27,7 @@
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
 #include <thalweg/pipeline/commands/internal/web_export.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/surface/gaps/close_gaps.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -288,11 +289,9 @@ Raster<T> part_of(Raster<T> const& all, std::int64_t col, std::int64_t row, Expo
     Grid grid = all.grid();
     grid.width = size.width;
     grid.height = size.height;
-    Raster<T> out(grid);
-    for (std::int64_t r = 0; r < size.height; ++r) {
-        auto const from = all.row(row + (from_south ? size.height - 1 - r : r))
-                              .subspan(static_cast<std::size_t>(col), static_cast<std::size_t>(size.width));
-        std::ranges::copy(from, out.row(r).begin());
+    Raster<T> out = surface::window_of(all, {col, row}, grid);
+    for (std::int64_t r = 0; from_south && r < size.height / 2; ++r) {
+        std::ranges::swap_ranges(out.row(r), out.row(size.height - 1 - r));
     }
     return out;
 }
@@ -810,7 +809,7 @@ ExportResult run_export_for(ExportParams const& params, Run const& run) {
         close_gaps_of(read.scene, params, made, run);
     }
     if (made.gaps.is_cut) {
-        rivers = rivers_inside(rivers, read.scene.dem->grid());
+        rivers = rivers_inside(rivers, read.scene.dem->grid(), made);
     }
     json.update(program != nullptr            ? ForProgram(params, *program, read.scene, rivers, out, run).write(made)
                 : preset == ExportPreset::web ? web_for(params, read.scene, out, made, run)

@@ -72,8 +72,8 @@ std::string rim_text(surface::ClosedGaps const& closed, surface::RimGaps how, Gr
 }
 
 std::string holes_text(surface::ClosedGaps const& closed, surface::EnclosedGaps how, std::int64_t cells) {
-    std::string const gaps =
-        fmt::format("{} of {} cells have no data, in {} gaps that land encloses", closed.enclosed, cells, closed.holes);
+    std::string const gaps = fmt::format("{} of {} cells have no data, in {} gap{} that land encloses", closed.enclosed,
+                                         cells, closed.holes, closed.holes == 1 ? "" : "s");
     std::string const levels = closed.low_m == closed.high_m
                                    ? fmt::format("{:.6g} m", closed.low_m)
                                    : fmt::format("{:.6g} to {:.6g} m", closed.low_m, closed.high_m);
@@ -245,10 +245,23 @@ std::string description_of_gaps(ExportResult const& made) {
     return json.dump();
 }
 
-std::vector<RiverSpline> rivers_inside(std::vector<RiverSpline> const& rivers, Grid const& grid) {
+std::vector<RiverSpline> rivers_inside(std::vector<RiverSpline> const& rivers, Grid const& grid, ExportResult& made) {
     std::vector<RiverSpline> out;
+    std::int64_t all = 0;
+    std::int64_t outside = 0;
     for (RiverSpline const& river : rivers) {
         append_parts(river, grid, out);
+        all += static_cast<std::int64_t>(river.line.size());
+        outside += std::ranges::count_if(river.line, [&](Vec3 const& p) {
+            return p.x < grid.west || p.x > grid.east() || p.y < grid.south() || p.y > grid.north;
+        });
+    }
+    if (outside > 0) {
+        made.findings.push_back(
+            {.kind = "off_dem",
+             .amount = static_cast<double>(outside),
+             .text = fmt::format("{} of {} points of rivers lie where the DEM was cut off: rivers end there", outside,
+                                 all)});
     }
     return out;
 }

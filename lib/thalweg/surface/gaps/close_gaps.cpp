@@ -145,8 +145,8 @@ void note_level(ClosedGaps& out, double z) {
 }
 
 /// Fills the gaps of a DEM that are not its rim.
-void fill_enclosed(ClosedGaps& out, Mask const& rim, EnclosedGaps how, Run const& run) {
-    Raster<float> const before = out.dem;
+/// \param before the DEM as it was given, which out still holds
+void fill_enclosed(ClosedGaps& out, Raster<float> const& before, Mask const& rim, EnclosedGaps how, Run const& run) {
     Mask seen = rim;
     Mask gaps(before.grid(), 0);
     float const lowest = lowest_in(before);
@@ -282,7 +282,7 @@ ClosedGaps close_gaps(Raster<float> const& dem, CloseGapsParams const& params, R
             out.dry += out.sea[i] == 0 && dem[i] <= *params.sea_m ? 1 : 0;
         }
     }
-    fill_enclosed(out, rim, params.holes, run);
+    fill_enclosed(out, dem, rim, params.holes, run);
     if (out.rim > 0 && params.rim == RimGaps::cut) {
         cut_rim(out, rim, run);
     } else if (out.rim > 0) {

@@ -32,6 +32,9 @@ auto format_of(std::vector<Named> const& formats, std::string const& name, std::
                                     : who + ": '" + name + "' is not a format; the formats are " + known);
 }
 
+/// The extension of a path in lower case: ".las"; "": none.
+std::string lower_extension(std::string const& path);
+
 /// The letters, in lower case, and digits of a name: "US survey foot", "us_survey_foot" and "US-survey-foot" are equal.
 std::string simple_name(std::string_view name);
 

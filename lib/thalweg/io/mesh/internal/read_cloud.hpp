@@ -23,8 +23,8 @@ struct Cloud {
     std::int64_t left_out = 0;     ///< points of the classes whose height stands for no data
 };
 
-/// Reads a point cloud in passes over the file, which is never whole in memory: one that counts classes; one that finds
-/// where there are points, if a cell has to be chosen; one that takes points.
+/// Reads a point cloud in passes: one that counts classes; one that finds where there are points, if a cell has to be
+/// chosen; one that takes points. Up to 2^25 points are decoded once and kept in between; a larger file is read again.
 /// \param params classes, thin_m and nodata
 /// \param crs of the coordinates; empty: they are metres
 /// \return no points if the file has none

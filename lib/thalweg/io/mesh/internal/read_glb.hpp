@@ -17,9 +17,10 @@ struct GlbTriangles {
     std::string crs;           ///< by thalweg's export; "": none
 };
 
-/// Reads the triangles of a GLB (glTF 2.0 in one file), with the places of its nodes; lines and points, as of rivers,
-/// are skipped. \param bytes of the file \param what names the file in messages \throws BadInput for a damaged file,
-/// compressed or sparse geometry, or other files that it needs
+/// Reads the triangles of a GLB (glTF 2.0 in one file), with the places of its nodes. Lines and points are skipped.
+/// \param bytes of the file
+/// \param what names the file in messages
+/// \throws BadInput for a damaged file, compressed or sparse geometry, or other files that it needs
 ///
 /// Source: Khronos, glTF 2.0.
 GlbTriangles read_glb(std::string const& bytes, std::string const& what);

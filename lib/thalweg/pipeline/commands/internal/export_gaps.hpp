@@ -29,8 +29,8 @@ void close_gaps_of(Scene& scene, ExportParams const& params, ExportResult& made,
 /// \return a JSON object: cells_without_data and, where there are some, without_data_m, rim, holes, sea_level_m
 std::string description_of_gaps(ExportResult const& made);
 
-/// Cuts rivers off at the border of a grid.
+/// Cuts rivers off at the border of a DEM that was cut, and says how much in the result.
 /// \return the parts inside, in order; parts of one arc have its numbers
-std::vector<RiverSpline> rivers_inside(std::vector<RiverSpline> const& rivers, Grid const& grid);
+std::vector<RiverSpline> rivers_inside(std::vector<RiverSpline> const& rivers, Grid const& grid, ExportResult& made);
 
 } // namespace thalweg::pipeline
