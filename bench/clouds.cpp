@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-// thalweg_clouds [POINTS]: a compressed point cloud (LAZ) as `thalweg tin` takes it, beside LASzip's own reading of it and
-// the TIN of the points that remain. Times [s] of one run; the ratio is what thinning and reading twice cost.
+// thalweg_clouds [POINTS]: a compressed point cloud (LAZ) as `thalweg tin` takes it, beside LASzip's own reading of it
+// and the TIN of the points that remain. Times [s] of one run; the ratio is what thinning and reading twice cost.
 #include <chrono>
 #include <cmath>
 #include <cstdint>

@@ -11,7 +11,6 @@
 #include <fmt/format.h>
 
 #include <thalweg/pipeline/commands/export.hpp>
-#include <thalweg/surface/gaps/close_gaps.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -117,11 +116,11 @@ Command add_export(CLI::App& app, Session& session) {
         "cell; of print3d [mm], default 3.");
     app.add_option(
         "--rim", params->rim,
-        "Treat cells without data that are connected with the border: " + names_in_words(surface::rim_gaps()) +
+        "Treat cells without data that are connected with the border: " + names_in_words(pipeline::rim_gaps()) +
             ". cut takes the largest rectangle without them, nearest fills them from the nearest cells, "
             "minimum with the lowest height, sea with --sea-level. Default: cut.");
     app.add_option("--holes", params->holes,
-                   "Treat cells without data that land encloses: " + names_in_words(surface::enclosed_gaps()) +
+                   "Treat cells without data that land encloses: " + names_in_words(pipeline::enclosed_gaps()) +
                        ". shore makes each gap level at the lowest cell beside it. Default: shore. Without --rim, "
                        "--holes and --sea-level, glb, obj and --for web leave cells without data open.");
     app.add_option("--sea-level", params->sea_level_m,

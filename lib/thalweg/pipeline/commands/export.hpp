@@ -12,6 +12,7 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/surface/gaps/close_gaps.hpp>
 
 namespace thalweg::pipeline {
 
@@ -35,6 +36,22 @@ struct ExportPresetName {
 };
 /// \return in the order of the enumeration
 std::vector<ExportPresetName> const& export_presets();
+
+/// The name of a treatment of cells without data that are connected with the border.
+struct RimGapsName {
+    surface::RimGaps rim;
+    char const* name; ///< "cut"
+};
+/// \return in the order of the enumeration
+std::vector<RimGapsName> const& rim_gaps();
+
+/// The name of a treatment of cells without data that land encloses.
+struct EnclosedGapsName {
+    surface::EnclosedGaps holes;
+    char const* name; ///< "shore"
+};
+/// \return in the order of the enumeration
+std::vector<EnclosedGapsName> const& enclosed_gaps();
 
 /// Options of run_export().
 struct ExportParams {
@@ -64,8 +81,8 @@ struct ExportParams {
     std::optional<double> runoff_mm = {};       ///< [mm/a] > 0, of a preset's rivers; 300 if not set
     std::optional<double> tree_line_m = {};     ///< [m] of a preset's land cover; 1800 if not set
     // Cells without data. Meshes of glb and obj, and the preset web, keep them unless one of these is set.
-    std::string rim = {};                   ///< a name of surface::rim_gaps(); "": cut
-    std::string holes = {};                 ///< a name of surface::enclosed_gaps(); "": shore
+    std::string rim = {};                   ///< a name of rim_gaps(); "": cut
+    std::string holes = {};                 ///< a name of enclosed_gaps(); "": shore
     std::optional<double> sea_level_m = {}; ///< [m] of a DEM; nothing: it has no sea
 };
 

@@ -36,10 +36,10 @@ template <class Names> auto named_gaps(Names const& table, std::string const& wo
 surface::CloseGapsParams gap_params(ExportParams const& params) {
     surface::CloseGapsParams out;
     if (!params.rim.empty()) {
-        out.rim = named_gaps(surface::rim_gaps(), params.rim, "--rim").rim;
+        out.rim = named_gaps(rim_gaps(), params.rim, "--rim").rim;
     }
     if (!params.holes.empty()) {
-        out.holes = named_gaps(surface::enclosed_gaps(), params.holes, "--holes").holes;
+        out.holes = named_gaps(enclosed_gaps(), params.holes, "--holes").holes;
     }
     out.sea_m = params.sea_level_m;
     return out;
@@ -170,6 +170,21 @@ void append_parts(RiverSpline const& river, Grid const& grid, std::vector<RiverS
 
 } // namespace
 
+std::vector<RimGapsName> const& rim_gaps() {
+    static std::vector<RimGapsName> const names{{surface::RimGaps::cut, "cut"},
+                                                {surface::RimGaps::nearest, "nearest"},
+                                                {surface::RimGaps::minimum, "minimum"},
+                                                {surface::RimGaps::sea, "sea"}};
+    return names;
+}
+
+std::vector<EnclosedGapsName> const& enclosed_gaps() {
+    static std::vector<EnclosedGapsName> const names{{surface::EnclosedGaps::shore, "shore"},
+                                                     {surface::EnclosedGaps::nearest, "nearest"},
+                                                     {surface::EnclosedGaps::minimum, "minimum"}};
+    return names;
+}
+
 bool asks_for_gaps(ExportParams const& params) {
     return !params.rim.empty() || !params.holes.empty() || params.sea_level_m;
 }
@@ -200,7 +215,7 @@ void close_gaps_of(Scene& scene, ExportParams const& params, ExportResult& made,
     Grid const& after = closed.dem.grid();
     made.holes = closed.rim + closed.enclosed;
     if (closed.rim > 0) {
-        made.gaps.rim = surface::rim_gaps()[static_cast<std::size_t>(how.rim)].name;
+        made.gaps.rim = rim_gaps()[static_cast<std::size_t>(how.rim)].name;
         made.gaps.rim_cells = closed.rim;
         made.gaps.is_cut = how.rim == surface::RimGaps::cut;
         made.findings.push_back({.kind = "rim",
@@ -208,7 +223,7 @@ void close_gaps_of(Scene& scene, ExportParams const& params, ExportResult& made,
                                  .text = rim_text(closed, how.rim, before, how.sea_m.has_value())});
     }
     if (closed.enclosed > 0) {
-        made.gaps.holes = surface::enclosed_gaps()[static_cast<std::size_t>(how.holes)].name;
+        made.gaps.holes = enclosed_gaps()[static_cast<std::size_t>(how.holes)].name;
         made.gaps.hole_cells = closed.enclosed;
         made.gaps.hole_levels_m = {closed.low_m, closed.high_m};
         made.findings.push_back({.kind = "holes",

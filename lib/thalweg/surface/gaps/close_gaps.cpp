@@ -214,18 +214,6 @@ void fill_rim(ClosedGaps& out, Mask const& rim, CloseGapsParams const& params, R
 
 } // namespace
 
-std::vector<RimGapsName> const& rim_gaps() {
-    static std::vector<RimGapsName> const names{
-        {RimGaps::cut, "cut"}, {RimGaps::nearest, "nearest"}, {RimGaps::minimum, "minimum"}, {RimGaps::sea, "sea"}};
-    return names;
-}
-
-std::vector<EnclosedGapsName> const& enclosed_gaps() {
-    static std::vector<EnclosedGapsName> const names{
-        {EnclosedGaps::shore, "shore"}, {EnclosedGaps::nearest, "nearest"}, {EnclosedGaps::minimum, "minimum"}};
-    return names;
-}
-
 Grid largest_rectangle(Mask const& marked, Run const& run) {
     struct Step {
         std::int64_t col = 0; ///< where the columns that are this high begin

@@ -27,22 +27,6 @@ enum class EnclosedGaps : std::uint8_t {
     minimum  ///< all get the lowest height of the DEM
 };
 
-/// A name of RimGaps.
-struct RimGapsName {
-    RimGaps rim;
-    char const* name; ///< "cut"
-};
-/// \return in the order of the enumeration
-std::vector<RimGapsName> const& rim_gaps();
-
-/// A name of EnclosedGaps.
-struct EnclosedGapsName {
-    EnclosedGaps holes;
-    char const* name; ///< "shore"
-};
-/// \return in the order of the enumeration
-std::vector<EnclosedGapsName> const& enclosed_gaps();
-
 /// Options of close_gaps().
 struct CloseGapsParams {
     RimGaps rim = RimGaps::cut;
