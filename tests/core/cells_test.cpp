@@ -5,6 +5,8 @@
 #include <cmath>
 #include <cstdlib>
 #include <limits>
+#include <utility>
+#include <vector>
 
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
@@ -43,6 +45,32 @@ TEST(CellsAlong, RefusesWhatLiesOutside) {
 
 TEST(CellsAlong, OuterEdgesBelongToTheOutermostCells) {
     EXPECT_EQ(cells_along({{700.0, 100.0}}, grid), (std::vector<Cell>{{19, 11}}));
+}
+
+TEST(Grid, CellsOfPlacesOnTheOuterEdge) {
+    for (auto const& [p, cell] : std::vector<std::pair<Vec2, Cell>>{{{500, 220}, {0, 0}},
+                                                                    {{700, 220}, {19, 0}},
+                                                                    {{500, 100}, {0, 11}},
+                                                                    {{700, 100}, {19, 11}},
+                                                                    {{600, 100}, {10, 11}},
+                                                                    {{700, 160}, {19, 6}},
+                                                                    {{690, 110}, {19, 11}}}) {
+        EXPECT_EQ(grid.cell_of(p), cell) << p.x << " " << p.y;
+    }
+    for (Vec2 const outside : {Vec2{700.001, 150}, Vec2{499.999, 150}, Vec2{600, 99.999}, Vec2{600, 220.001}}) {
+        EXPECT_FALSE(grid.contains(grid.cell_of(outside))) << outside.x << " " << outside.y;
+    }
+    ASSERT_TRUE(rc::check("a place on a border lies in a cell, whatever is rounded", [] {
+        Grid any = grid;
+        any.cell_m = 0.001 * *rc::gen::inRange(1, 100000);
+        any.west = 1e-3 * *rc::gen::inRange(-1000000000, 1000000000);
+        any.north = 1e-3 * *rc::gen::inRange(-1000000000, 1000000000);
+        any.width = *rc::gen::inRange(1, 3000);
+        any.height = *rc::gen::inRange(1, 3000);
+        for (Vec2 const p : {Vec2{any.west, any.north}, Vec2{any.east(), any.south()}}) {
+            RC_ASSERT(any.contains(any.cell_of(p)));
+        }
+    }));
 }
 
 TEST(CellsAlong, KnightsMove) {

@@ -9,20 +9,6 @@
 #include <thalweg/core/run/error.hpp>
 
 namespace thalweg {
-namespace {
-
-Cell cell_in(Grid const& grid, Vec2 p) {
-    Cell c = grid.cell_of(p);
-    if (c.col == grid.width && p.x <= grid.east()) {
-        --c.col;
-    }
-    if (c.row == grid.height && p.y >= grid.south()) {
-        --c.row;
-    }
-    return c;
-}
-
-} // namespace
 
 std::vector<Cell> cells_of_vertices(std::vector<Vec2> const& line, Grid const& grid, std::string const& what) {
     std::vector<Cell> cells;
@@ -30,13 +16,13 @@ std::vector<Cell> cells_of_vertices(std::vector<Vec2> const& line, Grid const& g
         // Compare as floating point first: a position far outside has no 64-bit cell.
         bool const within =
             line[i].x >= grid.west && line[i].x <= grid.east() && line[i].y <= grid.north && line[i].y >= grid.south();
-        if (!within || !grid.contains(cell_in(grid, line[i]))) {
+        if (!within || !grid.contains(grid.cell_of(line[i]))) {
             throw BadInput(fmt::format("core.cells_along: vertex {} of {} at ({:.3f}, {:.3f}) lies outside the grid "
                                        "(x {:.3f} to {:.3f}, y {:.3f} to {:.3f}); enlarge the grid or clip the rivers",
                                        i, what, line[i].x, line[i].y, grid.west, grid.east(), grid.south(),
                                        grid.north));
         }
-        cells.push_back(cell_in(grid, line[i]));
+        cells.push_back(grid.cell_of(line[i]));
     }
     return cells;
 }

@@ -46,12 +46,13 @@ struct Grid {
         return {west + (static_cast<double>(c.col) + 0.5) * cell_m,
                 north - (static_cast<double>(c.row) + 0.5) * cell_m};
     }
-    /// Finds the cell of a position.
+    /// Finds the cell of a position. One on the grid's outer edge lies in the outermost cell.
     /// \param p [m]
     /// \return may lie outside the grid
     Cell cell_of(Vec2 p) const {
-        return {static_cast<std::int64_t>(std::floor((p.x - west) / cell_m)),
-                static_cast<std::int64_t>(std::floor((north - p.y) / cell_m))};
+        auto const col = static_cast<std::int64_t>(std::floor((p.x - west) / cell_m));
+        auto const row = static_cast<std::int64_t>(std::floor((north - p.y) / cell_m));
+        return {col == width && p.x <= east() ? col - 1 : col, row == height && p.y >= south() ? row - 1 : row};
     }
     double east() const { return west + static_cast<double>(width) * cell_m; }
     double south() const { return north - static_cast<double>(height) * cell_m; }
