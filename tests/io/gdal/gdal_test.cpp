@@ -8,6 +8,8 @@
 #include <thread>
 #include <vector>
 
+#include <fmt/format.h>
+#include <gdal.h>
 #include <gtest/gtest.h>
 #include <rapidcheck.h>
 
@@ -15,6 +17,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/network/table.hpp>
 
@@ -54,6 +57,18 @@ TEST(Packed, BeyondTwoGibibytesIsRefused) {
     std::uint8_t const one = 0;
     std::span<std::uint8_t const> const too_many(&one, std::size_t{1} << 31U); // refused before a byte is read
     EXPECT_THROW(io::packed(too_many), BadInput);
+}
+
+// A name with an address would read the program's memory as it stands, whatever lies there.
+TEST(Access, NamesThatHoldAnAddressAreNotOpened) {
+    io::Driver const driver;
+    std::vector<std::uint8_t> const cells(16, 7);
+    std::string const name =
+        fmt::format("MEM:::DATAPOINTER={},PIXELS=4,LINES=4", static_cast<void const*>(cells.data()));
+    EXPECT_EQ(GDALOpenEx(name.c_str(), GDAL_OF_RASTER, nullptr, nullptr, nullptr), nullptr);
+    GDALDatasetH const made = GDALCreate(GDALGetDriverByName("MEM"), "", 4, 4, 1, GDT_Byte, nullptr);
+    EXPECT_NE(made, nullptr) << "it may still be made";
+    GDALClose(made);
 }
 
 TEST(Threads, OneReadsAFileOfARecipeWhileAnotherWritesElsewhere) {

@@ -472,6 +472,57 @@ TEST_F(Hostile, FilesOnTheCommandLineAreReadWithoutAConnection) {
     }
 }
 
+// A name that says .vrt may lead anywhere; under another one a virtual file stays in its folder, and none reads the
+// bytes of what is no raster.
+TEST_F(Hostile, VirtualFilesUnderOtherNamesStayInTheirFolder) {
+    fs::copy_file(elsewhere() / "secret.tif", inside() / "near.tif");
+    fs::copy_file(elsewhere() / "secret.gpkg", inside() / "near.gpkg");
+    std::string const raw = "<VRTDataset rasterXSize='64' rasterYSize='64'><VRTRasterBand dataType='Byte' band='1' "
+                            "subClass='VRTRawRasterBand'><SourceFilename relativetoVRT='1'>near.tif</SourceFilename>"
+                            "</VRTRasterBand></VRTDataset>";
+    auto const near = [](std::string const& name) {
+        return replaced(gdal_vrt(name, ">"), "relativeToVRT='0'", "relativeToVRT='1'");
+    };
+    std::string const inline_raw = replaced(replaced(raw, "<", "&lt;"), "'", "&quot;");
+    Files const files{
+        {"far.vrt", gdal_vrt("@OUT@/secret.tif", ">")},
+        {"far.tif", gdal_vrt("@OUT@/secret.tif", ">")},
+        {"up.tif", near("../elsewhere/secret.tif")},
+        {"near.vrt", near("near.tif")},
+        {"near.png", near("near.tif")},
+        {"nested.tif", near("far.vrt")},
+        {"raw.vrt", raw},
+        {"raw.tif", raw},
+        {"of_raw.vrt", near("raw.vrt")},
+        {"scheme.vrt", near("vrt://raw.vrt?bands=1")},
+        {"within.vrt", gdal_vrt(inline_raw, ">")},
+        {"lines.vrt", replaced(ogr_vrt("near.gpkg"), "<SrcDataSource>", "<SrcDataSource relativeToVRT='1'>")},
+        {"lines.gml", replaced(ogr_vrt("@OUT@/secret.gpkg"), ">secret<", ">secret<")}};
+    for (char const* const fine : {"stats far.vrt", "stats near.vrt", "stats near.png", "draw far.vrt -o out"}) {
+        Outcome const o = run(fine, files);
+        EXPECT_EQ(o.code, 0) << fine << "\n" << o.err;
+    }
+    std::string const elsewhere_words = "rename it to .vrt";
+    for (std::string const& command : std::vector<std::string>{
+             "stats @ --json", "draw @ -o out", "check " + samples + "walker_nhdplus.gpkg --dem @", "points @ -o a.las",
+             "export @ --for unity -o out", "deform @ --scale 2 --mask near.tif -o out.tif",
+             "make --set grid.width=64 --set grid.height=64 --set surface.uplift=@ -o out",
+             "make --set patch.1.source=@ --set network.dla.particles=400 -o out",
+             "blend near.tif @ --at 500900,4999000 -o out.tif"}) {
+        for (char const* const name :
+             {"far.tif", "up.tif", "nested.tif", "raw.vrt", "raw.tif", "of_raw.vrt", "scheme.vrt", "within.vrt"}) {
+            Outcome const o = run(replaced(command, "@", name), files);
+            EXPECT_EQ(o.code, 2) << command << " " << name << "\n" << o.err;
+            bool const is_raw = std::string(name).find("raw") != std::string::npos ||
+                                std::string(name) == "scheme.vrt" || std::string(name) == "within.vrt";
+            EXPECT_TRUE(test::has(o.err, is_raw ? "reads the bytes of another file" : elsewhere_words))
+                << command << " " << name << "\n"
+                << o.err;
+        }
+    }
+    EXPECT_TRUE(test::has(run("check lines.gml", files).err, elsewhere_words));
+}
+
 TEST_F(Hostile, ConnectionsThatTheCommandLineNamesAreMade) {
     for (std::string const name : {"PG:host=127.0.0.1 port=@PORT@ dbname=x", "/vsicurl/@URL@/a.geojson"}) {
         Outcome const o = run("make '" + name + "' -o out", {});

@@ -13,6 +13,7 @@
 #include <fstream>
 #include <map>
 #include <mutex>
+#include <span>
 #include <string_view>
 #include <system_error>
 #include <thread>
@@ -79,6 +80,9 @@ constexpr std::array network_drivers{
     "MongoDBv3",     "MSSQLSpatial", "MySQL",    "NAS",      "NGW",      "OAPIF",    "OCI",
     "ODBC",          "OGCAPI",       "OGR_OGDI", "PGeo",     "PLMOSAIC", "PLSCENES", "PostGISRaster",
     "RDA",           "STACIT",       "STACTA",   "WCS",      "WFS",      "WMS",      "WMTS"};
+
+// Drivers of files that make GDAL open others by any driver, and hold no heights or rivers that a user would name.
+constexpr std::array chained_drivers{"GTI", "KMLSuperOverlay", "PDF", "Rasterlite", "RPFTOC", "RS2"};
 
 // GDAL's file systems that stay on this machine.
 constexpr std::array local_systems{"/vsimem/",   "/vsizip/",     "/vsigzip/",
@@ -337,10 +341,17 @@ void leave_gdal() {
 
 void guard_gdal() {
     if (!is_shared) {
-        for (char const* const name : network_drivers) {
-            if (GDALDriver* const driver = take_away(name)) {
-                unregistered_drivers().never.push_back(driver);
+        for (auto const& names :
+             {std::span<char const* const>(network_drivers), std::span<char const* const>(chained_drivers)}) {
+            for (char const* const name : names) {
+                if (GDALDriver* const driver = take_away(name)) {
+                    unregistered_drivers().never.push_back(driver);
+                }
             }
+        }
+        if (GDALDriver* const memory = GetGDALDriverManager()->GetDriverByName("MEM")) {
+            memory->pfnOpen = nullptr; // a name with an address would be read as it stands; creating needs none
+            memory->pfnIdentify = nullptr;
         }
         unregistered_drivers().postgres = take_away("PostgreSQL");
         unregistered_drivers().netcdf = take_away("netCDF");

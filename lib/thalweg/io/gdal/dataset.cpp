@@ -30,6 +30,7 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/access.hpp>
+#include <thalweg/io/gdal/internal/virtual_files.hpp>
 
 namespace thalweg::io {
 
@@ -358,6 +359,11 @@ Dataset open_unchanged(Source const& source, unsigned kinds) {
     held->file = std::make_unique<UnchangedFile const>(path);
     held->netcdf = std::make_unique<WithNetcdf const>(path);
     std::string const name = inside_archive(held->file->path());
+    if (is_virtual_in_disguise(name, path)) { // who names a picture does not expect to read files elsewhere
+        held->folder = std::make_unique<Confined const>(path);
+        held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
+    }
+    require_honest_sources(name, path);
     return opened(name, kinds, nullptr, held, path);
 }
 
@@ -432,6 +438,9 @@ Dataset open_file(Source const& source, unsigned kinds, std::string const& what)
         std::string words = CPLGetLastErrorMsg();
         words = words.empty() ? "its format is not known" : words;
         words.erase(words.find_last_not_of('.') + 1);
+        std::error_code ignored;
+        refuse_if<BadInput>(fs::is_directory(source.path, ignored),
+                            "{} is a folder, and holds nothing that GDAL reads as a whole: name a file in it", what);
         std::string const other = data_beside(source.path);
         throw BadInput(fmt::format("{} cannot be read: {}{}", what, words,
                                    other.empty() ? "" : fmt::format("; its data are in {}: name that file", other)));
