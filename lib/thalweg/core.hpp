@@ -3,6 +3,7 @@
 #pragma once
 
 /// All public headers of the module.
+#include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/channels.hpp>

@@ -149,6 +149,10 @@ int make_ensemble(MakeOptions& options, Session& session) {
     }
     json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(made.findings));
     fmt::print("{}\n", session.json ? json.dump(2) : params.output);
+    if (session.quiet && made.failed + made.checks_failed > 0) { // no exit code without a word
+        write_to_stderr(fmt::format("error: of {} members {} could not be made and {} fail a check: see {}\n",
+                                    made.members, made.failed, made.checks_failed, made.table));
+    }
     return made.failed > 0 ? Exit::failed : made.checks_failed > 0 ? Exit::check_failed : Exit::done;
 }
 
@@ -206,6 +210,10 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
     }
     fmt::print("{}", session.json ? io::read_text(options.params.output + "/report.json", 1 << 30)
                                   : options.params.output + "\n");
+    if (session.quiet && !made.assessment.passed()) {
+        auto const failed = std::ranges::find(made.assessment.checks, false, &Check::ok);
+        write_to_stderr(fmt::format("error: a check failed: {}\n", in_words(*failed)));
+    }
     return made.assessment.passed() ? Exit::done : Exit::check_failed;
 }
 

@@ -371,6 +371,8 @@ inline constexpr auto finding_rows = [] {
          "Column reason of table.csv says why; the same command tries failed members again."},
         {"members_warned", warning, always, "members", "Members of an ensemble have warnings.",
          "Column warnings of table.csv counts them; make of one member prints them."},
+        {"rows_damaged", warning, always, "rows", "Rows of an ensemble's journals are damaged.",
+         "Nothing to do: the members are made again. Rows of an older version of thalweg count as damaged too."},
         {"share_in_use", warning, always, "", "Another process works on the same share of an ensemble.",
          "Give each process a share of its own."},
     });

@@ -5,6 +5,7 @@
 #include <string>
 
 #include <gtest/gtest.h>
+#include <io/scratch_folder.hpp>
 
 #include <thalweg/core/run/error.hpp>
 
@@ -29,6 +30,31 @@ TEST(Tar, AnEntryIsAHeaderAndWholeBlocks) {
     EXPECT_EQ(io::tar_entry("x", "").size(), 512U);
     EXPECT_EQ(io::tar_entry("x", std::string(512, 'y')).size(), 1024U);
     EXPECT_EQ(io::tar_end(), std::string(1024, '\0'));
+}
+
+TEST(Tar, EntriesAreListed) {
+    ScratchFolder const folder;
+    std::string const first = io::tar_entry("a.txt", "seven!\n");
+    std::string const whole =
+        first + io::tar_entry("b", "") + io::tar_entry("c", std::string(513, 'y')) + io::tar_end();
+    folder.write("all.tar", whole);
+    auto const entries = io::tar_entries(folder / "all.tar");
+    ASSERT_EQ(entries.size(), 3U);
+    EXPECT_EQ(entries[0].name + entries[1].name + entries[2].name, "a.txtbc");
+    EXPECT_EQ(entries[0].begin, 0);
+    EXPECT_EQ(entries[0].end, 1024);
+    EXPECT_EQ(entries[1].end, 1536);
+    EXPECT_EQ(entries[2].end, 1536 + 512 + 1024);
+    EXPECT_EQ(whole.substr(0, 1024), first);
+    for (std::size_t const cut : {std::size_t{100}, std::size_t{700}, std::size_t{1536}, whole.size() - 1024}) {
+        folder.write("cut.tar", whole.substr(0, cut));
+        EXPECT_THROW(io::tar_entries(folder / "cut.tar"), BadInput) << cut;
+    }
+    std::string damaged = whole;
+    damaged[1024 + 130] = 'x';
+    folder.write("damaged.tar", damaged);
+    EXPECT_THROW(io::tar_entries(folder / "damaged.tar"), BadInput);
+    EXPECT_THROW(io::tar_entries(folder / "none.tar"), IoError);
 }
 
 TEST(Tar, ANameOf100BytesFits) {

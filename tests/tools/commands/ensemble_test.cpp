@@ -2,16 +2,22 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // thalweg make --ensemble: many terrains, one table.
 #include <algorithm>
+#include <chrono>
+#include <cstdint>
 #include <filesystem>
 #include <fstream>
+#include <iomanip>
 #include <sstream>
 #include <string>
+#include <thread>
 #include <vector>
 
 #include <fcntl.h>
 #include <gtest/gtest.h>
+#include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <sys/file.h>
 #include <sys/resource.h>
+#include <sys/stat.h>
 #include <unistd.h>
 
 #include "command.hpp"
@@ -126,7 +132,7 @@ TEST(EnsembleCommand, FailedMembersAreRows) {
     EXPECT_TRUE(fs::exists(place / "out/member_00002/dem.tif"));
     EXPECT_FALSE(fs::exists(place / "out/member_00001"));
     std::string const table = file_bytes(place / "out/table.csv");
-    expect_run(place, two + "-q", 1);
+    expect_run(place, two + "-q", 1, "error: of 4 members 2 could not be made and 0 fail a check: see out/table.csv");
     EXPECT_TRUE(file_bytes(place / "out/table.csv") == table);
 }
 
@@ -195,6 +201,178 @@ TEST(EnsembleCommand, ASecondRunInTheFolderIsRefused) {
     expect_run(place, few + "-o mine", 2, "mine already exists and holds no ensemble");
     fs::remove_all(place / "mine");
     EXPECT_EQ(content(place.path()).size(), before.size());
+}
+
+// Several first runs in one folder at once: one makes all members, the others say that it works there, or go on with
+// it.
+void first_runs_at_once(int rounds) {
+    Workplace const place;
+    std::string const tiny = "make --set grid.width=64 --set grid.height=48 --ensemble 3 "
+                             "--only table --threads 1 -q -o ";
+    expect_run(place, tiny + "alone", 0);
+    std::string const table = file_bytes(place / "alone/table.csv");
+    for (int round = 0; round < rounds; ++round) {
+        std::string const folder = "out" + std::to_string(round);
+        std::vector<Outcome> runs(3);
+        {
+            std::vector<std::jthread> threads;
+            for (Outcome& run : runs) {
+                threads.emplace_back([&] { run = thalweg_run(tiny + folder, place.path()); });
+            }
+        }
+        int done = 0;
+        for (Outcome const& run : runs) {
+            done += run.code == 0 ? 1 : 0;
+            EXPECT_TRUE(run.code == 0 || (run.code == 2 && test::has(run.err, "another thalweg works in " + folder)))
+                << round << " " << run.code << " " << run.err;
+        }
+        EXPECT_GE(done, 1) << round;
+        EXPECT_EQ(file_bytes(place / folder / "table.csv"), table) << round;
+        std::string journals;
+        for (auto const& entry : fs::directory_iterator(place / folder / ".ensemble")) {
+            journals += entry.path().extension() == ".jsonl" ? file_bytes(entry.path()) : "";
+        }
+        EXPECT_EQ(std::ranges::count(journals, '\n'), 3) << round << ": each member was made once";
+    }
+}
+
+TEST(EnsembleCommand, OfFirstRunsAtOnceOneWorks) {
+    first_runs_at_once(5);
+}
+
+TEST(SoakEnsembleCommand, OfFirstRunsAtOnceOneWorks) {
+    first_runs_at_once(50);
+}
+
+TEST(EnsembleCommand, AFirstRunThatFailsLeavesNothing) {
+    Workplace const place;
+    place.write("recipe.toml", "[grid]\nwidth = 24\nheight = 20\n[network]\nsource = \"lines\"\n[network.lines]\n"
+                               "path = \"gone.gpkg\"\n[surface]\n");
+    expect_run(place, "make recipe.toml --ensemble 2 -o out", 2, "gone.gpkg");
+    EXPECT_EQ(names_in(place.path()), (std::vector<std::string>{"recipe.toml"}));
+}
+
+TEST(EnsembleCommand, ThatFailedForAReasonThatPassedIsMadeAgainInShardsToo) {
+    Workplace const place;
+    expect_run(place, few + "-o whole --shards 4", 0);
+    // As written by a run in which memory lacked for member 2: its row says so, and the shard has nothing of it.
+    expect_run(place, few + "-o out --shards 4", 0);
+    std::string const journal = file_bytes(journal_of(place / "out"));
+    std::istringstream lines(journal);
+    std::string changed;
+    for (std::string line; std::getline(lines, line);) {
+        if (line.starts_with("{\"member\":2,")) {
+            line.replace(line.find("\"status\":\"ok\""), 13, "\"status\":\"failed\"");
+            std::size_t const end = line.find(",\"sum\":");
+            line = line.substr(0, end);
+            std::uint64_t hash = 0xcbf29ce484222325;
+            for (char const c : line) {
+                hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+            }
+            std::ostringstream sum;
+            sum << std::hex << std::setw(16) << std::setfill('0') << hash;
+            line += ",\"sum\":\"" + sum.str() + "\"}";
+        }
+        changed += line + "\n";
+    }
+    std::ofstream(journal_of(place / "out"), std::ios::binary | std::ios::trunc) << changed;
+    place.shell("mkdir x && cd x && tar xf ../out/shard-000000.tar && rm 00000002.* && "
+                "tar cf ../out/shard-000000.tar --format=ustar --blocking-factor=1 $(ls | sort -t. -k1,1n)");
+    Outcome const again = expect_run(place, few + "-o out --shards 4 --json", 0);
+    EXPECT_EQ(again.json()["made_now"], 1);
+    EXPECT_TRUE(file_bytes(place / "out/table.csv") == file_bytes(place / "whole/table.csv"));
+    place.shell(
+        "for f in whole out; do mkdir $f.x && tar xf $f/shard-000000.tar -C $f.x; done && diff -r whole.x out.x");
+    EXPECT_EQ(expect_run(place, few + "-o out --shards 4 --json", 0).json()["made_now"], 0);
+    // A row that tells of the member, and a shard that was not written yet.
+    place.shell("cd x && tar cf ../out/shard-000000.tar --format=ustar --blocking-factor=1 $(ls | sort -t. -k1,1n)");
+    EXPECT_EQ(expect_run(place, few + "-o out --shards 4 --json", 0).json()["made_now"], 1);
+    place.shell("mkdir y && tar xf out/shard-000000.tar -C y && diff -r whole.x y");
+}
+
+TEST(EnsembleCommand, DamagedJournalsAreMendedOrRefusedInWords) {
+    Workplace const place;
+    std::string const run = few + "--only table -o out";
+    expect_run(place, run, 0);
+    std::string const table = file_bytes(place / "out/table.csv");
+    fs::path const path = journal_of(place / "out");
+    std::string const journal = file_bytes(path);
+    for (std::size_t at = 7; at < journal.size(); at += journal.size() / 40) {
+        if (journal[at] == '\n') {
+            continue;
+        }
+        std::string changed = journal;
+        changed[at] = changed[at] == '7' ? '8' : '7';
+        for (auto const& entry : fs::directory_iterator(place / "out/.ensemble")) {
+            fs::remove(entry.path());
+        }
+        std::ofstream(path, std::ios::binary | std::ios::trunc) << changed;
+        Outcome const again = expect_run(place, few + "--only table --json -o out", 0);
+        EXPECT_EQ(again.json()["made_now"], 1) << at;
+        EXPECT_EQ(again.json()["findings"][0]["kind"], "rows_damaged") << at;
+        EXPECT_EQ(file_bytes(place / "out/table.csv"), table) << at;
+    }
+    // Neither waits for others nor leads elsewhere.
+    ASSERT_EQ(mkfifo((place / "out/.ensemble/rows-a.jsonl").c_str(), 0600), 0);
+    expect_run(place, run, 2, "rows-a.jsonl", "remove it");
+    fs::remove(place / "out/.ensemble/rows-a.jsonl");
+    fs::create_symlink("/dev/zero", place / "out/.ensemble/rows-b.jsonl");
+    expect_run(place, run, 2, "rows-b.jsonl", "remove it");
+    fs::remove(place / "out/.ensemble/rows-b.jsonl");
+    place.write("mine.txt", "mine");
+    for (char const* const name : {"run.lock", "start.lock"}) {
+        fs::remove(place / "out/.ensemble" / name);
+        fs::create_symlink("../../mine.txt", place / "out/.ensemble" / name);
+        expect_run(place, run, 2, name, "is a link: remove it");
+        fs::remove(place / "out/.ensemble" / name);
+        ASSERT_EQ(mkfifo((place / "out/.ensemble" / name).c_str(), 0600), 0);
+        expect_run(place, run, 2, name, "is a pipe or a device");
+        fs::remove(place / "out/.ensemble" / name);
+    }
+    fs::rename(place / "out/.ensemble", place / "elsewhere");
+    fs::create_symlink("../elsewhere", place / "out/.ensemble");
+    expect_run(place, run, 2, ".ensemble is a link");
+    EXPECT_EQ(file_bytes(place / "mine.txt"), "mine");
+}
+
+TEST(EnsembleCommand, AMemberThatLostAFileIsMadeAgain) {
+    Workplace const place;
+    expect_run(place, few + "-o out", 0);
+    auto const before = content(place / "out/member_00003");
+    fs::remove(place / "out/member_00003/dem.tif");
+    place.write("out/member_00003/notes.txt", "mine");
+    EXPECT_EQ(expect_run(place, few + "--json -o out", 0).json()["made_now"], 1);
+    auto after = content(place / "out/member_00003");
+    EXPECT_EQ(after["dem.tif"], before.at("dem.tif"));
+    EXPECT_EQ(after["notes.txt"], "mine");
+    EXPECT_EQ(after.size(), before.size() + 1);
+    EXPECT_EQ(expect_run(place, few + "--json -o out", 0).json()["made_now"], 0);
+}
+
+// The numbers of members take no memory of their own, and Ctrl-C is obeyed at once.
+TEST(EnsembleCommand, ALargeOneStopsAtCtrlC) {
+    Workplace const place;
+    std::string const words = "make --set grid.width=64 --set grid.height=48 --ensemble "
+                              "100000000 --only table --threads 1 -o out";
+    std::istringstream stream(words);
+    Spawned run({std::istream_iterator<std::string>(stream), {}}, place.path(), [] {
+        rlimit const limit{std::uint64_t{1200} << 20U, std::uint64_t{1200} << 20U};
+        setrlimit(RLIMIT_AS, &limit);
+    });
+    auto const has_members = [&] {
+        return fs::exists(place / "out/.ensemble") && !journal_of(place / "out").empty() &&
+               fs::file_size(journal_of(place / "out")) > 0;
+    };
+    for (int i = 0; i < 600 && !has_members(); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    EXPECT_TRUE(has_members());
+    auto const begin = std::chrono::steady_clock::now();
+    kill(run.pid(), SIGINT);
+    Ended const ended = run.wait(60.0);
+    EXPECT_EQ(ended.code, 130) << ended.err;
+    EXPECT_LT(std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count(), 3.0);
+    EXPECT_TRUE(test::has(ended.err, "of 100000000 members are in out. The same command goes on")) << ended.err;
 }
 
 TEST(EnsembleCommand, AFullDiskIsToldAndLeavesWholeMembers) {

@@ -2,8 +2,11 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/io/files/tar.hpp>
 
+#include <charconv>
 #include <cstddef>
 #include <cstdint>
+#include <fstream>
+#include <system_error>
 
 #include <fmt/format.h>
 
@@ -49,6 +52,32 @@ std::string tar_entry(std::string const& name, std::string_view bytes) {
 std::string tar_end() {
     std::string zeros(2 * block, '\0');
     return zeros;
+}
+
+std::vector<TarEntry> tar_entries(std::string const& path) {
+    std::ifstream file(path, std::ios::binary | std::ios::ate);
+    refuse_if<IoError>(!file, "io.tar_entries: {} cannot be opened", path);
+    auto const size = static_cast<std::int64_t>(file.tellg());
+    constexpr auto step = static_cast<std::int64_t>(block);
+    std::vector<TarEntry> entries;
+    std::int64_t at = 0;
+    for (std::string header(block, '\0'); at + step <= size;) {
+        file.seekg(at);
+        refuse_if<IoError>(!file.read(header.data(), step), "io.tar_entries: {} cannot be read", path);
+        if (header.find_first_not_of('\0') == std::string::npos) {
+            return entries;
+        }
+        std::int64_t bytes = 0;
+        char const* const digits = header.data() + 124;
+        auto const [stop, fault] = std::from_chars(digits, digits + 11, bytes, 8);
+        std::int64_t const end = at + step + (bytes + step - 1) / step * step;
+        refuse_if<BadInput>(header.compare(257, 5, "ustar") != 0 || fault != std::errc() || stop != digits + 11 ||
+                                end > size,
+                            "io.tar_entries: {} is cut off or damaged at byte {}", path, at);
+        entries.push_back({header.c_str(), at, end});
+        at = end;
+    }
+    throw BadInput(fmt::format("io.tar_entries: {} is cut off at byte {}", path, at));
 }
 
 } // namespace thalweg::io

@@ -2,8 +2,10 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <cstdint>
 #include <string>
 #include <string_view>
+#include <vector>
 
 namespace thalweg::io {
 
@@ -19,5 +21,19 @@ std::string tar_entry(std::string const& name, std::string_view bytes);
 
 /// \return the end of an archive: two empty blocks
 std::string tar_end();
+
+/// Where a file lies in an archive.
+struct TarEntry {
+    std::string name;
+    std::int64_t begin = 0; ///< [bytes] of its header
+    std::int64_t end = 0;   ///< [bytes] after its last block
+};
+
+/// Lists the entries of an archive of tar_entry() and tar_end().
+/// \param path of the archive
+/// \return in their order
+/// \throws BadInput naming the archive when it is cut off or not such an archive
+/// \throws IoError when it cannot be read
+std::vector<TarEntry> tar_entries(std::string const& path);
 
 } // namespace thalweg::io

@@ -216,9 +216,9 @@ private:
 };
 
 /// Hands out numbers of a list.
-Next in_order(std::vector<std::int64_t> const& numbers, std::atomic<std::size_t>& next) {
+Next in_order(MemberNumbers const& numbers, std::atomic<std::int64_t>& next) {
     return [&numbers, &next]() -> std::optional<std::int64_t> {
-        std::size_t const i = next++;
+        std::int64_t const i = next++;
         return i < numbers.size() ? std::optional(numbers[i]) : std::nullopt;
     };
 }
@@ -245,15 +245,13 @@ std::string range_of(std::uint64_t first, std::int64_t members) {
 namespace {
 
 /// Says where the work stopped.
-std::string account_of_stop(MemberStore& store, Share const& share, std::string const& folder) {
-    std::int64_t const all = store.members_of(share);
-    return fmt::format("{} of {} members are in {}. The same command goes on",
-                       all - static_cast<std::int64_t>(store.missing(share).size()), all, folder);
+std::string account_of_stop(std::int64_t there, std::int64_t all, std::string const& folder) {
+    return fmt::format("{} of {} members are in {}. The same command goes on", there, all, folder);
 }
 
 /// Writes the tables, and says what was not ok.
 void finish(MemberStore& store, EnsembleParams const& params, EnsembleResult& result, Run const& run) {
-    Journals::Account const account = store.finish();
+    Journals::Account const account = store.finish(run);
     result.ok = account.ok;
     result.checks_failed = account.checks_failed;
     result.failed = account.failed;
@@ -269,10 +267,10 @@ void finish(MemberStore& store, EnsembleParams const& params, EnsembleResult& re
 }
 
 /// Makes members, and deals them to other ranks where there are any.
-std::int64_t work_on(MemberStore& store, std::vector<std::int64_t> const& missing, Ranks* ranks, Run const& run) {
-    std::atomic<std::size_t> next = 0;
+std::int64_t work_on(MemberStore& store, MemberNumbers const& missing, Ranks* ranks, Run const& run) {
+    std::atomic<std::int64_t> next = 0;
     Next const hand_out = in_order(missing, next);
-    Pool pool(store, hand_out, static_cast<std::int64_t>(missing.size()), run);
+    Pool pool(store, hand_out, missing.size(), run);
     if (ranks == nullptr) {
         pool.work();
         return pool.made();
@@ -297,7 +295,7 @@ std::int64_t work_on(MemberStore& store, std::vector<std::int64_t> const& missin
         std::rethrow_exception(failure);
     }
     refuse_if<IoError>(!others_fine, "another rank has failed");
-    return static_cast<std::int64_t>(missing.size());
+    return missing.size();
 }
 
 EnsembleResult run_first(EnsembleParams const& params, Ranks* ranks, Run const& run) {
@@ -313,11 +311,17 @@ EnsembleResult run_first(EnsembleParams const& params, Ranks* ranks, Run const& 
         Share const share{params.share, params.shares};
         MemberStore store(params.output, asked.ensemble, params.vary, asked.files,
                           share.of > 1 ? MemberStore::Role::share : MemberStore::Role::alone, share, run);
-        std::vector<std::int64_t> const missing = store.missing(share);
+        MemberNumbers const missing = store.missing(share, run);
         EnsembleResult result{.members = params.members};
         result.findings = store.findings();
         run.report(result.findings);
-        result.found = store.members_of(share) - static_cast<std::int64_t>(missing.size());
+        std::int64_t const all = store.members_of(share);
+        result.found = all - missing.size();
+        auto const account = [&] { // without a stop token: it has been triggered
+            std::int64_t const there =
+                ranks != nullptr ? all - store.missing(share, {}).size() : result.found + store.added();
+            return account_of_stop(there, all, params.output);
+        };
         run.tell("ensemble", fmt::format("{} members, {}{}{}{}", params.members,
                                          range_of(asked.ensemble.recipe.seed, params.members),
                                          share.of > 1 ? fmt::format(", share {} of {}", share.number, share.of) : "",
@@ -328,9 +332,9 @@ EnsembleResult run_first(EnsembleParams const& params, Ranks* ranks, Run const& 
         try {
             result.made_now = work_on(store, missing, ranks, run);
         } catch (Cancelled const&) {
-            throw Cancelled("interrupted; " + account_of_stop(store, share, params.output));
+            throw Cancelled("interrupted; " + account());
         } catch (IoError const& error) {
-            throw IoError(fmt::format("{}; {}", error.what(), account_of_stop(store, share, params.output)));
+            throw IoError(fmt::format("{}; {}", error.what(), account()));
         }
         result.seconds = stopwatch.time_of("members").wall_s;
         run.tell("members", fmt::format("{} made, {:.3g} a second", result.made_now,

@@ -760,20 +760,8 @@ ForJson web_for(ExportParams const& params, Scene const& scene, io::OutputFolder
 /// Files of an earlier export in a folder.
 std::vector<std::string> exported_before(std::string const& folder) {
     fs::path const path = fs::path(folder) / description_for;
-    std::vector<std::string> files;
-    if (!fs::exists(path)) {
-        return files;
-    }
     constexpr std::int64_t largest = 64 << 20;
-    auto const json = nlohmann::json::parse(io::read_text(path.string(), largest), nullptr, false);
-    if (json.is_object() && json.contains("files") && json["files"].is_array()) {
-        for (auto const& name : json["files"]) {
-            if (name.is_string()) {
-                files.push_back(name.get<std::string>());
-            }
-        }
-    }
-    return files;
+    return fs::exists(path) ? files_of_report(io::read_text(path.string(), largest)) : std::vector<std::string>{};
 }
 
 } // namespace

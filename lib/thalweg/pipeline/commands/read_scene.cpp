@@ -11,6 +11,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/draw/sections.hpp>
 #include <thalweg/io/files/files.hpp>
@@ -145,7 +146,7 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
 
 /// Reads the increments of the surface: the recipe names them, the report has their number and scale.
 void read_increments(Scene& scene, Recipe const& recipe, std::string const& report) {
-    auto const json = nlohmann::json::parse(report, nullptr, false);
+    auto const json = bounded_json<nlohmann::json>(report, {.most_keys = std::size_t{1} << 20U});
     auto const dem = json.is_object() && json.contains("dem") ? json["dem"] : nlohmann::json();
     if (!recipe.surface || !dem.is_object() || !dem.contains("levels") || !dem["levels"].is_number_integer() ||
         !dem.contains("metres_per_unit") || !dem["metres_per_unit"].is_number()) {

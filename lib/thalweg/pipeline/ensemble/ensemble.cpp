@@ -16,6 +16,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/pipeline/ensemble/internal/table.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
@@ -23,15 +24,6 @@ namespace thalweg::pipeline {
 namespace {
 
 constexpr std::uint64_t vary_stage = 0x76617279; // "vary"
-
-/// FNV-1a.
-std::uint64_t hash_of(std::string_view text) {
-    std::uint64_t hash = 0xcbf29ce484222325;
-    for (char const c : text) {
-        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
-    }
-    return hash;
-}
 
 std::string_view trimmed(std::string_view text) {
     while (!text.empty() && text.front() == ' ') {

@@ -8,14 +8,18 @@
 #include <cstdio>
 #include <filesystem>
 #include <fstream>
+#include <map>
 #include <memory>
+#include <optional>
 #include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::pipeline {
 
@@ -23,6 +27,53 @@ namespace {
 
 namespace fs = std::filesystem;
 using nlohmann::ordered_json;
+
+constexpr std::string_view sum_key = ",\"sum\":\"";
+
+/// Ends a line of JSON with a checksum of what stands before it.
+std::string with_sum(std::string line) {
+    line.pop_back(); // the brace
+    return fmt::format("{}{}{:016x}\"}}", line, sum_key, hash_of(line));
+}
+
+bool has_its_sum(std::string_view line) {
+    std::size_t const size = sum_key.size() + 18;
+    if (line.size() <= size) {
+        return false;
+    }
+    std::string_view const before = line.substr(0, line.size() - size);
+    return line.substr(before.size()) == fmt::format("{}{:016x}\"}}", sum_key, hash_of(before));
+}
+
+/// Whether a row has what is read of it, each of its kind.
+bool is_row(ordered_json const& row) {
+    auto const has = [&](char const* name, auto is_right) {
+        auto const at = row.find(name);
+        return at != row.end() && ((*at).*is_right)();
+    };
+    auto const all = [&](char const* name, auto is_right) {
+        return std::ranges::all_of(row[name], [&](ordered_json const& one) { return (one.*is_right)(); });
+    };
+    using J = ordered_json;
+    constexpr auto text = static_cast<bool (J::*)() const noexcept>(&J::is_string);
+    constexpr auto number = static_cast<bool (J::*)() const noexcept>(&J::is_number);
+    constexpr auto whole = static_cast<bool (J::*)() const noexcept>(&J::is_number_unsigned);
+    constexpr auto object = static_cast<bool (J::*)() const noexcept>(&J::is_object);
+    constexpr auto array = static_cast<bool (J::*)() const noexcept>(&J::is_array);
+    return row.is_object() && has("member", whole) && has("seed", whole) && has("keys", object) && all("keys", text) &&
+           has("status", text) && has("reason", text) && has("warnings", whole) && has("first_warning", text) &&
+           has("values", object) && has("seconds", number) && has("cpu_s", number) && has("write_s", number) &&
+           has("stages", object) && all("stages", number) && has("files", array) && all("files", text);
+}
+
+/// The row of a journal's line; nothing when it is not as row_json() wrote it.
+std::optional<ordered_json> row_in(std::string const& line) {
+    if (!has_its_sum(line)) {
+        return std::nullopt;
+    }
+    auto row = bounded_json<ordered_json>(line);
+    return is_row(row) ? std::optional(std::move(row)) : std::nullopt;
+}
 
 ordered_json finite_or_null(double value) {
     return std::isfinite(value) ? ordered_json(value) : ordered_json(nullptr);
@@ -129,16 +180,65 @@ public:
         stream.seekg(place.offset);
         std::string line;
         std::getline(stream, line);
-        return ordered_json::parse(line);
+        std::optional<ordered_json> row = row_in(line);
+        if (!row) {
+            throw IoError(fmt::format("pipeline.journals: the row of member {} was changed while it was read: run the "
+                                      "command again",
+                                      place.member));
+        }
+        return std::move(*row);
     }
 
 private:
     std::vector<std::ifstream> streams_;
 };
 
+/// Gives each list of names a number.
+class Lists {
+public:
+    explicit Lists(std::vector<std::vector<std::string>>& lists) : lists_(lists) { numbers_[{}] = 0; }
+    std::uint32_t number_of(ordered_json const& names) {
+        auto list = names.get<std::vector<std::string>>();
+        auto const [at, is_new] = numbers_.try_emplace(list, static_cast<std::uint32_t>(lists_.size()));
+        if (is_new) {
+            lists_.push_back(std::move(list));
+        }
+        return at->second;
+    }
+
+private:
+    std::vector<std::vector<std::string>>& lists_;
+    std::map<std::vector<std::string>, std::uint32_t> numbers_;
+};
+
+/// Keeps one row of each member, in their order.
+void keep_one_each(std::vector<RowPlace>& rows) {
+    std::ranges::stable_sort(rows, {}, &RowPlace::member);
+    std::size_t kept = 0;
+    for (RowPlace const& row : rows) {
+        if (kept == 0 || rows[kept - 1].member != row.member) {
+            rows[kept++] = row;
+            continue;
+        }
+        RowPlace& known = rows[kept - 1];
+        bool const had_failed = known.had_failed || known.is_failed || row.is_failed;
+        known = known.is_failed || !row.is_failed ? row : known;
+        known.had_failed = had_failed && !known.is_failed;
+    }
+    rows.resize(kept);
+}
+
 } // namespace
 
-std::string row_json(MemberRow const& row, double seconds, double writing_s) {
+std::uint64_t hash_of(std::string_view text) {
+    std::uint64_t hash = 0xcbf29ce484222325;
+    for (char const c : text) {
+        hash = (hash ^ static_cast<unsigned char>(c)) * 0x100000001b3;
+    }
+    return hash;
+}
+
+std::string row_json(MemberRow const& row, MemberWork const& work) {
     ordered_json stages = ordered_json::object();
     double cpu_s = 0.0;
     for (StageTime const& time : row.timings_s) {
@@ -153,11 +253,12 @@ std::string row_json(MemberRow const& row, double seconds, double writing_s) {
                             {"warnings", row.warnings},
                             {"first_warning", row.first_warning},
                             {"values", values_object(row)},
-                            {"seconds", seconds},
+                            {"seconds", work.seconds},
                             {"cpu_s", cpu_s},
-                            {"write_s", writing_s},
-                            {"stages", stages}};
-    return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
+                            {"write_s", work.writing_s},
+                            {"stages", stages},
+                            {"files", work.files}};
+    return with_sum(json.dump(-1, ' ', false, ordered_json::error_handler_t::replace));
 }
 
 std::string row_object(MemberRow const& row) {
@@ -168,48 +269,58 @@ std::string row_object(MemberRow const& row) {
     return json.dump(-1, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-Journals::Journals(std::string const& folder) {
+Journals::Journals(std::string const& folder, Run const& run) {
     std::error_code error;
     for (fs::directory_entry const& entry : fs::directory_iterator(folder, error)) {
         std::string const name = entry.path().filename().string();
         if (name.starts_with("rows-") && name.ends_with(".jsonl")) {
-            files_.push_back(entry.path().string());
+            refuse_if<BadInput>(!fs::is_regular_file(entry.symlink_status()),
+                                "pipeline.journals: {} is not a file of thalweg's but a link, a folder, a pipe or a "
+                                "device: remove it",
+                                entry.path().string());
+            journals_.push_back(entry.path().string());
         }
     }
     if (error) {
         throw IoError(fmt::format("pipeline.journals: {}: {}", folder, error.message()));
     }
-    std::ranges::sort(files_);
-    for (std::size_t i = 0; i < files_.size(); ++i) {
-        std::ifstream stream(files_[i], std::ios::binary);
+    std::ranges::sort(journals_);
+    Lists lists(lists_);
+    for (std::size_t i = 0; i < journals_.size(); ++i) {
+        std::ifstream stream(journals_[i], std::ios::binary);
         if (!stream) {
-            throw IoError(fmt::format("pipeline.journals: {}: {}", files_[i], std::generic_category().message(errno)));
+            throw IoError(
+                fmt::format("pipeline.journals: {}: {}", journals_[i], std::generic_category().message(errno)));
         }
         std::int64_t offset = 0;
         for (std::string line; std::getline(stream, line) && !stream.eof(); offset = stream.tellg()) {
-            ordered_json const row = ordered_json::parse(line, nullptr, false);
-            if (row.is_discarded() || !row.is_object() || !row.contains("stages")) {
+            run.check();
+            std::optional<ordered_json> const row = row_in(line);
+            if (!row) {
+                ++damaged_;
                 continue;
             }
-            RowPlace const place{i, offset, row["status"] == name_of(MemberState::failed)};
-            auto const [at, is_new] = rows_.try_emplace(row["member"].get<std::int64_t>(), place);
-            if (!is_new && (at->second.is_failed || !place.is_failed)) {
-                at->second = place;
-            }
+            rows_.push_back({.member = (*row)["member"].get<std::int64_t>(),
+                             .offset = offset,
+                             .file = static_cast<std::uint32_t>(i),
+                             .files = lists.number_of((*row)["files"]),
+                             .is_failed = (*row)["status"] == name_of(MemberState::failed)});
         }
     }
+    keep_one_each(rows_);
 }
 
-Journals::Account Journals::write_tables(std::int64_t members, std::string const& table,
-                                         std::string const& timings) const {
+Journals::Account Journals::write_tables(std::int64_t members, std::string const& table, std::string const& timings,
+                                         Run const& run) const {
     CsvColumns keys;
     CsvColumns measures;
     CsvColumns stages;
-    JournalReader reader(files_);
+    JournalReader reader(journals_);
     auto const each = [&](auto const& visit) {
-        for (auto const& [member, place] : rows_) {
-            if (member < members) {
-                visit(member, reader.row(place));
+        for (RowPlace const& place : rows_) {
+            run.check();
+            if (place.member < members) {
+                visit(place.member, reader.row(place));
             }
         }
     };

@@ -11,6 +11,7 @@
 #include <nlohmann/json.hpp>
 #include <toml++/toml.h>
 
+#include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/flow/condition.hpp>
@@ -526,7 +527,7 @@ std::string checks_json(std::vector<Check> const& checks) {
 
 std::vector<std::string> files_of_report(std::string const& json) {
     std::vector<std::string> files;
-    ordered_json const report = ordered_json::parse(json, nullptr, false);
+    auto const report = bounded_json<nlohmann::json>(json, {.most_keys = std::size_t{1} << 20U});
     if (!report.is_object() || !report.contains("files") || !report["files"].is_array()) {
         return files;
     }

@@ -2,7 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <atomic>
 #include <cstdint>
+#include <map>
 #include <memory>
 #include <mutex>
 #include <set>
@@ -12,6 +14,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/io/files/tar.hpp>
 #include <thalweg/pipeline/ensemble/ensemble.hpp>
 #include <thalweg/pipeline/ensemble/internal/table.hpp>
 
@@ -25,6 +28,24 @@ struct MemberFiles {
 
 /// \return "member_00012"
 std::string member_folder(std::int64_t number);
+
+/// Numbers of members in order, as ranges: few, where most are there or most are missing.
+class MemberNumbers {
+public:
+    /// Adds [begin, end), beyond all that are in it.
+    void add(std::int64_t begin, std::int64_t end);
+    std::int64_t size() const { return ranges_.empty() ? 0 : ranges_.back().before + ranges_.back().count; }
+    /// \param i [0, size())
+    std::int64_t operator[](std::int64_t i) const;
+
+private:
+    struct Range {
+        std::int64_t begin = 0;
+        std::int64_t count = 0;
+        std::int64_t before = 0; ///< in the ranges before it
+    };
+    std::vector<Range> ranges_;
+};
 
 /// Part K of N of an ensemble, for several processes.
 struct Share {
@@ -62,8 +83,10 @@ public:
     /// \return with the recipe that the folder holds
     Ensemble const& ensemble() const { return ensemble_; }
 
-    /// \return the members of a share without files or row, and those that failed, in order
-    std::vector<std::int64_t> missing(Share const& share = {});
+    /// \return the members of a share without row or with a file missing, and those that failed
+    MemberNumbers missing(Share const& share, Run const& run);
+    /// \return members that this process has added and that did not fail
+    std::int64_t added() const { return added_; }
 
     /// \return the number of members of a share
     std::int64_t members_of(Share const& share) const;
@@ -83,17 +106,24 @@ public:
     std::int64_t shard_of(std::int64_t number) const;
 
     /// Writes table.csv and timings.csv of all members, and packs the shards that are left.
-    Journals::Account finish();
+    Journals::Account finish(Run const& run);
 
 private:
+    void open_folder(std::vector<std::string> const& vary, Share const& share, Run const& run);
     bool has_folder(std::int64_t number) const;
     bool is_there(std::int64_t number) const;
+    bool is_done(Journals const& journals, RowPlace const& row);
+    bool is_in_shard(std::int64_t number);
+    std::set<std::int64_t> numbers_of_folders(Run const& run) const;
     std::pair<std::int64_t, std::int64_t> range_of(Share const& share) const;
     void start(std::vector<std::string> const& vary, Run const& run);
-    void lock(Role role, Share const& share);
+    int locked_at(std::string const& path, bool waits, Run const& run);
+    void keep(int lock);
     void append(std::string line);
     std::string part(std::int64_t number) const;
     std::string shard_path(std::int64_t shard) const;
+    void write_shard(std::string const& path, std::vector<io::TarEntry> const& before,
+                     std::vector<std::int64_t> const& parts) const;
     static std::string staged_part(MadeMember const& made, std::string const& work, Run const& run);
 
     std::string folder_;
@@ -101,7 +131,9 @@ private:
     Ensemble ensemble_;
     MemberFiles files_;
     Role const role_;
-    std::set<std::int64_t> without_row_; ///< members with a folder that no journal knows
+    std::set<std::int64_t> without_row_;                       ///< members with a folder that no journal knows
+    std::map<std::int64_t, std::set<std::int64_t>> in_shards_; ///< members of the shards looked into
+    std::atomic<std::int64_t> added_ = 0;
     std::unique_ptr<io::OutputFolder> work_;
     std::vector<int> locks_; ///< open files
     std::vector<Finding> findings_;

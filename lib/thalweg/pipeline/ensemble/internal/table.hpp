@@ -3,19 +3,27 @@
 #pragma once
 
 #include <cstdint>
-#include <map>
 #include <string>
 #include <string_view>
 #include <vector>
 
+#include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/ensemble/ensemble.hpp>
 
 namespace thalweg::pipeline {
 
-/// Formats a row as one line of JSON, without the line's end.
-/// \param seconds [s] that making and writing took
-/// \param writing_s [s] of it for writing
-std::string row_json(MemberRow const& row, double seconds, double writing_s);
+/// A hash of bytes (FNV-1a, 64 bits).
+std::uint64_t hash_of(std::string_view text);
+
+/// How a member was made.
+struct MemberWork {
+    double seconds = 0.0;                ///< [s] that making and writing took
+    double writing_s = 0.0;              ///< [s] of it for writing
+    std::vector<std::string> files = {}; ///< of the member's folder, by names relative to it; none without a folder
+};
+
+/// Formats a row as one line of JSON with a checksum, without the line's end.
+std::string row_json(MemberRow const& row, MemberWork const& work);
 
 /// The values of a row as one JSON object: member, seed, keys, state, measures.
 std::string row_object(MemberRow const& row);
@@ -23,21 +31,30 @@ std::string row_object(MemberRow const& row);
 /// Where rows are found again: rows of one member are equal, and one of a member that was made counts more than one of
 /// a member that failed.
 struct RowPlace {
-    std::size_t file = 0;    ///< index of the journal
+    std::int64_t member = 0;
     std::int64_t offset = 0; ///< [bytes] where its line begins
+    std::uint32_t file = 0;  ///< index of the journal
+    std::uint32_t files = 0; ///< of the member, an index of Journals::files_of()
     bool is_failed = false;
+    bool had_failed = false; ///< before it was made
 };
 
 /// Rows that processes have written, line by line, into journals.
 class Journals {
 public:
-    /// Reads every journal of a folder. Lines that are not complete, as those of a killed process, are left out.
+    /// Reads every journal of a folder. Lines that are not complete, as those of a killed process, and damaged ones are
+    /// left out.
     /// \param folder of files rows-*.jsonl
+    /// \throws BadInput when one is a link, a pipe or a device
     /// \throws IoError when one cannot be read
-    explicit Journals(std::string const& folder);
+    Journals(std::string const& folder, Run const& run);
 
-    /// By member.
-    std::map<std::int64_t, RowPlace> const& rows() const { return rows_; }
+    /// By member, one each.
+    std::vector<RowPlace> const& rows() const { return rows_; }
+    /// \return the names of a member's files
+    std::vector<std::string> const& files_of(RowPlace const& row) const { return lists_[row.files]; }
+    /// \return lines that are complete, but not as they were written
+    std::int64_t damaged() const { return damaged_; }
 
     /// What of the members was not ok.
     struct Account {
@@ -52,11 +69,14 @@ public:
     /// Writes table.csv and timings.csv of members [0, members), in order. Columns are in the order of the first member
     /// that has them.
     /// \throws IoError when a file cannot be written
-    Account write_tables(std::int64_t members, std::string const& table, std::string const& timings) const;
+    Account write_tables(std::int64_t members, std::string const& table, std::string const& timings,
+                         Run const& run) const;
 
 private:
-    std::vector<std::string> files_;
-    std::map<std::int64_t, RowPlace> rows_;
+    std::vector<std::string> journals_;
+    std::vector<std::vector<std::string>> lists_{{}}; ///< different lists of files; the first is empty
+    std::vector<RowPlace> rows_;
+    std::int64_t damaged_ = 0;
 };
 
 } // namespace thalweg::pipeline
