@@ -41,7 +41,7 @@ using namespace thalweg;
 using namespace thalweg::tools;
 
 // Allocated before memory is exhausted.
-constexpr std::string_view out_of_memory = "error: out of memory: make the grid smaller or the cell larger\n";
+constexpr std::string_view memory_line = "error: out of memory: make the grid smaller or the cell larger\n";
 
 void complain(std::string const& text) {
     write_to_stderr(fmt::format("{} {}\n", toned(Tone::bad, "error:", stderr), printable(text)));
@@ -54,9 +54,10 @@ void complain(std::string const& text) {
         if (std::exception_ptr const fault = std::current_exception()) {
             std::rethrow_exception(fault);
         }
-        write_to_stderr("error: a thread ended against the rules\n");
+        write_to_stderr("error: the program ends, as a thread could not go on; its output is not complete. This is a "
+                        "fault of thalweg: please report it\n");
     } catch (std::bad_alloc const&) {
-        write_to_stderr(out_of_memory);
+        write_to_stderr(memory_line);
     } catch (std::exception const& e) {
         write_to_stderr("error: ");
         write_to_stderr(e.what());
@@ -94,7 +95,7 @@ int call(Command const& command, Terminal& terminal) {
         return end(e.what(), exit_code_for(e.what()));
     } catch (std::bad_alloc const&) {
         terminal.wipe();
-        write_to_stderr(out_of_memory);
+        write_to_stderr(memory_line);
         return Exit::failed;
     } catch (std::exception const& e) {
         return end(e.what(), Exit::failed);
@@ -322,7 +323,7 @@ static void handle_abort(int /*number*/) {
     alarm(2);                                   // the fault may be inside malloc
     constexpr std::size_t most_asked = 1 << 20; // faults immediately, e.g. libgeotiff, which does not check the result
     if (std::malloc(most_asked) == nullptr) {
-        [[maybe_unused]] auto const written = write(STDERR_FILENO, out_of_memory.data(), out_of_memory.size());
+        [[maybe_unused]] auto const written = write(STDERR_FILENO, memory_line.data(), memory_line.size());
         _exit(thalweg::tools::Exit::failed);
     }
     std::signal(number, SIG_DFL); // the instruction runs again

@@ -50,6 +50,23 @@ std::string wrong_with(std::string const& request) {
 
 } // namespace
 
+TEST(Requests, HaveShortNames) {
+    EXPECT_TRUE(test::has(wrong_with(R"({"id":1,"do":"edit","edit":{"name":")" + std::string(1001, 'a') +
+                                     R"(","steps":[{"unset":"detail"}]}})"),
+                          "the name of an edit has at most"));
+}
+
+TEST(Requests, AreBoundedInDepthAndWidth) {
+    std::string const deep = "{\"id\":1,\"do\":" + std::string(300000, '[') + std::string(300000, ']') + "}";
+    EXPECT_TRUE(test::has(wrong_with(deep), "nested"));
+    EXPECT_EQ(id_of(deep), 0);
+    std::string wide = R"({"id":1,"do":"draw","what":{)";
+    for (int i = 0; i < 50000; ++i) {
+        wide += "\"k" + std::to_string(i) + "\":1,";
+    }
+    EXPECT_TRUE(test::has(wrong_with(wide + "\"verb\":\"clear\"}}"), "names in an object"));
+}
+
 TEST(Requests, AreRead) {
     Request const edit = request_of(R"({"id": 3, "do": "edit", "edit": {"name": "a drag", "steps": [
         {"set": "network.prune", "value": "30"}, {"unset": "detail"}, {"recipe": "seed = 1\n"}]}})");

@@ -357,6 +357,74 @@ TEST_F(Studios, ExportWhatMakeMakes) {
     EXPECT_TRUE(studio.ask("/" + one["url"].get<std::string>()).starts_with("HTTP/1.1 403"));
 }
 
+TEST_F(Studios, SayThatAnExportedFileIsGone) {
+    Running const studio(params());
+    Window window(studio);
+    json const one = window.ask(R"({"id": 9, "do": "export", "file": "dem.tif"})");
+    ASSERT_EQ(one["ok"], true) << one;
+    std::string const url = studio.with_token("/" + one["url"].get<std::string>());
+    fs::path const file = fs::path(one["folder"].get<std::string>()) / "dem.tif";
+    fs::remove(file);
+    EXPECT_TRUE(test::has(studio.ask(url), "HTTP/1.1 404", "no longer there: export it again"));
+    fs::create_directory(file);
+    EXPECT_TRUE(test::has(studio.ask(url), "HTTP/1.1 404", "no longer there"));
+    fs::remove(file);
+    fs::create_symlink(at("doc/history.jsonl"), file);
+    EXPECT_TRUE(test::has(studio.ask(url), "HTTP/1.1 404")) << "no way out by a link";
+    EXPECT_EQ(window.set("seed", "12")["ok"], true) << "the studio goes on";
+}
+
+TEST_F(Studios, AnswerHostileStrokesSoon) {
+    Running const studio(params());
+    Window window(studio);
+    Window other(studio);
+    window.next("idle");
+    auto const stroke = [](int points, auto at) {
+        json line = json::array();
+        for (int i = 0; i < points; ++i) {
+            auto const [x, y] = at(i);
+            line.push_back(x);
+            line.push_back(y);
+        }
+        return json{{"verb", "ridge"}, {"points", line}};
+    };
+    auto const seconds_of = [&](json const& what) {
+        auto const begin = std::chrono::steady_clock::now();
+        EXPECT_FALSE(window.draw(what).is_null());
+        return std::chrono::duration<double>(std::chrono::steady_clock::now() - begin).count();
+    };
+    auto const zigzag = [](int i) { return std::pair(i % 2 == 0 ? 2.0 : 70.0, 2.0 + 60.0 * i / 4000.0); };
+    auto const fine = [](int i) { return std::pair(i % 2 == 0 ? 20 : 21, i / 2 % 60); };
+    EXPECT_LT(seconds_of(stroke(4000, zigzag)), 1.0);
+    EXPECT_LT(seconds_of(stroke(100000, fine)), 1.0);
+    EXPECT_LT(seconds_of(stroke(300000, fine)), 1.0);
+    EXPECT_EQ(other.set("seed", "12")["ok"], true);
+}
+
+TEST_F(Studios, WriteIntoTheDocumentAlone) {
+    Running const studio(params());
+    Window window(studio);
+    window.next("idle");
+    fs::create_directory(at("elsewhere"));
+    fs::create_directory_symlink(at("elsewhere"), at("doc/terrain"));
+    fs::create_directory_symlink(at("elsewhere"), at("doc/.terrain"));
+    for (char const* const asked :
+         {R"({"id": 7, "do": "export"})", R"({"id": 8, "do": "export", "file": "dem.tif"})"}) {
+        json const refused = window.ask(asked);
+        EXPECT_EQ(refused["ok"], false);
+        EXPECT_TRUE(test::has(refused["error"].get<std::string>(), "is a link")) << refused;
+    }
+    fs::remove_all(at("doc/inputs"));
+    fs::create_directory_symlink(at("elsewhere"), at("doc/inputs"));
+    json pin;
+    for (double at = 5.5; at < 60.0 && (pin.is_null() || test::has(pin["error"].get<std::string>(), "river")); ++at) {
+        pin = window.draw({{"verb", "pin"}, {"at", {at, 20.5}}, {"height", 900}});
+    }
+    EXPECT_EQ(pin["ok"], false);
+    EXPECT_TRUE(test::has(pin["error"].get<std::string>(), "inputs is a link")) << pin;
+    EXPECT_TRUE(fs::is_empty(at("elsewhere")));
+}
+
 TEST_F(Studios, ServeThePage) {
     Running const studio(params());
     std::string const answer = studio.ask(studio.with_token("/"));

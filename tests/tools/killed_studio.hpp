@@ -5,6 +5,7 @@
 #include <chrono>
 #include <cstdint>
 #include <filesystem>
+#include <functional>
 #include <random>
 #include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <string>
@@ -26,8 +27,14 @@
 class StartedStudio {
 public:
     /// \param words after "studio"
-    StartedStudio(std::vector<std::string> words, std::filesystem::path const& folder)
-        : studio_(with_command(std::move(words)), folder, [this] { dup2(ends_[1], STDOUT_FILENO); }) {
+    /// \param prepare what the child does first
+    StartedStudio(
+        std::vector<std::string> words, std::filesystem::path const& folder,
+        std::function<void()> const& prepare = [] {}, bool no_browser = true)
+        : studio_(with_command(std::move(words), no_browser), folder, [this, &prepare] {
+              dup2(ends_[1], STDOUT_FILENO);
+              prepare();
+          }) {
         close(ends_[1]);
         for (char c = 0; read(ends_[0], &c, 1) == 1 && c != '\n';) {
             address_ += c;
@@ -49,10 +56,12 @@ public:
     }
 
 private:
-    std::vector<std::string> with_command(std::vector<std::string> words) {
+    std::vector<std::string> with_command(std::vector<std::string> words, bool no_browser) {
         EXPECT_EQ(pipe(ends_), 0);
         words.insert(words.begin(), "studio");
-        words.emplace_back("--no-browser");
+        if (no_browser) {
+            words.emplace_back("--no-browser");
+        }
         return words;
     }
 

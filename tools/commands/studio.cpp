@@ -3,11 +3,15 @@
 #include <cstdint>
 #include <cstdio>
 #include <cstdlib>
+#include <filesystem>
 #include <memory>
+#include <optional>
 #include <string>
+#include <thread>
 
 #include <fcntl.h>
 #include <spawn.h>
+#include <sys/wait.h>
 #include <unistd.h>
 
 #include <CLI/CLI.hpp>
@@ -30,15 +34,46 @@ struct StudioOptions {
     bool blank = false;
 };
 
-/// Opens an address in the user's browser, where there is one.
-/// \return whether it was asked to open
-bool open_browser(std::string const& address) {
-    bool const has_screen = std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
-    if (!has_screen) {
-        return false;
+/// A page that leads to an address, readable by this user alone. Command lines are readable by every user of the
+/// machine, so the address, which holds the token, must not stand in one. It lies in the document, where a confined
+/// browser may read it, as it may not in the system's temporary folder.
+class WayIn {
+public:
+    WayIn(std::string const& folder, std::string const& address)
+        : path_((std::filesystem::absolute(folder) / ".studio.html").lexically_normal().string()) {
+        unlink(path_.c_str()); // of a process that was killed
+        int const file = open(path_.c_str(), O_WRONLY | O_CREAT | O_EXCL | O_NOFOLLOW | O_CLOEXEC, 0600);
+        if (file < 0) {
+            return;
+        }
+        std::string const page = fmt::format(
+            "<!doctype html><meta charset=\"utf-8\"><meta name=\"referrer\" content=\"no-referrer\">"
+            "<meta http-equiv=\"refresh\" content=\"0; url={0}\"><title>thalweg</title><a href=\"{0}\">thalweg</a>\n",
+            address);
+        is_there_ = write(file, page.data(), page.size()) == static_cast<ssize_t>(page.size());
+        close(file);
     }
+    ~WayIn() { unlink(path_.c_str()); }
+    WayIn(WayIn const&) = delete;
+    WayIn& operator=(WayIn const&) = delete;
+
+    bool is_there() const { return is_there_; }
+    std::string const& path() const { return path_; }
+
+private:
+    std::string path_;
+    bool is_there_ = false;
+};
+
+bool has_screen() {
+    return std::getenv("DISPLAY") != nullptr || std::getenv("WAYLAND_DISPLAY") != nullptr;
+}
+
+/// Opens a page in the user's browser.
+/// \return whether it was asked to open
+bool open_browser(WayIn const& page) {
     std::string program = "xdg-open";
-    std::string word = address;
+    std::string word = page.path();
     char* const words[] = {program.data(), word.data(), nullptr};
     posix_spawn_file_actions_t actions;
     posix_spawn_file_actions_init(&actions);
@@ -48,6 +83,9 @@ bool open_browser(std::string const& address) {
     pid_t child = 0;
     int const error = posix_spawnp(&child, program.c_str(), &actions, nullptr, words, environ);
     posix_spawn_file_actions_destroy(&actions);
+    if (error == 0) { // it may end at once, or with the browser
+        std::thread([child] { waitpid(child, nullptr, 0); }).detach();
+    }
     return error == 0;
 }
 
@@ -59,7 +97,12 @@ int run_studio(StudioOptions& options, Session const& session) {
     std::string const address = studio.address();
     fmt::print("{}\n", address);
     std::fflush(stdout);
-    bool const opened = !options.no_browser && open_browser(address);
+    std::optional<WayIn> way_in;
+    bool opened = false;
+    if (!options.no_browser && has_screen()) {
+        way_in.emplace(options.params.folder, address);
+        opened = way_in->is_there() && open_browser(*way_in);
+    }
     session.run.tell("open", fmt::format("{}   (this machine only; Ctrl-C ends it, everything is saved)",
                                          opened ? "the browser shows it" : "open the address in a browser"));
     studio.run(session.run.stop);

@@ -6,8 +6,11 @@
 #include <array>
 #include <deque>
 #include <limits>
+#include <list>
 #include <map>
 #include <mutex>
+#include <new>
+#include <optional>
 #include <sys/random.h>
 #include <utility> // Boost.Asio 1.74 needs it
 #include <vector>
@@ -22,6 +25,7 @@
 #include <boost/beast/websocket.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
@@ -42,6 +46,7 @@ using Response = http::response<http::string_body>;
 
 constexpr std::size_t most_head_bytes = 8192;     ///< of a request's head
 constexpr std::size_t most_unread_bytes = 262144; ///< read and discarded of what a request sends beyond its head
+constexpr std::size_t most_strangers = 256;       ///< connections that have not shown the token
 constexpr std::chrono::seconds closing_time{1};   ///< in which connections close in order
 
 std::string_view view_of(auto const& text) {
@@ -119,6 +124,7 @@ struct Message {
 } // namespace
 
 class Session;
+class Exchange;
 
 /// The socket that accepts connections, and what they share.
 class Listener {
@@ -129,7 +135,8 @@ public:
 
     ServeParams const params;
     Handlers const handlers;
-    int connections = 0;                ///< open now
+    int connections = 0;                ///< open now, of programs that have shown the token
+    std::list<Exchange*> strangers;     ///< connections that have not, the oldest first
     std::mutex mutex;                   ///< of clients and their queues
     std::map<Client, Session*> clients; ///< opened and not yet closed
     Client last = 0;
@@ -291,13 +298,21 @@ private:
     bool is_dropped_ = false;
 };
 
-namespace {
-
 /// A connection with one request, which is answered or becomes a Session.
 class Exchange : public std::enable_shared_from_this<Exchange> {
 public:
-    Exchange(Listener& listener, tcp::socket socket)
-        : listener_(listener), counted_(listener.connections), stream_(std::move(socket)) {}
+    Exchange(Listener& listener, tcp::socket socket) : listener_(listener), stream_(std::move(socket)) {
+        place_ = listener_.strangers.insert(listener_.strangers.end(), this);
+    }
+    ~Exchange() { know(); }
+    Exchange(Exchange const&) = delete;
+    Exchange& operator=(Exchange const&) = delete;
+
+    /// Closes the connection to make room for others.
+    void give_up() {
+        know();
+        stream_.close();
+    }
 
     void read() {
         parser_.header_limit(most_head_bytes);
@@ -328,14 +343,37 @@ private:
         } else if (path.empty() || path[0] != '/' || !is_clean(path.substr(1))) {
             write(in_words(status::bad_request, "Paths have letters, digits, '.', '_', '-' and '/', no part of them "
                                                 "empty or with '.' in front."));
+        } else if (listener_.connections >= listener_.params.connections) {
+            write(in_words(status::service_unavailable, "Too many connections are open. Close other windows."));
         } else if (is_upgrade && path == "/") {
+            know();
             std::make_shared<Session>(listener_, std::move(stream_))->open(request);
-        } else if (auto found = is_upgrade || !listener_.handlers.get
-                                    ? std::nullopt
-                                    : listener_.handlers.get(std::string(path.substr(1)))) {
-            write(response_of(status::ok, std::move(*found)));
         } else {
-            write(in_words(status::not_found, "There is nothing at this path."));
+            know();
+            counted_.emplace(listener_.connections);
+            write(is_upgrade ? in_words(status::not_found, "There is nothing at this path.")
+                             : found_at(std::string(path.substr(1))));
+        }
+    }
+
+    /// From now on the connection is not closed for others.
+    void know() {
+        if (place_) {
+            listener_.strangers.erase(*place_);
+            place_.reset();
+        }
+    }
+
+    Response found_at(std::string const& path) const {
+        try {
+            std::optional<Answer> found =
+                listener_.handlers.get ? listener_.handlers.get(path) : std::optional<Answer>();
+            return found ? response_of(status::ok, std::move(*found))
+                         : in_words(status::not_found, "There is nothing at this path.");
+        } catch (Error const& error) { // a file that is gone, perhaps
+            return in_words(status::not_found, error.what());
+        } catch (std::bad_alloc const&) {
+            return in_words(status::internal_server_error, "There is not enough memory to send this.");
         }
     }
 
@@ -392,7 +430,8 @@ private:
     }
 
     Listener& listener_;
-    Counted counted_;
+    std::optional<std::list<Exchange*>::iterator> place_; ///< among the strangers
+    std::optional<Counted> counted_;                      ///< when it is none any more
     beast::tcp_stream stream_;
     beast::flat_buffer received_{most_head_bytes + 1};
     http::request_parser<http::empty_body> parser_;
@@ -400,6 +439,8 @@ private:
     std::array<char, 4096> discarded_{};
     std::size_t unread_ = 0;
 };
+
+namespace {
 
 void check(ServeParams const& params) {
     constexpr std::string_view function = "serve.Server";
@@ -484,15 +525,12 @@ void Listener::accept() {
 void Listener::admit(tcp::socket socket) {
     error_code ignored;
     socket.set_option(tcp::no_delay(true), ignored);
-    if (connections < params.connections) {
-        std::make_shared<Exchange>(*this, std::move(socket))->read();
-        return;
+    // Who does not know the token keeps others out only as long as they are fewer: a request comes whole within
+    // milliseconds, and the connection that has waited longest goes first.
+    while (strangers.size() >= most_strangers) {
+        strangers.front()->give_up();
     }
-    socket.non_blocking(true, ignored); // the answer is lost if sending it would wait
-    std::array<char, 4096> discarded;
-    socket.read_some(asio::buffer(discarded), ignored);
-    Response refusal = in_words(status::service_unavailable, "Too many connections are open. Close other windows.");
-    http::write(socket, refusal, ignored);
+    std::make_shared<Exchange>(*this, std::move(socket))->read();
 }
 
 std::string new_token() {

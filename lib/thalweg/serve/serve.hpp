@@ -22,7 +22,7 @@ std::string new_token();
 struct ServeParams {
     std::uint16_t port = 0;                       ///< 0: any free one
     std::string token = new_token();              ///< at least 16 letters, digits, '-' or '_'; part of the address
-    int connections = 64;                         ///< [1, 100000] open at a time; more are refused
+    int connections = 64;                         ///< [1, 100000] open at a time, with the token; more are refused
     std::int64_t message_bytes = 4 << 20;         ///< [1, 2^30] of a client's message; a longer one ends its connection
     std::int64_t queue_bytes = 64 << 20;          ///< [1, 2^40] that wait for one client; with more it is dropped
     std::chrono::milliseconds request_time{5000}; ///< [1 ms, 1 h] in which a whole request must arrive
@@ -45,7 +45,9 @@ inline constexpr Client everyone = 0;
 /// What a Server calls, one call at a time, on the thread that runs it. Each may be empty.
 struct Handlers {
     /// \param path relative, of letters, digits, '.', '_', '-' and '/', no part empty or with '.' in front; "": the
-    /// page \return nothing: 404
+    /// page
+    /// \return nothing: 404
+    /// \throws Error: 404 with its words
     std::function<std::optional<Answer>(std::string const& path)> get = {};
     std::function<void(Client)> opened = {};
     std::function<void(Client, std::string_view message)> text = {}; ///< the message is valid UTF-8
@@ -58,7 +60,7 @@ class Listener;
 /// Serves a page, files and a WebSocket to programs on this machine that know the token. It answers GET and HEAD at
 /// 127.0.0.1, each request on a connection of its own, and never touches the file system. WebSocket clients connect to
 /// the address of the page. A request with another Host (DNS rebinding), a foreign Origin or without the token gets
-/// 403. Errors are answered in words.
+/// 403. Errors are answered in words. Connections that have not shown the token never keep out those that do.
 class Server {
 public:
     /// Opens the port; connections wait until run().

@@ -274,6 +274,12 @@ bool DocumentFolder::redo() {
 }
 
 std::string DocumentFolder::free_input() const {
+    fs::path const inputs = fs::path(folder_) / "inputs";
+    refuse_if<BadInput>(
+        fs::is_symlink(fs::symlink_status(inputs)),
+        "studio.document_folder: {} is a link, and a document writes into its own folder alone: put the "
+        "folder in its place",
+        inputs.string());
     int number = 1;
     while (fs::exists(fs::symlink_status(fs::path(folder_) / fmt::format("inputs/{}", number)))) {
         ++number;

@@ -5,9 +5,9 @@
 #include <algorithm>
 #include <cmath>
 #include <functional>
+#include <iterator>
 #include <limits>
 #include <map>
-#include <numeric>
 #include <set>
 #include <span>
 #include <utility>
@@ -19,6 +19,7 @@
 #include <thalweg/geometry/nearby.hpp>
 #include <thalweg/geometry/polylines.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
+#include <thalweg/studio/internal/segment_squares.hpp>
 
 namespace thalweg::studio {
 namespace {
@@ -78,6 +79,21 @@ DrawnLine resampled(DrawnLine const& line, double every_m) {
     return places;
 }
 
+/// A line without vertices that hardly turn. Piece by piece: as a whole the time would grow with the square of a
+/// scribble's length.
+DrawnLine simplified(DrawnLine const& line, double tolerance_m) {
+    constexpr std::size_t piece = 2048;
+    DrawnLine result;
+    for (std::size_t first = 0; first + 1 < line.size(); first += piece) {
+        std::size_t const last = std::min(first + piece, line.size() - 1);
+        auto const begin = line.begin() + static_cast<std::ptrdiff_t>(first);
+        DrawnLine const part =
+            geometry::simplify(DrawnLine(begin, line.begin() + static_cast<std::ptrdiff_t>(last) + 1), tolerance_m);
+        result.insert(result.end(), part.begin() + (result.empty() ? 0 : 1), part.end());
+    }
+    return result;
+}
+
 /// A line as the hand meant it.
 DrawnLine smoothed(DrawnLine const& line, double cell_m) {
     DrawnLine const places = resampled(line, pace * cell_m);
@@ -91,7 +107,7 @@ DrawnLine smoothed(DrawnLine const& line, double cell_m) {
         }
         result[i] = 1.0 / static_cast<double>(2 * wide + 1) * sum;
     }
-    return geometry::simplify(result, coarseness * cell_m);
+    return simplified(result, coarseness * cell_m);
 }
 
 /// The longest part of a line in the grid, carried to its border.
@@ -119,6 +135,7 @@ DrawnLine inside_grid(Grid const& grid, DrawnLine const& points) {
 /// What was drawn, in the grid and finite.
 DrawnLine taken(Grid const& grid, DrawnLine points) {
     constexpr std::size_t most = 100000;
+    constexpr double most_cells = 50000.0;
     if (points.size() > most) {
         throw NotDrawn(fmt::format("studio.drawing: a line has at most {} points", most));
     }
@@ -132,6 +149,10 @@ DrawnLine taken(Grid const& grid, DrawnLine points) {
     if (points.size() < 2) {
         throw NotDrawn("studio.drawing: a line has two places at least",
                        points.empty() ? std::nullopt : std::optional(points.front()));
+    }
+    if (length_of(points) > most_cells * grid.cell_m) {
+        throw NotDrawn(fmt::format("studio.drawing: a line is at most {:.0f} cells long; draw it in parts", most_cells),
+                       points.front());
     }
     return points;
 }
@@ -165,27 +186,13 @@ void require_no_loop(DrawnLine const& line, bool is_closed, double near_m) {
                distance(geometry::foot_on(line[i], line[i + 1], line[k + 1]).at, line[k + 1]) < near_m ||
                distance(geometry::foot_on(line[k], line[k + 1], line[i]).at, line[i]) < near_m;
     };
-    auto const west = [&](std::size_t i) { return std::min(line[i].x, line[i + 1].x); };
-    std::vector<std::size_t> from_west(segments);
-    std::iota(from_west.begin(), from_west.end(), 0);
-    std::ranges::sort(from_west, {}, west);
-    std::pair<std::size_t, std::size_t> first{none, none};
-    for (std::size_t a = 0; a < segments; ++a) {
-        std::size_t const one = from_west[a];
-        double const east = std::max(line[one].x, line[one + 1].x) + near_m;
-        auto const [low, high] = std::minmax(line[one].y, line[one + 1].y);
-        for (std::size_t b = a + 1; b < segments && west(from_west[b]) <= east; ++b) {
-            std::size_t const other = from_west[b];
-            bool const is_apart = std::max(line[other].y, line[other + 1].y) < low - near_m ||
-                                  std::min(line[other].y, line[other + 1].y) > high + near_m;
-            std::pair<std::size_t, std::size_t> const pair = std::minmax(one, other);
-            if (!is_apart && pair < first && meet(pair.first, pair.second)) {
-                first = pair;
+    SegmentSquares const squares = SegmentSquares::of_line(line, near_m);
+    for (std::size_t k = 1; k < segments; ++k) {
+        for (std::size_t const i : squares.near(line[k], line[k + 1], near_m)) {
+            if (i < k && meet(i, k)) {
+                throw NotDrawn("studio.drawing: the line crosses itself here", line[k]);
             }
         }
-    }
-    if (first.first != none) {
-        throw NotDrawn("studio.drawing: the line crosses itself here", line[first.second]);
     }
 }
 
@@ -313,17 +320,22 @@ std::vector<DrawnRiver> as_streams(Drawing const& drawing) {
     return streams;
 }
 
-/// The distance from a vertex that two rivers share.
-double from_joint(DrawnLine const& one, DrawnLine const& other, Vec2 p) {
-    double least = infinite;
+/// The vertices that two rivers share.
+DrawnLine joints_of(DrawnLine const& one, DrawnLine const& other) {
     std::set<std::pair<double, double>> places;
     for (Vec2 const q : one) {
         places.insert({q.x, q.y});
     }
-    for (Vec2 const q : other) {
-        if (places.contains({q.x, q.y})) {
-            least = std::min(least, distance(p, q));
-        }
+    DrawnLine joints;
+    std::ranges::copy_if(other, std::back_inserter(joints), [&](Vec2 q) { return places.contains({q.x, q.y}); });
+    return joints;
+}
+
+/// The distance from the nearest of some places.
+double distance_from(DrawnLine const& places, Vec2 p) {
+    double least = infinite;
+    for (Vec2 const q : places) {
+        least = std::min(least, distance(p, q));
     }
     return least;
 }
@@ -417,29 +429,41 @@ Beside nearest_coast(std::vector<DrawnLine> const& coasts, Vec2 p) {
     return Coasts(coasts).nearest(p);
 }
 
-/// Where two lines cross, the first place along one; nothing: nowhere. around: one
-std::optional<Vec2> crossing_of(DrawnLine const& one, Box const& around, DrawnLine const& other) {
-    std::vector<std::size_t> near;
+/// Where two lines cross, the first place along one; nothing: nowhere. squares: of one; around: one
+std::optional<Vec2> crossing_of(DrawnLine const& one, SegmentSquares const& squares, Box const& around,
+                                DrawnLine const& other) {
+    std::pair<std::size_t, std::size_t> first{none, none};
     for (std::size_t k = 0; k + 1 < other.size(); ++k) {
-        if (!around.is_apart(other[k], other[k + 1], 0.0)) {
-            near.push_back(k);
+        if (around.is_apart(other[k], other[k + 1], 0.0)) {
+            continue;
         }
-    }
-    for (std::size_t i = 0; i + 1 < one.size(); ++i) {
-        for (std::size_t const k : near) {
-            if (cross_over(one[i], one[i + 1], other[k], other[k + 1])) {
-                double const from = cross(other[k], other[k + 1], one[i]);
-                double const to = cross(other[k], other[k + 1], one[i + 1]);
-                return one[i] + from / (from - to) * (one[i + 1] - one[i]);
+        for (std::size_t const i : squares.near(other[k], other[k + 1], 0.0)) {
+            if (std::pair(i, k) < first && cross_over(one[i], one[i + 1], other[k], other[k + 1])) {
+                first = {i, k};
             }
         }
     }
-    return std::nullopt;
+    if (first.first == none) {
+        return std::nullopt;
+    }
+    auto const [i, k] = first;
+    double const from = cross(other[k], other[k + 1], one[i]);
+    double const to = cross(other[k], other[k + 1], one[i + 1]);
+    return one[i] + from / (from - to) * (one[i + 1] - one[i]);
 }
 
 /// Whether a place lies in the sea, and not on the coast itself.
 bool lies_in_sea(Drawing const& drawing, Beside const& coast) {
     return !coast.is_left && coast.away_m > touching * drawing.grid.cell_m;
+}
+
+/// \param near_m [m] > 0
+SegmentSquares squares_of_places(DrawnLine const& places, double near_m) {
+    SegmentSquares squares(2.0 * near_m);
+    for (std::size_t i = 0; i < places.size(); ++i) {
+        squares.add(i, places[i], places[i]);
+    }
+    return squares;
 }
 
 /// Which of some places lie nearer than that to one of some lines.
@@ -449,6 +473,7 @@ template <class Lines> std::vector<bool> near_lines(DrawnLine const& places, Lin
         return is_near;
     }
     Box const around(places);
+    SegmentSquares const squares = squares_of_places(places, near_m);
     for (auto const& one : lines) {
         for (std::size_t k = 0; k + 1 < one.line.size(); ++k) {
             Vec2 const a = one.line[k];
@@ -456,7 +481,7 @@ template <class Lines> std::vector<bool> near_lines(DrawnLine const& places, Lin
             if (around.is_apart(a, b, near_m)) {
                 continue;
             }
-            for (std::size_t i = 0; i < places.size(); ++i) {
+            for (std::size_t const i : squares.near(a, b, near_m)) {
                 is_near[i] = is_near[i] || distance(geometry::foot_on(a, b, places[i]).at, places[i]) < near_m;
             }
         }
@@ -492,27 +517,32 @@ void require_clear(Drawing const& drawing, std::size_t river, std::size_t first,
                        at);
     }
     Box const around(stretch);
+    SegmentSquares const segments = SegmentSquares::of_line(changed, drawing.grid.cell_m);
     for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
         std::optional<Vec2> const at =
-            r != river ? crossing_of(changed, around, drawing.rivers[r].line) : std::optional<Vec2>();
+            r != river ? crossing_of(changed, segments, around, drawing.rivers[r].line) : std::optional<Vec2>();
         if (at) {
             throw NotDrawn("studio.drawing: the river would cross another one here; let it end there instead", at);
         }
     }
+    SegmentSquares const places = squares_of_places(stretch, clear_m);
     for (std::size_t r = 0; r < drawing.rivers.size(); ++r) {
         DrawnLine const& other = drawing.rivers[r].line;
+        std::optional<DrawnLine> joints;
         for (std::size_t i = 0; r != river && i + 1 < other.size(); ++i) {
             Vec2 const a = other[i];
             Vec2 const b = other[i + 1];
             if (around.is_apart(a, b, clear_m)) {
                 continue;
             }
-            for (Vec2 const p : stretch) {
+            for (std::size_t const number : places.near(a, b, clear_m)) {
+                Vec2 const p = stretch[number];
                 double const away_m = distance(geometry::foot_on(a, b, p).at, p);
                 if (away_m >= clear_m) {
                     continue;
                 }
-                double const along_m = from_joint(line, other, p);
+                joints = joints ? joints : joints_of(line, other);
+                double const along_m = distance_from(*joints, p);
                 if (away_m >= std::min(clear_m, widening * along_m) || along_m < drawing.grid.cell_m) {
                     continue;
                 }
@@ -1331,10 +1361,11 @@ private:
     }
 
     void require_apart(DrawnLine const& line) const {
+        double const near_m = touching * is_.grid.cell_m;
+        SegmentSquares const squares = SegmentSquares::of_line(line, is_.grid.cell_m);
         for (DrawnLine const& coast : is_.coasts) {
             for (std::size_t i = 0; i + 1 < coast.size(); ++i) {
-                for (std::size_t k = 0; k + 1 < line.size(); ++k) {
-                    double const near_m = touching * is_.grid.cell_m;
+                for (std::size_t const k : squares.near(coast[i], coast[i + 1], near_m)) {
                     auto const lies_on = [&](Vec2 a, Vec2 b, Vec2 p) {
                         return distance(geometry::foot_on(a, b, p).at, p) < near_m;
                     };

@@ -177,7 +177,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             return;
         }
         tell(watcher_.found, job, findings);
-        tell(watcher_.failed, job, std::string_view(error.what()));
+        tell(watcher_.failed, job, std::string_view(words_of(error)));
     }
 }
 

@@ -8,6 +8,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/refuse.hpp>
 
 namespace thalweg::studio {
@@ -80,16 +81,8 @@ Change change_in(json const& object) {
 
 /// Parses a line; one that is nested deeper than any of ours is refused.
 json parsed(std::string_view line) {
-    constexpr int deepest = 4;
-    bool too_deep = false;
-    json value = json::parse(
-        line.begin(), line.end(),
-        [&](int depth, json::parse_event_t, json&) {
-            too_deep = too_deep || depth > deepest;
-            return depth <= deepest;
-        },
-        false);
-    refuse_if<BadInput>(too_deep || !value.is_object(), "it is no JSON that thalweg writes");
+    json value = bounded_json<json>(line, {.deepest = 4});
+    refuse_if<BadInput>(!value.is_object(), "it is no JSON that thalweg writes");
     return value;
 }
 

@@ -13,6 +13,7 @@
 #include <fmt/format.h>
 #include <nlohmann/json.hpp>
 
+#include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
@@ -26,6 +27,7 @@ using nlohmann::ordered_json;
 static_assert(std::endian::native == std::endian::little, "heights travel as the processor has them");
 
 constexpr std::int64_t tile = 64; // [values]
+constexpr JsonBounds bounds_of_messages{.deepest = 8, .most_keys = 64};
 
 std::string text_of(ordered_json const& message) {
     return message.dump(-1, ' ', false, ordered_json::error_handler_t::replace);
@@ -55,10 +57,13 @@ Step step_of(ordered_json const& of) {
 
 Edit edit_of(ordered_json const& request) {
     constexpr std::size_t most_steps = 1000;
+    constexpr std::size_t longest_name = 1000;
     auto const found = request.find("edit");
     refuse_if<BadInput>(found == request.end() || !found->is_object(), "studio.request: there is no edit in it");
     Edit edit;
     edit.name = found->contains("name") ? text_at(*found, "name") : "";
+    refuse_if<BadInput>(edit.name.size() > longest_name, "studio.request: the name of an edit has at most {} bytes",
+                        longest_name);
     auto const steps = found->find("steps");
     refuse_if<BadInput>(steps == found->end() || !steps->is_array() || steps->empty() || steps->size() > most_steps,
                         "studio.request: an edit has a list of 1 to {} steps", most_steps);
@@ -69,8 +74,11 @@ Edit edit_of(ordered_json const& request) {
 }
 
 ordered_json object_in(std::string_view text) {
-    ordered_json request = ordered_json::parse(text, nullptr, false);
-    refuse_if<BadInput>(!request.is_object(), "studio.request: a message is one JSON object");
+    auto request = bounded_json<ordered_json>(text, bounds_of_messages);
+    refuse_if<BadInput>(!request.is_object(),
+                        "studio.request: a message is one JSON object, nested up to {} deep and "
+                        "with up to {} names in an object",
+                        bounds_of_messages.deepest, bounds_of_messages.most_keys);
     return request;
 }
 
@@ -79,40 +87,10 @@ std::int64_t id_in(ordered_json const& request) {
     return id != request.end() && id->is_number_integer() ? id->get<std::int64_t>() : 0;
 }
 
-} // namespace
-
-Request request_of(std::string_view text) {
-    static std::map<std::string, Request::Kind> const kinds{
-        {"edit", Request::Kind::edit}, {"try", Request::Kind::attempt},  {"undo", Request::Kind::undo},
-        {"redo", Request::Kind::redo}, {"export", Request::Kind::write}, {"stop", Request::Kind::stop},
-        {"draw", Request::Kind::draw}};
-    ordered_json const request = object_in(text);
-    auto const kind = kinds.find(text_at(request, "do"));
-    refuse_if<BadInput>(kind == kinds.end(), "studio.request: do is one of edit, try, undo, redo, export, stop, draw");
-    Request result{id_in(request), kind->second};
-    if (result.kind == Request::Kind::edit || result.kind == Request::Kind::attempt) {
-        result.edit = edit_of(request);
-    }
-    if (result.kind == Request::Kind::write && request.contains("file")) {
-        result.file = text_at(request, "file");
-    }
-    if (result.kind == Request::Kind::draw) {
-        auto const what = request.find("what");
-        refuse_if<BadInput>(what == request.end() || !what->is_object(), "studio.request: there is no step in it");
-        result.what = text_of(*what);
-        auto const revision = request.find("revision");
-        bool const has_one = revision != request.end() && revision->is_number_integer();
-        result.revision = has_one ? revision->get<std::int64_t>() : -1;
-    }
-    return result;
-}
-
-namespace {
-
 /// A step of drawing as a page says it.
 class StepReader {
 public:
-    StepReader(std::string_view what, Grid const& grid) : what_(object_in(what)), grid_(grid) {}
+    StepReader(ordered_json what, Grid const& grid) : what_(std::move(what)), grid_(grid) {}
 
     DrawStep step() const {
         std::string const verb = text_at(what_, "verb");
@@ -284,12 +262,38 @@ private:
 
 } // namespace
 
+Request request_of(std::string_view text) {
+    static std::map<std::string, Request::Kind> const kinds{
+        {"edit", Request::Kind::edit}, {"try", Request::Kind::attempt},  {"undo", Request::Kind::undo},
+        {"redo", Request::Kind::redo}, {"export", Request::Kind::write}, {"stop", Request::Kind::stop},
+        {"draw", Request::Kind::draw}};
+    ordered_json const request = object_in(text);
+    auto const kind = kinds.find(text_at(request, "do"));
+    refuse_if<BadInput>(kind == kinds.end(), "studio.request: do is one of edit, try, undo, redo, export, stop, draw");
+    Request result{id_in(request), kind->second};
+    if (result.kind == Request::Kind::edit || result.kind == Request::Kind::attempt) {
+        result.edit = edit_of(request);
+    }
+    if (result.kind == Request::Kind::write && request.contains("file")) {
+        result.file = text_at(request, "file");
+    }
+    if (result.kind == Request::Kind::draw) {
+        auto const what = request.find("what");
+        refuse_if<BadInput>(what == request.end() || !what->is_object(), "studio.request: there is no step in it");
+        result.step = [what = *what](Grid const& grid) { return StepReader(what, grid).step(); };
+        auto const revision = request.find("revision");
+        bool const has_one = revision != request.end() && revision->is_number_integer();
+        result.revision = has_one ? revision->get<std::int64_t>() : -1;
+    }
+    return result;
+}
+
 DrawStep draw_step(std::string_view what, Grid const& grid) {
-    return StepReader(what, grid).step();
+    return StepReader(object_in(what), grid).step();
 }
 
 std::int64_t id_of(std::string_view text) {
-    ordered_json const request = ordered_json::parse(text, nullptr, false);
+    auto const request = bounded_json<ordered_json>(text, bounds_of_messages);
     return request.is_object() ? id_in(request) : 0;
 }
 

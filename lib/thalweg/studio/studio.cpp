@@ -113,7 +113,11 @@ private:
             return std::nullopt;
         }
         std::string const name = path.substr(files.size());
-        return serve::Answer{io::read_text((fs::path(written.folder) / name).string(), largest), type_of(name)};
+        std::string const file = (fs::path(written.folder) / name).string();
+        std::error_code error;
+        refuse_if<BadInput>(!fs::is_regular_file(fs::symlink_status(file, error)),
+                            "{} is no longer there: export it again.", file);
+        return serve::Answer{io::read_text(file, largest), type_of(name)};
     }
 
     void welcome(serve::Client client) {
@@ -143,18 +147,20 @@ private:
     }
 
     void hear(serve::Client client, std::string_view text) {
-        std::int64_t id = 0;
+        std::optional<Request> request;
+        auto const refuse = [&](std::string_view why, std::optional<Vec2> const& at = {}) {
+            server_.send_text(client, refused_message(request ? request->id : id_of(text), why, at));
+        };
         try {
-            id = id_of(text);
-            obey(client, request_of(text));
+            request = request_of(text);
+            obey(client, *request);
         } catch (NotDrawn const& error) {
-            std::optional<Vec2> const at =
-                error.at && drawing_grid_ ? std::optional(in_cells(*drawing_grid_, *error.at)) : std::nullopt;
-            server_.send_text(client, refused_message(id, error.what(), at));
+            refuse(error.what(),
+                   error.at && drawing_grid_ ? std::optional(in_cells(*drawing_grid_, *error.at)) : std::nullopt);
         } catch (Error const& error) {
-            server_.send_text(client, refused_message(id, error.what()));
+            refuse(error.what());
         } catch (std::exception const& error) {
-            server_.send_text(client, refused_message(id, fmt::format("this failed: {}", error.what())));
+            refuse(fmt::format("this failed: {}", words_of(error)));
         }
     }
 
@@ -199,7 +205,7 @@ private:
         bool had_heights = false;
         Drawing const before = drawing_now(had_heights);
         drawing_grid_ = before.grid;
-        DrawStep const step = draw_step(request.what, before.grid);
+        DrawStep const step = request.step(before.grid);
         PutInput const put = [this](std::string const& key, std::string const& name,
                                     std::function<void(std::string const& path)> const& write) {
             return folder_.put(key, name, write);
@@ -348,7 +354,7 @@ private:
             try {
                 answer = written_message(request.id, revision, written_now(job, request.file, stop));
             } catch (std::exception const& error) {
-                answer = refused_message(request.id, error.what());
+                answer = refused_message(request.id, words_of(error));
             }
             is_writing_ = false;
             server_.send_text(client, std::move(answer));
@@ -365,6 +371,8 @@ private:
         bool const is_whole = file.empty();
         fs::path const below = params_.export_folder.empty() ? params_.folder : params_.export_folder;
         fs::path const folder = is_whole ? below / "terrain" : fs::path(params_.folder) / ".terrain";
+        refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(folder)),
+                            "studio.export: {} is a link: remove it, or export elsewhere (--export)", folder.string());
         fs::create_directories(below);
         Run run;
         run.stop = stop;

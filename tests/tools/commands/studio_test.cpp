@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <chrono>
+#include <cstdlib>
+#include <filesystem>
 #include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <string>
+#include <thread>
 
 #include <gtest/gtest.h>
 #include <nlohmann/json.hpp>
@@ -10,6 +13,8 @@
 #include "killed_studio.hpp"
 
 namespace studio_command_test {
+
+namespace fs = std::filesystem;
 
 namespace {
 
@@ -71,6 +76,42 @@ TEST(StudioCommand, RefusesNonsenseInWords) {
     EXPECT_EQ(taken.code, 1);
     EXPECT_TRUE(test::has(taken.err, std::to_string(studio.port()))) << taken.err;
     EXPECT_EQ(interrupted(studio).code, 0);
+}
+
+// Every user of the machine may read command lines.
+TEST(StudioCommand, ShowsTheBrowserItsTokenInAFileOfItsUserAlone) {
+    Workplace const place;
+    place.write("land.toml", land);
+    fs::create_directory(place / "bin");
+    place.write("bin/xdg-open", "#!/bin/sh\necho \"$*\" > words && cp \"$1\" page && stat -c %a \"$1\" > mode.new && "
+                                "mv mode.new mode\n");
+    place.shell("chmod +x bin/xdg-open");
+    StartedStudio studio(
+        {"land.toml", "-o", "doc", "-q"}, place.path(),
+        [&] {
+            setenv("DISPLAY", ":77", 1);
+            setenv("PATH", ((place / "bin").string() + ":" + std::getenv("PATH")).c_str(), 1);
+        },
+        false);
+    for (int i = 0; i < 600 && !fs::exists(place / "mode"); ++i) {
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+    }
+    std::string const token = studio.address().substr(studio.address().find("token="));
+    std::string const words = file_bytes(place / "words");
+    EXPECT_EQ(words, (place / "doc/.studio.html").string() + "\n");
+    EXPECT_EQ(words.find(token), std::string::npos);
+    EXPECT_TRUE(test::has(file_bytes(place / "page"), "url=" + studio.address()));
+    EXPECT_EQ(file_bytes(place / "mode"), "600\n");
+    std::string const of_process = "/proc/" + std::to_string(studio.process().pid());
+    EXPECT_EQ(file_bytes(of_process + "/cmdline").find(token), std::string::npos);
+    std::string children = "?";
+    for (int i = 0; i < 100 && !children.empty(); ++i) { // the opener leaves no zombie
+        std::this_thread::sleep_for(std::chrono::milliseconds(50));
+        children = file_bytes(of_process + "/task/" + std::to_string(studio.process().pid()) + "/children");
+    }
+    EXPECT_EQ(children, "");
+    EXPECT_EQ(interrupted(studio).code, 0);
+    EXPECT_FALSE(fs::exists(place / "doc/.studio.html"));
 }
 
 TEST(StudioCommand, LosesNoAnsweredEditWhenItIsKilled) {

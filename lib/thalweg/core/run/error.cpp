@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <array>
+#include <new>
 #include <string_view>
 
 namespace thalweg {
@@ -57,5 +58,9 @@ std::string message_of(std::string_view text) {
 } // namespace
 
 Error::Error(std::string const& text) : std::runtime_error(message_of(text)), where_(std::string(function_of(text))) {}
+
+char const* words_of(std::exception const& error) noexcept {
+    return dynamic_cast<std::bad_alloc const*>(&error) != nullptr ? out_of_memory : error.what();
+}
 
 } // namespace thalweg

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <exception>
 #include <stdexcept>
 #include <string>
 
@@ -54,5 +55,13 @@ class Cancelled : public Error {
 public:
     using Error::Error;
 };
+
+/// Words for who used too much memory; they need none.
+inline constexpr char const* out_of_memory = "out of memory: make the grid smaller or the cell larger";
+
+/// What to tell of an exception: its words; out_of_memory for one of the allocator, whose own words say nothing.
+/// \param error any
+/// \return as long as error lives
+char const* words_of(std::exception const& error) noexcept;
 
 } // namespace thalweg

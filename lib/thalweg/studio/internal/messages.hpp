@@ -3,6 +3,7 @@
 #pragma once
 
 #include <cstdint>
+#include <functional>
 #include <optional>
 #include <string>
 #include <string_view>
@@ -22,10 +23,10 @@ struct Request {
     enum class Kind : std::uint8_t { edit, attempt, undo, redo, write, stop, draw };
     std::int64_t id = 0;
     Kind kind = Kind::stop;
-    Edit edit = {};             ///< of edit and attempt
-    std::string file = {};      ///< of write: one file; "": all
-    std::string what = {};      ///< of draw: the step, as draw_step() reads it
-    std::int64_t revision = -1; ///< of draw: of the document that it is for
+    Edit edit = {};                                      ///< of edit and attempt
+    std::string file = {};                               ///< of write: one file; "": all
+    std::function<DrawStep(Grid const& grid)> step = {}; ///< of draw: reads the step, as draw_step()
+    std::int64_t revision = -1;                          ///< of draw: of the document that it is for
 };
 
 /// \throws BadInput for a text that is no request, with what is wrong
