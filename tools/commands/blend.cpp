@@ -46,8 +46,9 @@ nlohmann::ordered_json json_of(pipeline::BlendedDem const& made, std::string con
 }
 
 char const* why_there(pipeline::PatchPlace place) {
-    return place == pipeline::PatchPlace::middle ? ", the centre of the target, because the source lies outside it"
-                                                 : "";
+    return place == pipeline::PatchPlace::middle
+               ? ", the centre of the target, because the source lies elsewhere (by its own position and CRS)"
+               : "";
 }
 
 std::string blend_in_words(pipeline::BlendedDem const& made, blend::Holes holes) {

@@ -182,7 +182,7 @@ Raster<float> through_points(Raster<float> dem, Ground const& ground, Run const&
     return surface::through_heights(std::move(dem), rivers, cells, run);
 }
 
-surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run) {
+surface::Dilated dilated_on(Plan const& plan, Ground const& ground, Run const& run) {
     SurfaceRecipe const& wanted = *plan.recipe.surface;
     Valley const& valley = ground.valley;
     if (wanted.base == Base::paper) { // without a mask by the closed form
@@ -195,6 +195,15 @@ surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run)
         wanted.base == Base::tin ? over_triangles(ground, run) : surface::harmonic(valley, ground.inside, params, run);
     return ground.whole ? surface::dilate_over(valley, base, wanted.dilate, run)
                         : surface::dilate_over(valley, base, ground.inside, wanted.dilate, run);
+}
+
+surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run) {
+    try {
+        return dilated_on(plan, ground, run);
+    } catch (BadParameter const& fault) { // how many levels there are is known only now
+        bool const is_increment = std::string_view(fault.where()) == "surface.increments";
+        throw BadParameter(fmt::format("{}{}", is_increment ? "surface.increment: " : "", fault.what()));
+    }
 }
 
 /// What a surface is diffused from: rivers, ridges, points, and what follows from them beside them.

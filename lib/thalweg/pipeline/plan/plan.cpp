@@ -221,8 +221,8 @@ std::vector<Cell> outlets_of(Recipe const& recipe, Mask& land, StageLog& stage_l
 Recipe on_crs_of_region(Recipe recipe) {
     std::string const& region = recipe.network->forest.region;
     std::string& crs = recipe.grid.crs;
-    crs = !crs.empty()     ? io::projected_crs(crs)
-          : region.empty() ? io::projected_crs("EPSG:32631")
+    crs = !crs.empty()     ? crs_of_grid(crs)
+          : region.empty() ? crs_of_grid("EPSG:32631")
                            : io::crs_for_polygons(file_in(recipe, region));
     return recipe;
 }
@@ -266,7 +266,7 @@ namespace {
 // Plans a tree that fills the grid or a region.
 Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
+    recipe.grid.crs = crs_of_grid(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     Plan plan;
     plan.tree = stage_log.stage("grow", [&] { return network::grow_tokunaga(tree_of(recipe), run); });
     stage_log.say(
@@ -284,7 +284,7 @@ Plan plan_tree(Recipe recipe, StageLog& stage_log, Run const& run) {
 // Plans a tree along each stroke of a file.
 Plan plan_strokes(Recipe recipe, StageLog& stage_log, Run const& run) {
     TokunagaRecipe const& wanted = recipe.network->tokunaga;
-    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    std::string const crs = recipe.grid.crs.empty() ? "" : crs_of_grid(recipe.grid.crs);
     RiverLines strokes = stage_log.stage("read", [&] {
         return io::read_rivers({.path = file_in(recipe, wanted.strokes), .layer = wanted.layer, .crs = crs}, run);
     });
@@ -317,7 +317,7 @@ void require_files(Recipe const& recipe) {
 /// Plans a cluster, whose grid is known only if it is requested.
 Plan plan_cluster(Recipe recipe) {
     NetworkRecipe& wanted = *recipe.network;
-    recipe.grid.crs = io::projected_crs(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
+    recipe.grid.crs = crs_of_grid(recipe.grid.crs.empty() ? "EPSG:32631" : recipe.grid.crs);
     Plan plan;
     if (recipe.grid.width > 0) {
         plan.grid = frame_tree(1, recipe.grid);
@@ -414,7 +414,7 @@ Plan plan_lines(Recipe recipe, Raster<float> const& raster, StageLog& stage_log,
 // The points of [skeleton], from a file, or none. Their CRS is the grid's, also without points.
 FeaturePoints given_points(Recipe const& recipe, Run const& run) {
     FeaturePoints points;
-    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
+    std::string const crs = recipe.grid.crs.empty() ? "" : crs_of_grid(recipe.grid.crs);
     if (recipe.skeleton && !recipe.skeleton->points.empty()) {
         std::string const& name = recipe.skeleton->points;
         io::Source const file = file_in(recipe, name);
@@ -431,7 +431,7 @@ FeaturePoints given_points(Recipe const& recipe, Run const& run) {
                                  run);
     }
     if (points.crs.empty()) {
-        points.crs = io::projected_crs(crs.empty() ? "EPSG:32631" : crs);
+        points.crs = crs_of_grid(crs.empty() ? "EPSG:32631" : crs);
     }
     return points;
 }

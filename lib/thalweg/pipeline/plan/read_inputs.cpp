@@ -4,7 +4,9 @@
 
 #include <algorithm>
 #include <cmath>
+#include <filesystem>
 #include <limits>
+#include <system_error>
 #include <utility>
 
 #include <fmt/format.h>
@@ -275,23 +277,33 @@ RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run con
 
 } // namespace
 
+std::string crs_of_grid(std::string const& crs) {
+    return naming_key("grid.crs", [&] { return io::projected_crs(crs); });
+}
+
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
-    std::string const crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs);
-    RiverLines lines = io::read_rivers({.path = file_in(recipe, wanted.path),
-                                        .layer = wanted.layer,
-                                        .type_field = wanted.type_field,
-                                        .rank_field = wanted.rank_field,
-                                        .crs = crs,
-                                        .filter = wanted.filter,
-                                        .id_field = wanted.id_field,
-                                        .down_field = wanted.down_field,
-                                        .from_field = wanted.from_field,
-                                        .to_field = wanted.to_field,
-                                        .direction_field = wanted.direction_field,
-                                        .where = wanted.where,
-                                        .source_crs = wanted.source_crs},
-                                       run);
+    std::string const crs = recipe.grid.crs.empty() ? "" : crs_of_grid(recipe.grid.crs);
+    io::Source const file = file_in(recipe, wanted.path);
+    auto const read = [&] {
+        return io::read_rivers({.path = file,
+                                .layer = wanted.layer,
+                                .type_field = wanted.type_field,
+                                .rank_field = wanted.rank_field,
+                                .crs = crs,
+                                .filter = wanted.filter,
+                                .id_field = wanted.id_field,
+                                .down_field = wanted.down_field,
+                                .from_field = wanted.from_field,
+                                .to_field = wanted.to_field,
+                                .direction_field = wanted.direction_field,
+                                .where = wanted.where,
+                                .source_crs = wanted.source_crs},
+                               run);
+    };
+    std::error_code ignored;
+    RiverLines lines =
+        std::filesystem::is_directory(file.path, ignored) ? naming_key("network.lines.path", read) : read();
     lines = with_lakes_of_surface(std::move(lines), recipe, run);
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
@@ -331,7 +343,7 @@ RiverLines read_ridge_lines(Recipe const& recipe, Run const& run) {
         return {};
     }
     RiverLines ridges = io::read_rivers({.path = file_in(recipe, recipe.skeleton->ridge_lines),
-                                         .crs = recipe.grid.crs.empty() ? "" : io::projected_crs(recipe.grid.crs),
+                                         .crs = recipe.grid.crs.empty() ? "" : crs_of_grid(recipe.grid.crs),
                                          .height_field = recipe.skeleton->ridge_height_column},
                                         run);
     bool const all_zero = std::ranges::all_of(ridges.lines, [](RiverLine const& ridge) {
@@ -419,8 +431,8 @@ Recipe on_grid_of_against(Recipe recipe, Run const& run) {
     Raster<float> dem = io::read_dem(file_in(recipe, recipe.output.against), run);
     refuse_if<BadInput>(dem.grid().crs.empty() && wanted.crs.empty(),
                         "{} has no coordinate system: name that of its cells (--crs EPSG:n)", what);
-    dem = dem.grid().crs.empty() ? in_crs(dem, io::projected_crs(wanted.crs)) : std::move(dem);
-    wanted.crs = io::projected_crs(wanted.crs.empty() ? io::metric_crs(dem.grid(), what) : wanted.crs);
+    dem = dem.grid().crs.empty() ? in_crs(dem, crs_of_grid(wanted.crs)) : std::move(dem);
+    wanted.crs = crs_of_grid(wanted.crs.empty() ? io::metric_crs(dem.grid(), what) : wanted.crs);
     Grid const grid = grid_of_raster(dem, wanted, what);
     wanted = on_cells_of(grid, std::move(wanted));
     wanted.clip = true;
@@ -448,7 +460,7 @@ OnRaster settle_on_raster(Recipe recipe, Run const& run) {
     if (wanted.crs.empty()) {
         wanted.crs = is_nowhere ? crs_of_rivers(recipe, run) : io::metric_crs(given.grid(), what);
     }
-    wanted.crs = io::projected_crs(wanted.crs);
+    wanted.crs = crs_of_grid(wanted.crs);
     if (is_nowhere) {
         findings.push_back({.kind = "no_crs",
                             .text = fmt::format("{} has no coordinate system: its cells count as metres in {:.60}",

@@ -12,12 +12,24 @@
 #include <thalweg/core/features.hpp>
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
+
+/// Calls a function, and names a key of the recipe in front of what it finds wrong.
+template <class Work> auto naming_key(std::string const& key, Work const& work) {
+    try {
+        return work();
+    } catch (BadParameter const& fault) {
+        throw BadParameter(key + ": " + fault.what());
+    } catch (BadInput const& fault) {
+        throw BadInput(key + ": " + fault.what());
+    }
+}
 
 /// Measures what work of this thread takes.
 class Stopwatch {

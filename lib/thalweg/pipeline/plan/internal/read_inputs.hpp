@@ -31,6 +31,10 @@ Mask cells_under(RiverLines const& lines, Grid const& grid, std::string const& w
 /// cells as the grid
 Mask read_mask_of_land(io::Source const& source, Grid const& grid, Run const& run);
 
+/// The CRS of grid.crs, projected and in metres.
+/// \throws BadInput naming the key, as io::projected_crs
+std::string crs_of_grid(std::string const& crs);
+
 /// A field that varies over the land, above 0: a raster, brought to the grid's cells, or polygons with a real field
 /// erodibility, 1 between them (of several the last counts); empty for "". what: the key, for messages.
 /// \throws Error as these readers; BadInput naming the cell where a raster has no value or one that is not above 0
