@@ -1,10 +1,12 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Loaded before the C library (LD_PRELOAD). SPY_LOG=FILE: writes a line for each fsync and rename, in order.
-// SPY_MEMORY=N: from the N-th allocation after the program handles signals on, every allocation fails. SPY_COUNT=FILE:
-// leaves the number of allocations there.
+// SPY_MEMORY=N: from the N-th allocation after the program handles signals on, every allocation fails. SPY_ONE=N: that
+// one alone. SPY_IO=N: the N-th call that opens, reads, writes, renames or flushes a file after then fails (EIO).
+// SPY_COUNT=FILE: leaves the numbers of allocations and of these calls there.
 #include <atomic>
 #include <cerrno>
+#include <cstdarg>
 #include <cstdio>
 #include <cstdlib>
 #include <cstring>
@@ -25,6 +27,9 @@ namespace {
 
 std::atomic<long> allocations{0};
 std::atomic<long> most{-1};
+std::atomic<long> one{-1};
+std::atomic<long> calls{0};
+std::atomic<long> failing_call{-1};
 std::atomic<bool> counts{false};
 
 bool refused() {
@@ -32,11 +37,42 @@ bool refused() {
         return false;
     }
     long const number = ++allocations;
-    if (most < 0 || number <= most) {
+    if (number != one && (most < 0 || number <= most)) {
         return false;
     }
     errno = ENOMEM;
     return true;
+}
+
+/// Whether this call of the system fails.
+bool breaks() {
+    if (!counts.load(std::memory_order_relaxed)) {
+        return false;
+    }
+    if (++calls != failing_call) {
+        return false;
+    }
+    errno = EIO;
+    return true;
+}
+
+/// Likewise, and marks the stream, as the C library does.
+bool fails(FILE* file) {
+    constexpr int error_seen = 0x20; // _IO_ERR_SEEN of glibc
+    bool const is_broken = breaks();
+    if (is_broken && file != nullptr) {
+        file->_flags |= error_seen;
+    }
+    return is_broken;
+}
+
+long number_in(char const* name) {
+    char const* const text = std::getenv(name);
+    return text == nullptr ? -1 : std::atol(text);
+}
+
+template <class Call> Call next(char const* name) {
+    return reinterpret_cast<Call>(dlsym(RTLD_NEXT, name));
 }
 
 void note(char const* text) {
@@ -83,14 +119,61 @@ int sigaction(int number, struct sigaction const* action, struct sigaction* befo
     using Real = int (*)(int, struct sigaction const*, struct sigaction*);
     static Real const real = reinterpret_cast<Real>(dlsym(RTLD_NEXT, "sigaction"));
     if (number == SIGINT && action != nullptr && action->sa_handler != SIG_DFL && action->sa_handler != SIG_IGN) {
-        char const* const limit = std::getenv("SPY_MEMORY");
-        most = limit == nullptr ? -1 : std::atol(limit);
+        most = number_in("SPY_MEMORY");
+        one = number_in("SPY_ONE");
+        failing_call = number_in("SPY_IO");
         counts = true;
     }
     return real(number, action, before);
 }
 
+FILE* fopen(char const* path, char const* mode) {
+    static auto const real = next<FILE* (*)(char const*, char const*)>("fopen");
+    return breaks() ? nullptr : real(path, mode);
+}
+FILE* fopen64(char const* path, char const* mode) {
+    static auto const real = next<FILE* (*)(char const*, char const*)>("fopen64");
+    return breaks() ? nullptr : real(path, mode);
+}
+size_t fread(void* to, size_t size, size_t count, FILE* file) {
+    static auto const real = next<size_t (*)(void*, size_t, size_t, FILE*)>("fread");
+    return fails(file) ? 0 : real(to, size, count, file);
+}
+size_t fwrite(void const* from, size_t size, size_t count, FILE* file) {
+    static auto const real = next<size_t (*)(void const*, size_t, size_t, FILE*)>("fwrite");
+    return fails(file) ? 0 : real(from, size, count, file);
+}
+int fflush(FILE* file) {
+    static auto const real = next<int (*)(FILE*)>("fflush");
+    return fails(file) ? EOF : real(file);
+}
+ssize_t read(int file, void* to, size_t count) {
+    static auto const real = next<ssize_t (*)(int, void*, size_t)>("read");
+    return breaks() ? -1 : real(file, to, count);
+}
+ssize_t write(int file, void const* from, size_t count) {
+    static auto const real = next<ssize_t (*)(int, void const*, size_t)>("write");
+    return breaks() ? -1 : real(file, from, count);
+}
+int open(char const* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    mode_t const mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return breaks() ? -1 : openat(AT_FDCWD, path, flags, mode);
+}
+int open64(char const* path, int flags, ...) {
+    va_list rest;
+    va_start(rest, flags);
+    mode_t const mode = (flags & (O_CREAT | O_TMPFILE)) != 0 ? va_arg(rest, mode_t) : 0;
+    va_end(rest);
+    return breaks() ? -1 : openat(AT_FDCWD, path, flags, mode);
+}
+
 int fsync(int file) {
+    if (breaks()) {
+        return -1;
+    }
     char line[8300] = "fsync ";
     char place[64];
     std::snprintf(place, sizeof place, "/proc/self/fd/%d", file);
@@ -101,6 +184,9 @@ int fsync(int file) {
 }
 
 int rename(char const* from, char const* to) {
+    if (breaks()) {
+        return -1;
+    }
     char line[8300];
     std::snprintf(line, sizeof line, "rename %.4000s %.4000s\n", from, to);
     note(line);
@@ -116,8 +202,9 @@ struct AtEnd {
         if (file == nullptr || !counts) {
             return;
         }
-        char text[32];
-        int const length = std::snprintf(text, sizeof text, "%ld", allocations.load());
+        counts = false;
+        char text[64];
+        int const length = std::snprintf(text, sizeof text, "%ld %ld", allocations.load(), calls.load());
         int const out = open(file, O_WRONLY | O_CREAT | O_TRUNC | O_CLOEXEC, 0600);
         [[maybe_unused]] auto const written = write(out, text, static_cast<size_t>(length));
         close(out);

@@ -46,7 +46,7 @@ void make_durable(fs::path const& place, std::string const& who) {
     bool const has_none = reason == EINVAL || reason == ENOTSUP || reason == EROFS;
     std::error_code ignored;
     if (!done && !has_none && !(reason == EACCES && fs::is_directory(place, ignored))) {
-        fail(who + ": " + place.string(), {reason, std::generic_category()});
+        fail(who + ": " + (place.empty() ? "." : place.string()), {reason, std::generic_category()});
     }
 }
 

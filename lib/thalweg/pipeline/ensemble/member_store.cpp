@@ -234,7 +234,15 @@ int MemberStore::locked_at(std::string const& path, bool waits, Run const& run) 
 void MemberStore::open_folder(std::vector<std::string> const& vary, Share const& share, Run const& run) {
     // Whoever holds this lock is alone between a folder without an ensemble and one with recipe.toml. Before that
     // nobody holds another lock, so that a first run that fails may remove what it made.
-    OpenFile const first(locked_at(inner_ + "/start.lock", true, run));
+    OpenFile const first([&] {
+        try {
+            return locked_at(inner_ + "/start.lock", true, run);
+        } catch (...) {
+            std::error_code error; // each only if it is empty
+            fs::remove(inner_, error) && fs::remove(folder_, error);
+            throw;
+        }
+    }());
     if (role_ == Role::alone) {
         keep(locked_at(inner_ + "/run.lock", false, run));
         refuse_if<BadInput>(locks_.empty(),

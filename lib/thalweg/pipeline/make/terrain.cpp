@@ -202,7 +202,7 @@ surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run)
         return dilated_on(plan, ground, run);
     } catch (BadParameter const& fault) { // how many levels there are is known only now
         bool const is_increment = std::string_view(fault.where()) == "surface.increments";
-        throw BadParameter(fmt::format("{}{}", is_increment ? "surface.increment: " : "", fault.what()));
+        throw BadParameter(fmt::format("{}{}", is_increment ? "[surface] increment: " : "", fault.what()));
     }
 }
 

@@ -278,7 +278,7 @@ RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run con
 } // namespace
 
 std::string crs_of_grid(std::string const& crs) {
-    return naming_key("grid.crs", [&] { return io::projected_crs(crs); });
+    return naming_key("[grid] crs", [&] { return io::projected_crs(crs); });
 }
 
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
@@ -303,7 +303,7 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
     };
     std::error_code ignored;
     RiverLines lines =
-        std::filesystem::is_directory(file.path, ignored) ? naming_key("network.lines.path", read) : read();
+        std::filesystem::is_directory(file.path, ignored) ? naming_key("[network.lines] path", read) : read();
     lines = with_lakes_of_surface(std::move(lines), recipe, run);
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();

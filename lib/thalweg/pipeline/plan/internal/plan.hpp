@@ -20,7 +20,8 @@
 
 namespace thalweg::pipeline {
 
-/// Calls a function, and names a key of the recipe in front of what it finds wrong.
+/// Calls a function, and puts a key of the recipe in front of what it finds wrong.
+/// \param key "[grid] crs"
 template <class Work> auto naming_key(std::string const& key, Work const& work) {
     try {
         return work();
