@@ -3,12 +3,13 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """Lets one allocation, or one call that opens, reads, writes, renames or flushes a file, fail in small runs of seven
 commands: 200 allocations a command, spread by a hash over all of a run, and each of the first 500 calls. A run must give
-the right bytes, or end with exit 1 in words and leave nothing; whatever it leaves, the same command must give them then.
+the right bytes, or end with exit 1 in words (2 where an input cannot be read) and leave nothing; whatever it leaves, the same command must give them then.
 Usage: shortages.py BUILD_DIR [ALLOCATIONS [CALLS [COMMAND ...]]]"""
 import concurrent.futures
 import hashlib
 import os
 import pathlib
+import select
 import shutil
 import signal
 import subprocess
@@ -57,8 +58,9 @@ class Trial:
             setting["LD_PRELOAD"] = str(self.spy)
         process = subprocess.Popen(words, cwd=folder, env=setting, stdout=subprocess.PIPE, stderr=subprocess.PIPE)
         if self.name == "studio":  # it ends at Ctrl-C, once it has printed its address, or by itself
-            first = process.stdout.readline()
-            process.send_signal(signal.SIGINT if first else 0)
+            told, _, _ = select.select([process.stdout], [], [], HANGS_S)
+            if told and process.stdout.readline():
+                process.send_signal(signal.SIGINT)
         try:
             out, err = process.communicate(timeout=HANGS_S)
         except subprocess.TimeoutExpired:
@@ -87,7 +89,7 @@ class Trial:
             if code == 0:
                 whole = (out, bytes_of(place) if self.left else {}) == self.right
                 return "" if whole else f"exit 0 and other bytes: {words}", True
-            if code != 1 or "error: " not in words:
+            if code not in (1, 2) or "error: " not in words:  # 2: an input that cannot be read
                 return f"exit {code}: {words}", False
             beside = [path.name for path in pathlib.Path(folder).iterdir() if path != place and ".thalweg-tmp-" not in path.name]
             is_there = bool(self.left) and place.exists()

@@ -3,6 +3,7 @@
 #include <algorithm>
 #include <array>
 #include <charconv>
+#include <cmath>
 #include <cstdint>
 #include <cstdio>
 #include <memory>
@@ -65,7 +66,10 @@ std::string forecast_in_words(pipeline::Forecast const& forecast, bool json) {
         text += fmt::format("grid       follows from the grown rivers: about {:.1g} cells\n",
                             static_cast<double>(forecast.cells));
     }
-    text += fmt::format("memory     at most {:.2g} GB\n", static_cast<double>(forecast.memory_bytes) / 1e9);
+    double const gigabytes = static_cast<double>(forecast.memory_bytes) / 1e9;
+    double const step =
+        std::pow(10.0, std::floor(std::log10(gigabytes)) - 1.0); // two digits, rounded up: it is a bound
+    text += fmt::format("memory     at most {:.2g} GB\n", std::ceil(gigabytes / step - 1e-9) * step);
     text += fmt::format("time       about {} on one core\n", time_in_words(forecast.seconds));
     return text + "nothing was written\n";
 }

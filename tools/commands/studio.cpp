@@ -17,6 +17,7 @@
 #include <CLI/CLI.hpp>
 #include <fmt/format.h>
 
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/studio/studio.hpp>
 
 #include "commands/commands.hpp"
@@ -96,7 +97,10 @@ int run_studio(StudioOptions& options, Session const& session) {
     session.run.tell("document", options.params.folder);
     std::string const address = studio.address();
     fmt::print("{}\n", address);
-    std::fflush(stdout);
+    if (std::fflush(stdout) != 0) { // nobody would find it
+        throw IoError(
+            "the address cannot be written to standard output: send it to a file or a terminal that takes it");
+    }
     std::optional<WayIn> way_in;
     bool opened = false;
     if (!options.no_browser && has_screen()) {

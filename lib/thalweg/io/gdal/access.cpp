@@ -300,7 +300,9 @@ void set_unless_set(char const* option, char const* value) {
 std::vector<std::pair<std::string, std::string>> const& own_settings() {
     static std::vector<std::pair<std::string, std::string>> const settings = [] {
         std::vector<std::pair<std::string, std::string>> all{{"GDAL_VRT_ENABLE_PYTHON", "NO"},
-                                                             {"CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO"}};
+                                                             {"CPL_VSIL_GZIP_WRITE_PROPERTIES", "NO"},
+                                                             // ours are fixed; its tables of them take an age
+                                                             {"GDAL_VALIDATE_CREATION_OPTIONS", "NO"}};
         std::error_code failed;
         std::string const folder = fs::temp_directory_path(failed).string();
         if (!failed && CPLGetConfigOption("CPL_TMPDIR", nullptr) == nullptr) {

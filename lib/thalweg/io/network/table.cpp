@@ -1,19 +1,26 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <algorithm>
 #include <array>
+#include <atomic>
 #include <cmath>
 #include <filesystem>
 #include <limits>
 #include <memory>
+#include <optional>
+#include <string>
 #include <vector>
 
 #include <cpl_conv.h>
+#include <cpl_string.h>
+#include <cpl_vsi.h>
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
 
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/internal/crs.hpp>
+#include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
 #include <thalweg/io/network/internal/network_tables.hpp>
 #include <thalweg/io/qgis/internal/qgis.hpp>
@@ -230,6 +237,42 @@ void require_crs(std::string const& path, OGRSpatialReference const& wanted, std
 
 } // namespace
 
+namespace {
+
+/// Where GDAL writes a shapefile: in memory, since it is silent of a part that the disk did not take.
+class Shapefile {
+public:
+    explicit Shapefile(std::string const& path) : path_(path) {
+        static std::atomic<int> made{0};
+        folder_ = fmt::format("/vsimem/thalweg-shapefile-{}", ++made);
+    }
+    ~Shapefile() { VSIRmdirRecursive(folder_.c_str()); }
+    Shapefile(Shapefile const&) = delete;
+    Shapefile& operator=(Shapefile const&) = delete;
+
+    std::string path() const { return folder_ + "/" + std::filesystem::path(path_).filename().string(); }
+
+    /// Writes its files.
+    /// \throws IoError as write_text
+    void copy_to_disk() const {
+        CPLStringList const listed(VSIReadDir(folder_.c_str()), TRUE);
+        std::vector<std::string> names(listed.List(), listed.List() + listed.size());
+        std::ranges::stable_partition(names, [](std::string const& name) { return name.ends_with(".shp"); });
+        for (std::string const& name : names) {
+            vsi_l_offset size = 0;
+            auto const* const bytes = VSIGetMemFileBuffer((folder_ + "/" + name).c_str(), &size, FALSE);
+            write_text((std::filesystem::path(path_).parent_path() / name).string(),
+                       {reinterpret_cast<char const*>(bytes), bytes == nullptr ? 0 : static_cast<std::size_t>(size)});
+        }
+    }
+
+private:
+    std::string path_;
+    std::string folder_;
+};
+
+} // namespace
+
 void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
                 Run const& run) {
     FileFormat const& file_format = file_formats[format];
@@ -247,7 +290,12 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
         "write FlatGeobuf",
         what);
     GDALDriver* const writer = GetGDALDriverManager()->GetDriverByName(file_format.driver);
-    Dataset dataset(writer == nullptr ? nullptr : writer->Create(path.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
+    std::optional<Shapefile> shapefile;
+    if (format == LayerFormat::shapefile) {
+        shapefile.emplace(path);
+    }
+    std::string const written = shapefile ? shapefile->path() : path;
+    Dataset dataset(writer == nullptr ? nullptr : writer->Create(written.c_str(), 0, 0, 0, GDT_Unknown, nullptr));
     if (dataset == nullptr) {
         driver.check(what);
         throw IoError(what + " could not be created");
@@ -267,8 +315,11 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     dataset.reset();
     driver.check(what);
     if (!crs.empty()) {
-        require_crs(path, reference, what);
+        require_crs(written, reference, what);
         driver.check(what);
+    }
+    if (shapefile) {
+        shapefile->copy_to_disk();
     }
 }
 

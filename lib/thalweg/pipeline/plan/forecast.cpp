@@ -143,12 +143,12 @@ double seconds_a_million(std::string const& stage, Method method) {
 
 /// Peak memory [bytes] of the whole program; measured on the samples, of 0.01 to 1 million cells.
 std::int64_t memory_of(Recipe const& recipe, std::int64_t cells) {
-    constexpr std::int64_t program = 80'000'000; // with its libraries
+    constexpr std::int64_t program = 100'000'000; // with its libraries
     constexpr std::int64_t a_particle = 60;
     bool const has_cluster = recipe.network && recipe.network->source == Source::dla;
     constexpr std::int64_t a_cell_of_exact_detail = 120; // transforms on a torus of up to seven cells per cell
     bool const exact = levels_of(recipe) > 0 && recipe.detail->midpoint.stencil == fractal::Stencil::exact;
-    return program + bytes_needed(cells) * 5 / 4 + (exact ? cells * a_cell_of_exact_detail : 0) +
+    return program + bytes_needed(cells) * 2 + (exact ? cells * a_cell_of_exact_detail : 0) +
            (has_cluster ? recipe.network->dla.particles * a_particle : 0);
 }
 
