@@ -657,6 +657,24 @@ TEST_F(Studios, AnEmptySheetIsDrawnOn) {
     window.wait_for(2);
 }
 
+// The page lets pins and ridges be drawn up to the border, and snaps them to it.
+TEST_F(Studios, WhatIsDrawnOnTheBorderIsExported) {
+    std::string const folder = document_for("", at("sheet"), true);
+    Running const studio({.folder = folder, .threads = 2});
+    Window window(studio);
+    EXPECT_EQ(window.set("grid.width", "128")["ok"], true);
+    EXPECT_EQ(window.set("grid.height", "96")["ok"], true);
+    EXPECT_EQ(window.draw({{"verb", "river"}, {"points", {60, 20, 64, 90}}})["ok"], true);
+    for (json const& place : {json{128, 40}, json{20, 96}, json{128, 96}, json{0, 0}, json{140, 10}}) {
+        json const pin = window.draw({{"verb", "pin"}, {"at", place}, {"height", 700}});
+        EXPECT_EQ(pin["ok"], true) << place << " " << pin;
+    }
+    json const ridge = window.draw({{"verb", "ridge"}, {"points", {128, 60, 100, 62}}, {"from", 800}, {"to", 600}});
+    EXPECT_EQ(ridge["ok"], true) << ridge;
+    json const written = window.ask(R"({"id": 7, "do": "export"})");
+    EXPECT_EQ(written["ok"], true) << written;
+}
+
 TEST_F(Studios, FindTheDocumentMeant) {
     EXPECT_EQ(document_for(at("doc"), ""), at("doc"));
     EXPECT_EQ(document_for(at("land.toml"), at("fresh")), at("fresh"));
