@@ -58,6 +58,8 @@ class Tin(Algorithm):
                  "Names of the first line or numbers from 1, such as 3,2,4; or pnezd (number, northing, easting, height, "
                  "description).",
                  advanced=True)
+        self.add(QgsProcessingParameterString("HEIGHT_COLUMN", "Column of heights", optional=True),
+                 "Take the heights of points and lines from this column, in place of Z.", advanced=True)
         self.add(QgsProcessingParameterString("CLASSES", "Classes of a point cloud", optional=True),
                  "Take points of these classes: ground (2 and 8), water (9), all (but noise), or numbers, separated by commas. "
                  "Default: ground, or all of a cloud that is not classified.",
@@ -105,7 +107,8 @@ class Tin(Algorithm):
         source = next((files[name].path for name in SOURCES if name in files), None) or self.parameterAsFile(parameters, "TEXT",
                                                                                                              context)
         options = self.options(parameters, context, ERROR="--error", COLUMNS="--columns", DUPLICATES="--duplicates",
-                               CLASSES="--classes", THIN="--thin", FORMAT="--format", NODATA="--nodata")
+                               HEIGHT_COLUMN="--height-column", CLASSES="--classes", THIN="--thin", FORMAT="--format",
+                               NODATA="--nodata")
         for name, flag in (("CRS", "--crs"), ("SOURCE_CRS", "--source-crs")):
             crs = self.crs(parameters, name, context)
             options += [f"{flag}={crs}"] if crs else []
