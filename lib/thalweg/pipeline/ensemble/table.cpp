@@ -306,6 +306,9 @@ Journals::Journals(std::string const& folder, Run const& run) {
                              .files = lists.number_of((*row)["files"]),
                              .is_failed = (*row)["status"] == name_of(MemberState::failed)});
         }
+        if (stream.bad()) { // else it would be a journal that ends there
+            throw IoError(fmt::format("pipeline.journals: {} cannot be read to its end", journals_[i]));
+        }
     }
     keep_one_each(rows_);
 }
