@@ -359,11 +359,12 @@ Dataset open_unchanged(Source const& source, unsigned kinds) {
     held->file = std::make_unique<UnchangedFile const>(path);
     held->netcdf = std::make_unique<WithNetcdf const>(path);
     std::string const name = inside_archive(held->file->path());
-    if (is_virtual_in_disguise(name, path)) { // who names a picture does not expect to read files elsewhere
+    bool const is_disguised = is_virtual_in_disguise(name, path);
+    if (is_disguised) { // who names a picture does not expect to read files elsewhere
         held->folder = std::make_unique<Confined const>(path);
         held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
     }
-    require_honest_sources(name, path);
+    require_honest_sources(name, path, is_disguised);
     return opened(name, kinds, nullptr, held, path);
 }
 

@@ -51,7 +51,7 @@ bool is_virtual(std::string const& head) {
 class Follower {
 public:
     /// \param path the user's
-    explicit Follower(std::string const& path, bool is_disguised) : path_(path), is_disguised_(is_disguised) {}
+    Follower(std::string const& path, bool is_disguised) : path_(path), is_disguised_(is_disguised) {}
 
     void follow(std::string const& name, int depth) const {
         constexpr std::string_view scheme = "vrt://";
@@ -124,8 +124,8 @@ bool is_virtual_in_disguise(std::string const& name, std::string const& path) {
     return std::ranges::any_of(beside, [&](char const* ending) { return is_virtual(head_of(name + ending)); });
 }
 
-void require_honest_sources(std::string const& name, std::string const& path) {
-    Follower(path, is_virtual_in_disguise(name, path)).follow(name, 1);
+void require_honest_sources(std::string const& name, std::string const& path, bool is_disguised) {
+    Follower(path, is_disguised).follow(name, 1);
     for (char const* const ending : {".msk", ".ovr"}) { // what they name elsewhere is closed, and not needed
         Follower(path, false).follow(name + ending, 1);
     }
