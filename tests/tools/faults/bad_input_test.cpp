@@ -89,6 +89,22 @@ TEST(BadInput, RecipeKeys) {
                     "surface.smoothing=101 --set surface.method=diffuse"});
 }
 
+TEST(BadInput, ValuesThatAreFoundWrongLateNameTheirKey) {
+    Workplace const place;
+    fs::create_directory(place / "empty");
+    std::string const tiny = "make --set grid.width=64 --set grid.height=48 --set network.dla.particles=400 "
+                             "--set network.prune=0 ";
+    std::string const folder = "[network.lines] path: empty is a folder";
+    expect_run(place, tiny + "--set network.source=lines --set network.lines.path=empty -o out", 2, folder,
+               "name a file in it");
+    place.write("r.toml", lines_recipe("empty"));
+    expect_run(place, "make r.toml -o out", 2, folder);
+    expect_run(place, tiny + "--set grid.crs=missing.prj -o out", 2,
+               "[grid] crs: 'missing.prj' is not a coordinate system");
+    expect_run(place, tiny + "--set surface.method=dilate --set 'surface.increment=(x-3)^-1' -o out", 2,
+               "[surface] increment: '(x-3)^-1' is not finite at x = 3");
+}
+
 TEST(BadInput, FolderThatIsTaken) {
     Workplace const place;
     fs::create_directory(place / "out");

@@ -420,6 +420,12 @@ std::string data_beside(fs::path const& header) {
 
 } // namespace
 
+void refuse_folder(std::string const& path, std::string const& what) {
+    std::error_code ignored;
+    refuse_if<BadInput>(fs::is_directory(path, ignored),
+                        "{} is a folder, and holds nothing that GDAL reads as a whole: name a file in it", what);
+}
+
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what) {
     // GDAL takes addresses and connection strings for file names.
     if (std::error_code ignored; !fs::exists(source.path, ignored)) {
@@ -439,9 +445,7 @@ Dataset open_file(Source const& source, unsigned kinds, std::string const& what)
         std::string words = CPLGetLastErrorMsg();
         words = words.empty() ? "its format is not known" : words;
         words.erase(words.find_last_not_of('.') + 1);
-        std::error_code ignored;
-        refuse_if<BadInput>(fs::is_directory(source.path, ignored),
-                            "{} is a folder, and holds nothing that GDAL reads as a whole: name a file in it", what);
+        refuse_folder(source.path, what);
         std::string const other = data_beside(source.path);
         throw BadInput(fmt::format("{} cannot be read: {}{}", what, words,
                                    other.empty() ? "" : fmt::format("; its data are in {}: name that file", other)));

@@ -343,6 +343,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         VSIStatBufL status;
         refuse_if<BadInput>(path.empty() || VSIStatL(path.c_str(), &status) != 0,
                             "io.read_rivers: there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")");
+        refuse_folder(path, "io.read_rivers: " + path);
         throw BadInput(fmt::format("io.read_rivers: {} is not a vector file that GDAL can read ({})", path, words));
     }
     std::vector<OGRLayer*> const layers = params.rings && params.layer.empty()

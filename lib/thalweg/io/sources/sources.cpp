@@ -313,6 +313,7 @@ std::string plain_copy(std::string const& source, std::string const& layer, std:
     std::string const file = file_of_part(source);
     Dataset data = file.empty() ? open_unchanged(source, kinds) : open_file(source, kinds, "io.plain_copy: " + source);
     if (!data) {
+        refuse_folder(source, "io.plain_copy: " + source);
         throw BadInput(fmt::format("io.plain_copy: {} cannot be read: {}", source, driver.take()));
     }
     if (data->GetRasterCount() == 0 && data->GetLayerCount() == 0) {

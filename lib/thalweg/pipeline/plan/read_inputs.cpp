@@ -28,6 +28,7 @@
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -218,8 +218,12 @@ std::string keep_user_file(std::string const& path, io::OutputFolder const& out,
 
 UserFiles::UserFiles(Recipe& recipe, Run const& run) {
     for (NamedFile const& file : files_of(recipe)) {
-        if (is_users(recipe, file.key->place(file.item))) {
-            std::string const copy = copied(recipe, file.name, file.layer, run);
+        std::string const place = file.key->place(file.item);
+        if (is_users(recipe, place)) {
+            auto const work = [&] { return copied(recipe, file.name, file.layer, run); };
+            bool const is_set = recipe.set_at.contains(place); // else it is named on the command line
+            std::string const copy =
+                is_set ? naming_key(fmt::format("[{}] {}", file.key->section(), file.key->name()), work) : work();
             if (copy != file.name && !io::names_connection(file.name)) { // whose name may contain a password
                 recipe.copy_of[copy] = file.name;
             }

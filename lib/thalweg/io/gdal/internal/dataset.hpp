@@ -35,6 +35,9 @@ Dataset open_unchanged(Source const& source, unsigned kinds);
 /// \throws BadInput when there is none or no driver reads it
 Dataset open_file(Source const& source, unsigned kinds, std::string const& what);
 
+/// \throws BadInput when a path that no driver reads is a folder
+void refuse_folder(std::string const& path, std::string const& what);
+
 /// Opens a part of an open file by GDAL's name of it, with the same driver and under the same restrictions; null when
 /// it cannot be read.
 Dataset open_part(Dataset const& file, std::string const& name);

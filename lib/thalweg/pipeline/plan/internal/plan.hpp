@@ -20,18 +20,6 @@
 
 namespace thalweg::pipeline {
 
-/// Calls a function, and puts a key of the recipe in front of what it finds wrong.
-/// \param key "[grid] crs"
-template <class Work> auto naming_key(std::string const& key, Work const& work) {
-    try {
-        return work();
-    } catch (BadParameter const& fault) {
-        throw BadParameter(key + ": " + fault.what());
-    } catch (BadInput const& fault) {
-        throw BadInput(key + ": " + fault.what());
-    }
-}
-
 /// Measures what work of this thread takes.
 class Stopwatch {
 public:

@@ -16,6 +16,7 @@
 #include <variant>
 #include <vector>
 
+#include <thalweg/core/run/error.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -189,6 +190,18 @@ struct Key {
     std::string section() const;
     std::string name() const;
 };
+
+/// Calls a function, and puts a key of the recipe in front of what it finds wrong.
+/// \param key "[grid] crs"
+template <class Work> auto naming_key(std::string const& key, Work const& work) {
+    try {
+        return work();
+    } catch (BadParameter const& fault) {
+        throw BadParameter(key + ": " + fault.what());
+    } catch (BadInput const& fault) {
+        throw BadInput(key + ": " + fault.what());
+    }
+}
 
 /// A recipe in which every key of the table has its default: it has all sections, and one patch.
 Recipe with_all_sections();
