@@ -29,6 +29,10 @@ if(THALWEG_SANITIZE)
     -fsanitize=${THALWEG_SANITIZE} -fno-omit-frame-pointer $<$<CXX_COMPILER_ID:GNU>:-Wno-error=maybe-uninitialized>
     $<$<CXX_COMPILER_ID:GNU>:-Wno-error=uninitialized>)
   target_link_options(thalweg_options INTERFACE -fsanitize=${THALWEG_SANITIZE})
+  if(THALWEG_SANITIZE MATCHES "undefined") # g++ takes comparisons of constant addresses for not constant (bug 71962)
+    target_compile_options(thalweg_options INTERFACE
+      $<$<CXX_COMPILER_ID:GNU>:-fno-sanitize=null,nonnull-attribute,returns-nonnull-attribute>)
+  endif()
   if(THALWEG_SANITIZE STREQUAL "thread")
     target_compile_definitions(thalweg_options INTERFACE THALWEG_TSAN)
     target_compile_options(thalweg_options INTERFACE $<$<CXX_COMPILER_ID:GNU>:-Wno-tsan>) # fences of Boost and oneTBB

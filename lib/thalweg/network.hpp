@@ -21,6 +21,7 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
+#include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>

@@ -182,7 +182,7 @@ inline constexpr auto finding_rows = [] {
         {"links_without_room", warning, always, "links", "Links of a grown network found no room.",
          "Make the grid larger, or network.tokunaga.spacing or order smaller."},
         {"placeholder_heights", warning, always, "vertices",
-         "Heights of 0 between higher ones, or of -9999 and less, count as missing.",
+         "Heights of 0 beside higher ones, or of -9999 and less, count as missing.",
          "Remove these heights from the file, or write those that are meant."},
         {"points_off_grid", warning, always, "points", "Points lie off the grid and are left out.",
          "Make the grid larger, or leave them out of the file."},

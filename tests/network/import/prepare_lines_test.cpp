@@ -25,7 +25,6 @@ using Line = std::vector<Vec3>;
 
 namespace {
 
-using network::fill_heights;
 using test::lines_of;
 
 constexpr double none = std::numeric_limits<double>::quiet_NaN();
@@ -81,14 +80,6 @@ using Kept = std::vector<std::pair<std::int64_t, double>>;
 std::string const ditch = "waterway ditch";
 
 Grid const ten{10, 10, 1.0, 0.0, 10.0, ""};
-
-std::vector<double> heights(RiverLines const& lines, std::size_t line) {
-    std::vector<double> z;
-    for (Vec3 const& v : lines.lines[line].vertices) {
-        z.push_back(v.z);
-    }
-    return z;
-}
 
 } // namespace
 
@@ -234,106 +225,6 @@ TEST(ClipLines, CutsWhereTheLandEnds) {
     EXPECT_EQ(along.lines[0].vertices.front(), (Vec3{3.5, 8, 3}));
     EXPECT_EQ(along.lines[0].vertices.back(), (Vec3{3.5, 6, 1}));
     EXPECT_TRUE(along.secondary.empty());
-}
-
-TEST(FillHeights, NothingToFill) {
-    EXPECT_EQ(fill_heights({}, 0.01).filled, 0);
-    EXPECT_THROW(fill_heights({}, 0.0), BadParameter);
-    auto const all = fill_heights(lines_of({{{0, 0, 5}, {10, 0, 4}}}), 0.01);
-    EXPECT_EQ(all.filled, 0);
-    auto const no_heights = fill_heights(lines_of({{{0, 0, none}, {10, 0, none}}}), 0.01);
-    EXPECT_EQ(no_heights.filled, 0);
-    EXPECT_FALSE(no_heights.lines.has_z);
-    auto const zeros = fill_heights(lines_of({{{0, 0, 0}, {10, 0, 0}}, {{10, 0, none}, {20, 0, none}}}), 0.01);
-    EXPECT_FALSE(zeros.lines.has_z) << "heights that are all 0 are none";
-}
-
-TEST(FillHeights, BetweenTwoKnownHeightsLinearByLength) {
-    auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}},
-                                               {{100, 0, none}, {130, 0, none}, {200, 0, none}},
-                                               {{200, 0, 80}, {300, 0, 70}}}),
-                                     0.01);
-    EXPECT_EQ(filled.filled, 1);
-    EXPECT_EQ(filled.first, 2);
-    EXPECT_TRUE(filled.lines.has_z);
-    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{90, 87, 80}));
-    EXPECT_EQ(heights(filled.lines, 0), (std::vector<double>{100, 90}));
-}
-
-TEST(FillHeights, FreeEndsRiseUpstreamAndFallDownstream) {
-    std::vector<std::vector<Vec3>> const drawn = {{{0, 0, 100}, {100, 0, 90}},
-                                                  {{-100, 0, none}, {0, 0, none}},
-                                                  {{100, 0, none}, {300, 0, none}},
-                                                  {{300, 0, none}, {400, 0, none}}};
-    auto const filled = fill_heights(lines_of(drawn), 0.1);
-    EXPECT_EQ(filled.filled, 3);
-    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{110, 100}));
-    EXPECT_EQ(heights(filled.lines, 2), (std::vector<double>{90, 70}));
-    EXPECT_EQ(heights(filled.lines, 3), (std::vector<double>{70, 60}));
-
-    std::vector<std::vector<Vec3>> upstream = drawn;
-    for (auto& line : upstream) {
-        line = {line.rbegin(), line.rend()};
-    }
-    auto const turned = fill_heights(lines_of(upstream), 0.1);
-    EXPECT_EQ(heights(turned.lines, 1), (std::vector<double>{100, 110}));
-    EXPECT_EQ(heights(turned.lines, 3), (std::vector<double>{60, 70}));
-}
-
-TEST(FillHeights, OfHeightsThatMeetTheLowestCounts) {
-    std::vector<Vec3> const high{{0, 0, 100}, {100, 0, 90}};
-    std::vector<Vec3> const low{{0, 50, 95}, {100, 0, 80}};
-    std::vector<Vec3> const open{{100, 0, none}, {200, 0, none}};
-    for (auto const& drawn : {std::vector{high, low, open}, std::vector{low, high, open}}) {
-        EXPECT_EQ(heights(fill_heights(lines_of(drawn), 0.1).lines, 2), (std::vector<double>{80, 70}));
-    }
-}
-
-TEST(FillHeights, HeightsAtSomeVerticesStay) {
-    auto const filled =
-        fill_heights(lines_of({{{0, 0, none}, {50, 0, 100}, {75, 0, none}, {150, 0, 80}, {170, 0, none}},
-                               {{170, 0, none}, {200, 0, none}, {300, 0, 70}},
-                               {{75, 50, none}, {75, 0, none}}}),
-                     0.1);
-    EXPECT_EQ(filled.filled, 3);
-    EXPECT_EQ(filled.partly, 2);
-    EXPECT_EQ(filled.first, 1);
-    EXPECT_EQ(heights(filled.lines, 0), (std::vector<double>{105, 100, 95, 80, 78}));
-    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{78, 78 - 8 * (30.0 / 130), 70}));
-    EXPECT_EQ(heights(filled.lines, 2), (std::vector<double>{100, 95}));
-}
-
-TEST(FillHeights, AnEndThatMeetsAKnownHeightTakesIt) {
-    auto const filled = fill_heights(
-        lines_of({{{0, 0, 100}, {100, 0, 90}}, {{100, 0, none}, {150, 0, none}, {200, 0, 60}, {300, 0, none}}}), 0.1);
-    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{90, 75, 60, 50}));
-}
-
-TEST(FillHeights, ARiverOfItsOwnBeginsAtTheNearestHeight) {
-    auto const filled = fill_heights(lines_of({{{0, 0, 100}, {100, 0, 90}}, {{90, 200, none}, {90, 100, none}}}), 0.1);
-    EXPECT_EQ(heights(filled.lines, 1), (std::vector<double>{100, 90}));
-}
-
-TEST(FillHeights, WhatStandsForNoHeightIsNone) {
-    auto const sea = network::without_placeholders(lines_of({{{0, 0, 9}, {1, 0, 4}, {2, 0, 0}}}));
-    EXPECT_EQ(sea.vertices, 0) << "a mouth may lie at 0";
-    EXPECT_EQ(sea.lines.lines[0].vertices[2].z, 0.0);
-    auto const zeros =
-        network::without_placeholders(lines_of({{{0, 0, 9}, {1, 0, 0}, {2, 0, 5}, {3, 0, 0}}, {{9, 9, 0}, {9, 8, 7}}}));
-    EXPECT_TRUE(zeros.zeros);
-    EXPECT_EQ(zeros.vertices, 3);
-    EXPECT_TRUE(std::isnan(zeros.lines.lines[0].vertices[1].z));
-    EXPECT_TRUE(std::isnan(zeros.lines.lines[1].vertices[0].z));
-    auto const no_data = network::without_placeholders(lines_of({{{0, 0, -9999}, {1, 0, 4}, {2, 0, 0}}}));
-    EXPECT_EQ(no_data.vertices, 1);
-    EXPECT_FALSE(no_data.zeros);
-}
-
-TEST(FillHeights, ALineByItself) {
-    EXPECT_EQ(network::with_heights_between({{0, 0, none}, {1, 0, 4}, {2, 0, none}, {4, 0, 10}, {9, 0, none}}),
-              (std::vector<Vec3>{{0, 0, 4}, {1, 0, 4}, {2, 0, 6}, {4, 0, 10}, {9, 0, 10}}));
-    EXPECT_TRUE(std::isnan(network::with_heights_between({{0, 0, none}, {1, 0, none}}).front().z));
-    EXPECT_TRUE(network::with_heights_between({}).empty());
 }
 
 TEST(CutLoops, NothingToCut) {

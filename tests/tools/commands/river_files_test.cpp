@@ -584,4 +584,68 @@ TEST(RiverFiles, RiversRunThroughLakesOfTheFile) {
     expect_run(place, "replay level --verify", 0);
 }
 
+namespace {
+
+/// Heights of the vertices of all arcs in their order, as far as the file gives them.
+std::vector<double> heights_of_given(fs::path const& gpkg, std::set<std::pair<double, double>> const& at) {
+    std::vector<double> heights;
+    auto const data = opened(gpkg);
+    for (auto const& arc : *data->GetLayerByName("arcs")) {
+        for (OGRPoint const& v : *arc->GetGeometryRef()->toLineString()) {
+            if (at.contains({v.getX(), v.getY()})) {
+                heights.push_back(v.getZ());
+            }
+        }
+    }
+    return heights;
+}
+
+} // namespace
+
+TEST(RiverFiles, HeightsAreMissingWhereAToolCutALine) {
+    Workplace const place;
+    std::string const above =
+        test::line("[500000,5010000,900],[500000,5005000,700],[500000,5000000]", R"("linkno":1,"dslinkno":2)");
+    std::string const below =
+        test::line("[500000,5000000],[500000,4995000,300],[500000,4990000,200]", R"("linkno":2,"dslinkno":-1)");
+    std::string const beside =
+        test::line("[509000,5004000,800],[504000,5002000,600],[500000,5000000,500]", R"("linkno":3,"dslinkno":2)");
+    place.write("split.geojson", test::geojson(above + "," + below));
+    place.write("tributary.geojson", test::geojson(above + "," + below + "," + beside));
+    place.write("both.geojson",
+                test::geojson(test::line("[500000,5010000],[500000,5005000,700],[500000,5000000]") + "," +
+                              test::line("[500000,5000000],[500000,4995000,300],[500000,4990000]")));
+    place.write("first.geojson",
+                test::geojson(test::line("[500000,5010000],[500000,5005000,700],[500000,5000000,500]")));
+    std::set<std::pair<double, double>> const south{
+        {500000.0, 4995000.0}, {500000.0, 5005000.0}, {500000.0, 5000000.0}};
+    for (auto const& [name, missing, middle] : {std::tuple{"split", 2, 500.0}, std::tuple{"tributary", 2, 500.0},
+                                                std::tuple{"both", 4, 500.0}, std::tuple{"first", 1, 500.0}}) {
+        SCOPED_TRACE(name);
+        std::string const file = fmt::format("{}.geojson", name);
+        Outcome const made =
+            expect_run(place, fmt::format("make {} --only dem,network -o {}", file, name), 0,
+                       fmt::format("count as missing (vertices: {}; the first is of feature 1", missing));
+        EXPECT_EQ(made.err.find("reversed"), std::string::npos) << made.err;
+        json const report = report_of(place / name);
+        EXPECT_EQ(report["network"]["outlets"], 1);
+        std::vector<double> const heights = heights_of_given(place / name / "network.gpkg", south);
+        ASSERT_GE(heights.size(), 2U);
+        EXPECT_NEAR(heights[0], 700.0, 1e-3);
+        EXPECT_NEAR(heights[1], middle, 1e-3);
+    }
+    expect_run(place, "tin tributary.geojson -o mesh.obj", 0, "[placeholder_heights]");
+    std::string const mesh = file_bytes(place / "mesh.obj");
+    EXPECT_NE(mesh.find("v 500000 5000000 500\n"), std::string::npos) << mesh;
+    Outcome const fixed = expect_run(place, "check split.geojson --fix fixed.gpkg", 3);
+    EXPECT_TRUE(test::has(fixed.out, "arc 1: heights of 0 count as missing", "2 in all")) << fixed.out;
+    EXPECT_NEAR(heights_of_given(place / "fixed.gpkg", south)[1], 500.0, 1e-9);
+    // A mouth may lie at 0.
+    place.write("mouth.geojson",
+                test::geojson(test::line("[500000,5010000,90],[500000,5005000,40],[500000,5000000,0]")));
+    Outcome const mouth = expect_run(place, "make mouth.geojson --only dem,network -o mouth", 0);
+    EXPECT_EQ(mouth.err.find("placeholder_heights"), std::string::npos) << mouth.err;
+    EXPECT_NEAR(heights_of_given(place / "mouth/network.gpkg", south)[1], 0.0, 1e-3);
+}
+
 } // namespace river_files_test

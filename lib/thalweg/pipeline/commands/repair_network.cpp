@@ -18,6 +18,7 @@
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
+#include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -66,7 +67,7 @@ private:
 
 /// Replaces missing heights by interpolation between neighbours; at the ends by the node's, if it has one, else by the
 /// neighbour's.
-void fill_heights(std::vector<Vec3>& line, Vec3 const* first, Vec3 const* last) {
+void fill_line(std::vector<Vec3>& line, Vec3 const* first, Vec3 const* last) {
     auto const take = [](Vec3& end, Vec3 const* node) {
         if (!is_number(end.z) && node != nullptr && is_number(node->z)) {
             end.z = node->z;
@@ -128,7 +129,7 @@ public:
             put_onto(from, line.front(), number);
             put_onto(to, line.back(), number);
         }
-        fill_heights(line, from, to);
+        fill_line(line, from, to);
         if (arc.is_channel) {
             RiverLine& channel = result_.rivers.channels.emplace_back();
             channel = {arc.id, std::move(line), arc.type, arc.rank};
@@ -174,6 +175,9 @@ public:
     }
 
     RepairedLines finish() {
+        if (file_.says.heights && file_.schema != "native") {
+            remove_placeholders();
+        }
         result_.rivers = network::keep_connectors(std::move(result_.rivers), near_m_);
         for (std::size_t l = result_.arcs.size(); l < result_.rivers.lines.size(); ++l) {
             result_.arcs.push_back(arc_of_channel_.at(result_.rivers.lines[l].feature));
@@ -191,6 +195,19 @@ public:
 private:
     void say(FindingKind kind, std::int64_t feature, Vec2 at, double amount, std::string text) {
         result_.mended.push_back({kind, feature, at, amount, std::move(text)});
+    }
+
+    void remove_placeholders() {
+        network::WithoutPlaceholders checked = network::without_placeholders(std::move(result_.rivers));
+        result_.rivers = std::move(checked.lines);
+        if (checked.vertices > 0) {
+            std::int64_t const number = checked.first - file_.id_shift;
+            say("level", number, checked.at, static_cast<double>(checked.vertices),
+                fmt::format("arc {}: heights of {} count as missing and are interpolated ({} in all, the first at "
+                            "({}, {}))",
+                            number, checked.zeros > 0 ? "0" : "-9999 m", checked.vertices, checked.at.x, checked.at.y));
+            result_.rivers = network::fill_heights(std::move(result_.rivers), NetworkRecipe{}.slope).lines;
+        }
     }
 
     /// The file's own number of an arc.

@@ -23,6 +23,7 @@
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
+#include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 #include <thalweg/surface/tin/level_areas.hpp>
 
@@ -35,6 +36,7 @@ using Lines = std::vector<std::vector<Vec3>>;
 struct Breaklines {
     Lines lines;
     std::string crs;
+    std::vector<Finding> findings = {};
 };
 
 /// Whether lines may be all of a TIN, or go with points or other lines, and may then be level, as shores are.
@@ -84,8 +86,14 @@ Breaklines read_lines(std::string const& path, TinParams const& params, std::str
                         "Z, such as layer arcs of a network.gpkg{}",
                         content.path, are == LinesAre::all ? offered_columns(rivers.attributes) : "");
     Breaklines read{{}, rivers.crs};
+    network::WithoutPlaceholders checked = network::without_placeholders(std::move(rivers));
+    if (checked.vertices > 0) {
+        read.findings.push_back(placeholder_finding(checked));
+        run.report(read.findings);
+    }
+    rivers = network::fill_heights(std::move(checked.lines), NetworkRecipe{}.slope).lines;
     for (RiverLine& line : rivers.lines) {
-        read.lines.push_back(std::move(line.vertices));
+        read.lines.push_back(network::with_heights_between(std::move(line.vertices)));
     }
     return read;
 }
@@ -207,6 +215,7 @@ TinResult tin_of(TinParams const& params, Run const& run) {
         made.averaged = points.averaged;
         made.averaged_dz_m = points.averaged_dz_m;
         made.findings = points.findings;
+        append(made.findings, std::move(breaklines.findings));
         return made;
     }
     Breaklines network = read_lines(content.path, params, params.crs, LinesAre::all, run);
@@ -220,13 +229,16 @@ TinResult tin_of(TinParams const& params, Run const& run) {
     std::vector<Vec3> points;
     Lines more;
     if (!params.breaklines.empty()) {
-        more = read_lines(params.breaklines, params, network.crs, LinesAre::more, run).lines;
+        Breaklines read = read_lines(params.breaklines, params, network.crs, LinesAre::more, run);
+        more = std::move(read.lines);
+        append(network.findings, std::move(read.findings));
     }
     if (params.medial_points) {
         points = points_for_level_areas(network.lines, more, run);
     }
     network.lines.insert(network.lines.end(), more.begin(), more.end());
     TinResult made = of_points(points, network, "network", run);
+    made.findings = std::move(network.findings);
     made.medial = static_cast<std::int64_t>(points.size());
     return made;
 }

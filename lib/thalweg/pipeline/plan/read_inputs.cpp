@@ -24,6 +24,7 @@
 #include <thalweg/measure/texture/texture.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
+#include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
@@ -278,9 +279,38 @@ RiverLines with_lakes_of_surface(RiverLines lines, Recipe const& recipe, Run con
 
 } // namespace
 
+Finding placeholder_finding(network::WithoutPlaceholders const& found) {
+    std::string const heights = found.zeros == found.vertices ? "0"
+                                : found.zeros == 0            ? "-9999 m or less"
+                                                              : "0, and of -9999 m or less,";
+    std::string const why =
+        found.zeros > 0 ? "; their lines, or lines that they meet, are higher than 0 there or around" : "";
+    return {.kind = "placeholder_heights",
+            .feature = found.first,
+            .where = found.at,
+            .amount = static_cast<double>(found.vertices),
+            .text = fmt::format("heights of {} in {} count as missing (vertices: {}; the first is of feature {}{})",
+                                heights, found.lines.name, found.vertices, found.first, why),
+            .layer = found.lines.name};
+}
+
 std::string crs_of_grid(std::string const& crs) {
     return naming_key("[grid] crs", [&] { return io::projected_crs(crs); });
 }
+
+namespace {
+
+RiverLines without_placeholders(RiverLines lines) {
+    network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));
+    if (checked.vertices > 0) {
+        Finding found = placeholder_finding(checked);
+        found.key = "network.lines.path";
+        checked.lines.findings.push_back(std::move(found));
+    }
+    return std::move(checked.lines);
+}
+
+} // namespace
 
 RiverLines read_lines(Recipe const& recipe, Run const& run) {
     LinesRecipe const& wanted = recipe.network->lines;
@@ -306,20 +336,9 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
     RiverLines lines =
         std::filesystem::is_directory(file.path, ignored) ? naming_key("[network.lines] path", read) : read();
     lines = with_lakes_of_surface(std::move(lines), recipe, run);
+    lines = without_placeholders(std::move(lines));
     lines = network::keep_connectors(std::move(lines), wanted.snap_m, run);
     auto const count = lines.lines.size();
-    network::WithoutPlaceholders checked = network::without_placeholders(std::move(lines));
-    if (checked.vertices > 0) {
-        checked.lines.findings.push_back(
-            {.kind = "placeholder_heights",
-             .amount = static_cast<double>(checked.vertices),
-             .text = fmt::format("heights of {} in {} count as missing (vertices: {}{})",
-                                 checked.zeros ? "0" : "-9999 m or less", checked.lines.name, checked.vertices,
-                                 checked.zeros ? "; a line has one between higher ones" : ""),
-             .key = "network.lines.path",
-             .layer = checked.lines.name});
-    }
-    lines = std::move(checked.lines);
     network::FilledHeights filled = network::fill_heights(std::move(lines), recipe.network->slope);
     if (filled.filled > 0) {
         std::string const partly = filled.partly > 0 ? fmt::format(" (with some, which stay: {})", filled.partly) : "";
@@ -329,8 +348,8 @@ RiverLines read_lines(Recipe const& recipe, Run const& run) {
              .amount = static_cast<double>(filled.filled),
              .text =
                  fmt::format("heights are missing in {} of {} lines of {}{}, the first is feature {}. Lines get them "
-                             "from their own vertices and the lines they meet, with network.slope beyond the last "
-                             "one known",
+                             "from their own vertices and the lines they meet, with at most network.slope beyond "
+                             "the last one known",
                              filled.filled, count, filled.lines.name, partly, filled.first),
              .key = "network.lines.path",
              .layer = filled.lines.name,

@@ -9,6 +9,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
@@ -64,6 +65,9 @@ struct AgainstOnGrid {
 AgainstOnGrid against_on_grid(Recipe const& recipe, Grid const& grid, StageLog& stage_log, Run const& run);
 
 // The lines of a recipe, and settings derived from them.
+
+/// What network::without_placeholders removed: "placeholder_heights".
+Finding placeholder_finding(network::WithoutPlaceholders const& found);
 
 /// The lines of network.lines.path, with findings on their heights.
 RiverLines read_lines(Recipe const& recipe, Run const& run);
