@@ -602,6 +602,27 @@ std::vector<double> heights_of_given(fs::path const& gpkg, std::set<std::pair<do
 
 } // namespace
 
+TEST(RiverFiles, KeysOfOpenStreetMapAreFoundAmongItsTags) {
+    Workplace const place;
+    std::string const text = R"("type":"way","tags":{)";
+    auto const way = [&](char const* vertices, char const* tags) { return test::line(vertices, text + tags + "}"); };
+    place.write(
+        "tags.geojson",
+        test::geojson(way("[500000,5000000],[510000,5000100],[520000,5000000]", R"("natural":"coastline")") + "," +
+                      way("[510000,5010000],[510000,5005000],[510000,5000100]", R"("waterway":"river","name":"Alma")") +
+                      "," + way("[505000,5009000],[510000,5005000]", R"("waterway":"stream")") + "," +
+                      way("[515000,5002000],[515000,5006000]", R"("tunnel":"flooded")")));
+    Outcome const made =
+        expect_run(place, "make tags.geojson --only dem,network --set network.lines.type_field=waterway -o out", 0,
+                   "1 coastlines");
+    EXPECT_EQ(report_of(place / "out")["network"]["outlets"], 1);
+    EXPECT_EQ(texts_of(place / "out/network.gpkg", "arcs", "type"),
+              (std::multiset<std::string>{"river", "river", "stream"}));
+    EXPECT_EQ(texts_of(place / "out/network.gpkg", "secondary", "reason"),
+              (std::multiset<std::string>{"natural coastline", "tunnel flooded"}));
+    expect_run(place, "make tags.geojson --set network.lines.type_field=waterwax -o no", 2, "has no field 'waterwax'");
+}
+
 TEST(RiverFiles, HeightsAreMissingWhereAToolCutALine) {
     Workplace const place;
     std::string const above =

@@ -87,12 +87,24 @@ FileColumn::FileColumn(OGRLayer& layer, std::vector<std::string> const& names, b
     }
 }
 
+FileColumn FileColumn::of_tags(OGRLayer& layer, std::string const& key) {
+    FileColumn column(layer, {"other_tags", "all_tags", "tags"}, false);
+    if (!column.is_there() || FileColumn(layer, {key}, false).is_there()) {
+        return {};
+    }
+    column.name_ = key;
+    column.tag_ = key;
+    column.type_ = OFTString;
+    return column;
+}
+
 bool FileColumn::is_number() const {
     return type_ == OFTInteger || type_ == OFTInteger64 || type_ == OFTReal;
 }
 
 bool FileColumn::is_null(OGRFeature const& feature) const {
-    return field_ == absent || (field_ >= 0 && feature.IsFieldSetAndNotNull(field_) == 0);
+    return field_ == absent || (field_ >= 0 && feature.IsFieldSetAndNotNull(field_) == 0) ||
+           (!tag_.empty() && text(feature).empty());
 }
 
 std::optional<std::int64_t> FileColumn::whole(OGRFeature const& feature) const {
@@ -109,14 +121,18 @@ double FileColumn::real(OGRFeature const& feature) const {
     if (field_ == feature_id) {
         return static_cast<double>(feature.GetFID());
     }
-    return type_ == OFTString ? number_in(feature.GetFieldAsString(field_)) : feature.GetFieldAsDouble(field_);
+    return type_ == OFTString ? number_in(text(feature)) : feature.GetFieldAsDouble(field_);
 }
 
 std::string FileColumn::text(OGRFeature const& feature) const {
     if (field_ == feature_id) {
         return fmt::format("{}", feature.GetFID());
     }
-    return is_null(feature) ? "" : as_utf8(feature.GetFieldAsString(field_));
+    if (field_ == absent || feature.IsFieldSetAndNotNull(field_) == 0) {
+        return "";
+    }
+    std::string const value = as_utf8(feature.GetFieldAsString(field_));
+    return tag_.empty() ? value : value_of_tag(value, tag_);
 }
 
 void FileColumn::require_numbers(std::string const& what, Notes& notes) const {
@@ -267,6 +283,9 @@ RiverFields::RiverFields(OGRLayer& layer) {
                 found_[known.quantity].push_back({std::move(column)});
             }
         }
+    }
+    if (FileColumn name = FileColumn::of_tags(layer, "name"); !has(RiverQuantity::name) && name.is_there()) {
+        found_[RiverQuantity::name].push_back({std::move(name)});
     }
     std::vector<Found>& sizes = found_[RiverQuantity::size];
     for (DataSet const* const set : data_sets_of(layer)) {

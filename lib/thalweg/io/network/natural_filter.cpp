@@ -157,17 +157,17 @@ Unnatural NaturalFilter::by_tags(OGRFeature const& feature) const {
     if (!waterway.empty() && !is_among(natural_waterways, waterway)) {
         return {"waterway " + waterway, is_among(artificial_waterways, waterway)};
     }
-    bool const has_column = tags_.find("waterway")->second.is_there();
-    if (waterway.empty() && (has_column || is_way(feature))) {
-        if (std::string reason = other_way(feature); !reason.empty()) {
-            return {std::move(reason), tag(feature, "man_made") == "pipeline"};
-        }
-    }
     if (tag(feature, "natural") == "coastline") {
         return {"natural coastline"};
     }
     if (tag(feature, "tunnel") == "flooded") {
         return {"tunnel flooded", true};
+    }
+    bool const has_column = tags_.find("waterway")->second.is_there();
+    if (waterway.empty() && (has_column || is_way(feature))) {
+        if (std::string reason = other_way(feature); !reason.empty()) {
+            return {std::move(reason), tag(feature, "man_made") == "pipeline"};
+        }
     }
     return tag(feature, "man_made") == "pipeline" ? Unnatural{"man_made pipeline", true} : Unnatural();
 }

@@ -116,9 +116,27 @@ public:
     std::vector<Finding> findings;
 
 private:
+    /// Whether a feature has a value of this key among its tags.
+    bool is_a_tag(std::string const& key) const {
+        FileColumn const tags = FileColumn::of_tags(layer_, key);
+        bool found = false;
+        layer_.ResetReading();
+        for (OGRFeatureUniquePtr feature; tags.is_there() && !found; found = !tags.is_null(*feature)) {
+            feature.reset(layer_.GetNextFeature());
+            if (!feature) {
+                break;
+            }
+        }
+        layer_.ResetReading();
+        return found;
+    }
+
     // A column that may be missing when it has its default name.
     FileColumn column(std::string const& field, std::string const& by_default = "") const {
-        FileColumn const found = field.empty() ? FileColumn() : FileColumn(layer_, {field});
+        FileColumn found = field.empty() ? FileColumn() : FileColumn(layer_, {field});
+        if (!field.empty() && !found.is_there() && is_a_tag(field)) {
+            found = FileColumn::of_tags(layer_, field);
+        }
         if (!field.empty() && !found.is_there() && field != by_default) {
             auto const names = field_names(layer_);
             throw BadInput(fmt::format("io.read_rivers: layer {} of {} has no field '{}'.{} ({})", layer_.GetName(),

@@ -70,9 +70,13 @@ public:
     /// Takes the first of the names that the layer has.
     FileColumn(OGRLayer& layer, std::vector<std::string> const& names, bool or_feature_id = true);
 
+    /// The values of one of OpenStreetMap's keys in the column that holds all others (other_tags, all_tags, tags);
+    /// nothing where the layer has a column of this name, or none with tags.
+    static FileColumn of_tags(OGRLayer& layer, std::string const& key);
+
     bool is_there() const { return field_ != absent; }
     /// Whether both are the same column of a layer.
-    bool is(FileColumn const& other) const { return field_ == other.field_; }
+    bool is(FileColumn const& other) const { return field_ == other.field_ && tag_ == other.tag_; }
     /// Whether its type is one of numbers.
     bool is_number() const;
     bool is_null(OGRFeature const& feature) const;
@@ -93,6 +97,7 @@ private:
     int field_ = absent;
     int type_ = -1; ///< OGRFieldType
     std::string name_;
+    std::string tag_; ///< "": the values are those of the column
 };
 
 /// Nothing when a number is not whole, or so large that doubles skip whole numbers.
