@@ -15,7 +15,7 @@ from .layers import File, RasterInput, VectorInput, network_layers, open_after, 
 from .network_input import SCHEMAS, NetworkAlgorithm
 from .program import Finished
 
-FORMATS = ["gpkg", "shp", "fgb", "geojson", "graphml", "csv", "edges", "tif"]
+FORMATS = ["gpkg", "shp", "fgb", "geojson", "geojson2008", "graphml", "csv", "edges", "tif"]
 FILTER = ("GeoPackage (*.gpkg);;Shapefile (*.shp);;FlatGeobuf (*.fgb);;GeoJSON (*.geojson);;GraphML (*.graphml);;"
           "Tables of text (*.csv);;List of edges (*.edges);;GeoTIFF, 1 in river cells (*.tif)")
 
@@ -48,7 +48,8 @@ class Convert(NetworkAlgorithm):
                                               optional=True, minValue=0),
                  "Cell size of a raster output without a DEM.")
         self.add(QgsProcessingParameterEnum("FORMAT", "Format", FORMATS, optional=True, usesStaticStrings=True),
-                 "Format of the output. Default: by the file extension.", advanced=True)
+                 "Format of the output. Default: by the file extension. GeoJSON is in degrees; geojson2008 keeps the network's CRS.",
+                 advanced=True)
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
         self.add(QgsProcessingParameterBoolean("LOAD", "Open the network after running", defaultValue=True),
                  "Open the layers of the output that QGIS reads.")

@@ -66,6 +66,7 @@ inline constexpr auto finding_rows = [] {
         {"not_a_number", note, verbose, "", "A field that holds whole numbers has something else.", ""},
         {"null_number", note, verbose, "", "A feature has no value in a field of numbers.", ""},
         {"reprojected", note, verbose, "", "Coordinates of a file are reprojected.", ""},
+        {"in_degrees", note, always, "", "A network is written as GeoJSON, in degrees.", ""},
         {"text_number", note, verbose, "", "A field of texts is read as numbers.", ""},
         {"unused_fields", note, always, "lines",
          "Fields look like links, nodes or directions of lines, and no known data set has them.",

@@ -436,8 +436,8 @@ TEST(ForeignNetwork, TheLayerIsTheOneThatIsUnderstoodOrNamed) {
 TEST(ForeignNetwork, NativeIsNativeInEveryFormat) {
     ScratchFolder const folder;
     io::write_geopackage(two_basins().tables(), folder / "n.gpkg");
-    for (io::NetworkFormat const format : {io::NetworkFormat::flatgeobuf, io::NetworkFormat::geojson}) {
-        std::string const name = format == io::NetworkFormat::geojson ? "x.geojson" : "x.fgb";
+    for (io::NetworkFormat const format : {io::NetworkFormat::flatgeobuf, io::NetworkFormat::geojson2008}) {
+        std::string const name = format == io::NetworkFormat::geojson2008 ? "x.geojson" : "x.fgb";
         io::write_network(two_basins().tables(), folder / name, {.format = format});
     }
     NetworkFile const original = io::read_network(folder / "n.gpkg");

@@ -171,8 +171,35 @@ TEST(WriteSchemas, MoreRiversThanASchemaCanNameAreRefusedWithTheRemedy) {
 TEST(WriteSchemas, GeoJsonNeedsACode) {
     ScratchFolder const folder;
     SampleNetwork const sample = y_shape();
-    EXPECT_THROW(io::write_network(sample.tables(""), folder / "net.geojson", {NetworkFormat::geojson}), BadInput);
+    for (NetworkFormat const format : {NetworkFormat::geojson, NetworkFormat::geojson2008}) {
+        EXPECT_THROW(io::write_network(sample.tables(""), folder / "net.geojson", {format}), BadInput);
+    }
     EXPECT_EQ(folder.entries(), 0);
+}
+
+TEST(WriteSchemas, GeoJsonIsInDegrees) {
+    ScratchFolder const folder;
+    SampleNetwork const sample = two_basins();
+    io::write_network(sample.tables(), folder / "net.geojson", {NetworkFormat::geojson, Schema::grass});
+    EXPECT_FALSE(test::has(bytes_of(folder / "net.geojson"), "\"crs\""));
+    auto const data = opened(folder / "net.geojson");
+    OGRSpatialReference const* const crs = data->GetLayer(0)->GetSpatialRef();
+    ASSERT_NE(crs, nullptr);
+    EXPECT_TRUE(crs->IsGeographic());
+    io::ReadNetworkParams read;
+    read.crs = "EPSG:32631";
+    NetworkFile const file = io::read_network(folder / "net.geojson", read);
+    ASSERT_EQ(file.arcs.size(), 6U);
+    io::write_network(sample.tables(), folder / "net.gpkg", {NetworkFormat::geopackage, Schema::grass});
+    NetworkFile const exact = io::read_network(folder / "net.gpkg", io::ReadNetworkParams{});
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        ASSERT_EQ(file.arcs[a].line.size(), exact.arcs[a].line.size());
+        for (std::size_t v = 0; v < file.arcs[a].line.size(); ++v) {
+            Vec3 const& p = file.arcs[a].line[v];
+            EXPECT_LT(distance(in_plan(p), in_plan(exact.arcs[a].line[v])), 2e-4);
+            EXPECT_EQ(p.z, exact.arcs[a].line[v].z);
+        }
+    }
 }
 
 TEST(WriteSchemas, FormatsAreKnownByEndingAndName) {
@@ -257,7 +284,8 @@ TEST(WriteSchemas, GraphsHaveNodesEdgesAndTheirText) {
 TEST(WriteSchemas, RoundTripsLoseNothingTheSchemaCanHold) {
     ASSERT_TRUE(rc::check([&] {
         std::string const name = *rc::gen::element("net.gpkg", "net.shp", "net.fgb", "net.geojson");
-        auto const format = io::network_format("", name);
+        bool const is_geojson = name.ends_with(".geojson"); // in its own coordinates
+        auto const format = is_geojson ? NetworkFormat::geojson2008 : io::network_format("", name);
         auto const schema = *rc::gen::elementOf(schemas);
         ElevatedNetwork rivers =
             random_rivers(*rc::gen::arbitrary<std::uint64_t>(), *rc::gen::inRange<std::int64_t>(2, 12),

@@ -67,15 +67,32 @@ TEST(Convert, RefusesWhatCannotBeAndLeavesNothing) {
                     "PG:dbname=x --table 'a; drop table b'"});
 }
 
+namespace {
+
+std::vector<double> heights_in(fs::path const& gpkg) {
+    std::vector<double> heights;
+    auto const data = opened(gpkg);
+    for (auto const& arc : *data->GetLayerByName("arcs")) {
+        for (OGRPoint const& v : *arc->GetGeometryRef()->toLineString()) {
+            heights.push_back(v.getZ());
+        }
+    }
+    return heights;
+}
+
+} // namespace
+
 TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     Workplace const place;
     place.write("rivers.geojson", lines);
     for (std::string const schema : {"native", "taudem", "nhdplus", "hydrorivers", "grass"}) {
         for (std::string const ending : {"gpkg", "shp", "fgb", "geojson", "graphml", "csv", "edges", "tif"}) {
             std::string const name = schema + "." + ending;
-            Outcome const outcome = expect_run(
-                place,
-                "convert " + read_lines + "-o " + name + " --schema " + schema + " --max-upstream 2 --cell 10 -q", 0);
+            std::string const exact = ending == "geojson" ? " --format geojson2008" : "";
+            Outcome const outcome = expect_run(place,
+                                               "convert " + read_lines + "-o " + name + " --schema " + schema +
+                                                   " --max-upstream 2 --cell 10 -q" + exact,
+                                               0);
             EXPECT_EQ(outcome.err, "");
             bool const two_files = schema == "native" && (ending == "shp" || ending == "fgb" || ending == "geojson");
             std::string const first = two_files ? schema + "_arcs." + ending : name;
@@ -99,6 +116,45 @@ TEST(Convert, ForeignLinesBecomeEverySchemaAndFormat) {
     // The columns of each format's file come along as the user's, so files differ in them alone.
     EXPECT_EQ(network_in(place / "back_taudem_gpkg.gpkg"), network_in(place / "back_taudem_fgb.gpkg"));
     EXPECT_EQ(network_in(place / "back_grass_shp.gpkg"), network_in(place / "back_grass_geojson.gpkg"));
+}
+
+TEST(Convert, GeoJsonIsInDegreesAndSaysSo) {
+    Workplace const place;
+    place.write("rivers.geojson", lines);
+    Outcome const made = expect_run(
+        place, "convert " + read_lines + "-o a.geojson --schema hydrorivers --max-upstream 2", 0,
+        "GeoJSON is written in degrees (WGS 84), as RFC 7946 has it, not in EPSG:32631", "geojson2008", "in_degrees ");
+    EXPECT_FALSE(test::has(file_bytes(place / "a.geojson"), "\"crs\""));
+    auto const back = expect_run(place, "convert a.geojson -o a.gpkg --json -q", 0).json();
+    EXPECT_EQ(back.at("arcs"), 7);
+    EXPECT_EQ(back.at("nodes"), 8);
+    Outcome const old = expect_run(
+        place, "convert " + read_lines + "-o b.geojson --format geojson2008 --schema hydrorivers --max-upstream 2", 0);
+    EXPECT_FALSE(test::has(old.err, "in_degrees"));
+    EXPECT_TRUE(test::has(file_bytes(place / "b.geojson"), "urn:ogc:def:crs:EPSG::32631"));
+}
+
+TEST(Convert, LinesOfCsvAreFoundByTheNamesThatProgramsGiveThem) {
+    Workplace const place;
+    place.write("rivers.geojson",
+                test::geojson(test::line("[500000,5002000,90],[500500,5001000,60]", R"("nr":11,"into":14)") + "," +
+                              test::line("[502000,5002000,80],[500500,5001000,60]", R"("nr":12,"into":14)") + "," +
+                              test::line("[500500,5001000,60],[500400,5000000,20]", R"("nr":14,"into":0)")));
+    expect_run(place, "convert " + read_lines + "-o rivers.csv", 0);
+    std::string const text = file_bytes(place / "rivers.csv");
+    std::string const header = text.substr(0, text.find("\r\n"));
+    ASSERT_TRUE(header.ends_with(",geometry")) << header;
+    for (std::string const name : {"geometry", "geom", "the_geom", "WKT"}) {
+        SCOPED_TRACE(name);
+        std::string const file = name + ".csv";
+        place.write(file, header.substr(0, header.rfind(',') + 1) + name + text.substr(text.find("\r\n")));
+        std::string const crs = " --source-crs EPSG:32631";
+        EXPECT_TRUE(test::has(expect_run(place, "check " + file + crs, 0).out, "3 arcs"));
+        expect_run(place, "convert " + file + crs + " -o " + name + ".gpkg", 0);
+        EXPECT_EQ(heights_in(place / (name + ".gpkg")), (std::vector<double>{90, 60, 80, 60, 60, 20}));
+        expect_run(place, "make " + file + " --set network.lines.source_crs=EPSG:32631 --only network -o " + name, 0);
+        expect_run(place, "tin " + file + crs + " -o " + name + ".obj", 0);
+    }
 }
 
 // Law: what convert writes is read back without --schema, whatever columns its source had.

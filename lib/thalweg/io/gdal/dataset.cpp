@@ -287,10 +287,13 @@ struct DriverOption {
 };
 
 // Without these GDAL leaves NAME.gfs beside a GML file, and leaves out what its elements say by attributes (references
-// by xlink:href, as INSPIRE's directions and nodes) and the heights of GPX.
-constexpr std::array driver_options{DriverOption{"GML", "WRITE_GFS", "NO"},
-                                    DriverOption{"GML", "GML_ATTRIBUTES_TO_OGR_FIELDS", "YES"},
-                                    DriverOption{"GPX", "ELE_AS_25D", "YES"}}; // since GDAL 3.8
+// by xlink:href, as INSPIRE's directions and nodes), the heights of GPX, and lines of CSV in a column that is not WKT,
+// as convert, geopandas and GDAL since 3.10 name it.
+constexpr std::array driver_options{
+    DriverOption{"GML", "WRITE_GFS", "NO"}, DriverOption{"GML", "GML_ATTRIBUTES_TO_OGR_FIELDS", "YES"},
+    DriverOption{"GPX", "ELE_AS_25D", "YES"}, // since GDAL 3.8
+    DriverOption{"CSV", "GEOM_POSSIBLE_NAMES", "WKT,_WKT*,geometry,geom,the_geom,wkt_geom,wkb_geometry"},
+    DriverOption{"CSV", "KEEP_GEOM_COLUMNS", "NO"}};
 
 // The options that the driver of a file has, and others that are given.
 CPLStringList open_options(std::string const& path, unsigned kinds, char const* const* drivers,

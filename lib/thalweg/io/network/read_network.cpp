@@ -255,8 +255,8 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
         OGRSpatialReference const other = crs_of_layer(nodes->layer->GetSpatialRef(), wish.source_crs);
         refuse_if<BadInput>(!has_none && other.IsEmpty() == 0 && own.IsSame(&other) == FALSE &&
                                 name_of(own) != name_of(other),
-                            "{} is in {} and {} in {}: reproject both to one CRS", arcs.what, own.GetName(),
-                            nodes->what, other.GetName());
+                            "{} is in {} and layer {} in {}: reproject both to one CRS", arcs.what, own.GetName(),
+                            nodes->layer->GetName(), other.GetName());
     }
     bool const native = file.schema == "native";
     if (has_none) {

@@ -39,10 +39,11 @@ struct FileFormat {
 };
 
 // In the order of LayerFormat.
-constexpr ByEnum<LayerFormat, FileFormat, 5> file_formats{
+constexpr ByEnum<LayerFormat, FileFormat, 6> file_formats{
     {{{"geopackage", "GPKG", {"GEOMETRY_NULLABLE=NO"}},
       {"shapefile", "ESRI Shapefile", {"ENCODING=UTF-8", "DBF_DATE_LAST_UPDATE=2000-01-01"}},
       {"flatgeobuf", "FlatGeobuf"},
+      {"geojson", "GeoJSON", {"RFC7946=YES", "COORDINATE_PRECISION=9", "SIGNIFICANT_FIGURES=17"}}, // 0.1 mm
       {"geojson", "GeoJSON", {"SIGNIFICANT_FIGURES=17"}}, // any double, bit for bit
       {"postgis", "PostgreSQL", {"GEOMETRY_NAME=geom", "FID=fid", "GEOMETRY_NULLABLE=NO"}}}}};
 
@@ -285,9 +286,14 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     CPLConfigOptionSetter const unhurried("OGR_SQLITE_SYNCHRONOUS", "OFF", true);
     OGRSpatialReference reference = crs.empty() ? OGRSpatialReference() : read_reference(crs);
     refuse_if<BadInput>(
-        format == LayerFormat::geojson && (crs.empty() || reference.GetAuthorityCode(nullptr) == nullptr),
-        "{}: GeoJSON takes coordinates without an EPSG code for degrees: bring the network into a CRS that has one, or "
-        "write FlatGeobuf",
+        format == LayerFormat::geojson && crs.empty(),
+        "{}: GeoJSON is in degrees (RFC 7946), and the network has no CRS to bring it there: assign one, "
+        "or write FlatGeobuf",
+        what);
+    refuse_if<BadInput>(
+        format == LayerFormat::geojson2008 && (crs.empty() || reference.GetAuthorityCode(nullptr) == nullptr),
+        "{}: GeoJSON of 2008 names a CRS by its EPSG code, which the network's has not: write GeoJSON in "
+        "degrees (--format geojson) or FlatGeobuf",
         what);
     GDALDriver* const writer = GetGDALDriverManager()->GetDriverByName(file_format.driver);
     std::optional<Shapefile> shapefile;
@@ -315,7 +321,8 @@ void write_file(std::span<Table const> tables, std::string const& crs, std::stri
     dataset.reset();
     driver.check(what);
     if (!crs.empty()) {
-        require_crs(written, reference, what);
+        bool const in_degrees = format == LayerFormat::geojson;
+        require_crs(written, in_degrees ? read_reference("EPSG:4326") : reference, what);
         driver.check(what);
     }
     if (shapefile) {

@@ -180,7 +180,7 @@ std::string file_of(std::filesystem::path const& path, std::string const& layer)
 
 bool is_a_file_a_layer(NetworkFormat format) {
     return format == NetworkFormat::shapefile || format == NetworkFormat::flatgeobuf ||
-           format == NetworkFormat::geojson;
+           format == NetworkFormat::geojson || format == NetworkFormat::geojson2008;
 }
 
 Mask mask_of(StreamNetwork const& plan, Grid const& grid) {
@@ -223,11 +223,15 @@ std::vector<ShortenedName> shortened_names(NetworkTables const& tables, Schema s
 }
 
 std::vector<NetworkFormatName> const& network_formats() {
-    static std::vector<NetworkFormatName> const formats{
-        {NetworkFormat::geopackage, "gpkg", ".gpkg"},    {NetworkFormat::shapefile, "shp", ".shp"},
-        {NetworkFormat::flatgeobuf, "fgb", ".fgb"},      {NetworkFormat::geojson, "geojson", ".geojson"},
-        {NetworkFormat::graphml, "graphml", ".graphml"}, {NetworkFormat::csv, "csv", ".csv"},
-        {NetworkFormat::edges, "edges", ".edges"},       {NetworkFormat::mask, "tif", ".tif"}};
+    static std::vector<NetworkFormatName> const formats{{NetworkFormat::geopackage, "gpkg", ".gpkg"},
+                                                        {NetworkFormat::shapefile, "shp", ".shp"},
+                                                        {NetworkFormat::flatgeobuf, "fgb", ".fgb"},
+                                                        {NetworkFormat::geojson, "geojson", ".geojson"},
+                                                        {NetworkFormat::geojson2008, "geojson2008", ".geojson"},
+                                                        {NetworkFormat::graphml, "graphml", ".graphml"},
+                                                        {NetworkFormat::csv, "csv", ".csv"},
+                                                        {NetworkFormat::edges, "edges", ".edges"},
+                                                        {NetworkFormat::mask, "tif", ".tif"}};
     return formats;
 }
 
@@ -267,7 +271,7 @@ void write_network(NetworkTables const& tables, std::string const& path, WriteNe
     case NetworkFormat::edges: write_edges(tables, layers.front(), path, false, run); break;
     case NetworkFormat::mask: write_mask(mask_of(tables.network.planform, params.grid), path, run); break;
     default:
-        for (Table const& layer : layers) { // both enumerations of formats begin alike
+        for (Table const& layer : layers) { // both enumerations of formats begin alike, up to geojson2008
             write_file({&layer, 1}, tables.crs, layers.size() > 1 ? file_of(path, layer.name) : path,
                        static_cast<LayerFormat>(params.format), run);
         }

@@ -83,11 +83,12 @@ enum class NetworkFormat : std::uint8_t {
     geopackage,
     shapefile,
     flatgeobuf,
-    geojson,
-    graphml, ///< a graph of nodes and edges, lines as well-known text
-    csv,     ///< edges, a header line first
-    edges,   ///< the edge list of NetworkX: two nodes and a dictionary a line
-    mask     ///< a raster of bytes, 1 in the cells that rivers run through
+    geojson,     ///< in degrees, as RFC 7946 has it
+    geojson2008, ///< in the network's CRS, which a member crs names; many readers take its metres for degrees
+    graphml,     ///< a graph of nodes and edges, lines as well-known text
+    csv,         ///< edges, a header line first
+    edges,       ///< the edge list of NetworkX: two nodes and a dictionary a line
+    mask         ///< a raster of bytes, 1 in the cells that rivers run through
 };
 
 /// A network format name.
@@ -118,13 +119,15 @@ std::vector<std::string> network_files(std::string const& path, WriteNetworkPara
 
 /// Writes a network in any format and schema: in the native schema both layers like write_geopackage, in another its
 /// layer of arcs alone (also nodes where it is a graph).
-/// \post the same bytes for the same network, on any day. Lines are bit for bit those of the network; numbers in text
+/// \post the same bytes for the same network, on any day. Lines are bit for bit those of the network, but for GeoJSON
+/// in degrees (within 0.1 mm); numbers in text
 /// (GraphML, CSV, edge lists) are the shortest that read back the same. Quantities that are not known are what the
 /// schema has for them (schema.hpp).
 /// \param tables the values of the tables
 /// \param path path of the file
 /// \throws Error as write_geopackage
-/// \throws BadInput naming the place, also when more arcs meet than the schema can name, or GeoJSON cannot name the CRS
+/// \throws BadInput naming the place, also when more arcs meet than the schema can name, or GeoJSON has no CRS or
+/// cannot name it
 void write_network(NetworkTables const& tables, std::string const& path, WriteNetworkParams const& params = {},
                    Run const& run = {});
 

@@ -106,6 +106,13 @@ std::vector<ContourLine> simplified(std::vector<ContourLine> lines, double toler
     return lines;
 }
 
+/// Whether a ring lies within a square of this size, as around a cell whose height is that of the contour.
+bool is_dot(std::vector<Vec2> const& line, double size_m) {
+    auto const [west, east] = std::ranges::minmax(line, {}, &Vec2::x);
+    auto const [south, north] = std::ranges::minmax(line, {}, &Vec2::y);
+    return line.front() == line.back() && east.x - west.x < size_m && north.y - south.y < size_m;
+}
+
 } // namespace
 
 std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, Run const& run) {
@@ -147,6 +154,8 @@ std::vector<ContourLine> contours(Raster<float> const& dem, double interval_m, R
     driver.check(what); // a failed allocation also ends the loop
     refuse_if<IoError>(static_cast<GIntBig>(lines.size()) != layer->GetFeatureCount(),
                        "{}: contours are missing: free memory", what);
+    std::erase_if(lines,
+                  [&](ContourLine const& line) { return is_dot(line.line, tolerance_cells * dem.grid().cell_m); });
     return lines;
 }
 

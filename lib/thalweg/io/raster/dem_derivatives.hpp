@@ -29,7 +29,7 @@ struct ContourLine {
 };
 
 /// Computes GDAL's contour lines at multiples of an interval, simplified within a tenth of a cell; rings stay
-/// rings.
+/// rings, and are left out where they lie within a tenth of a cell.
 /// \param dem [m] by cell; NaN: no data
 /// \param interval_m [m] > 0
 /// \return in GDAL's order

@@ -49,6 +49,24 @@ OGRwkbGeometryType shape_of(OGRLayer& layer) {
     return type;
 }
 
+bool is_of_lines(OGRwkbGeometryType type) {
+    return OGR_GT_IsSubClassOf(type, wkbCurve) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0;
+}
+
+/// Whether a text has a column of lines, as well-known text.
+bool holds_lines(Source const& source) {
+    if (lower_case(std::filesystem::path(source.path).extension().string()) != ".csv") {
+        return false;
+    }
+    Driver const driver;
+    Dataset const data = open_unchanged(source, GDAL_OF_VECTOR);
+    bool const holds = data != nullptr && data->GetLayerCount() == 1 &&
+                       data->GetLayer(0)->GetLayerDefn()->GetGeomFieldCount() > 0 &&
+                       is_of_lines(shape_of(*data->GetLayer(0)));
+    driver.take();
+    return holds;
+}
+
 } // namespace
 
 FileContent content_of(Source const& source) {
@@ -58,7 +76,7 @@ FileContent content_of(Source const& source) {
     content.path =
         std::filesystem::is_directory(path, ignored) ? (std::filesystem::path(path) / "network.gpkg").string() : path;
     std::string const what = "io.content_of: " + content.path;
-    if (is_text_of_points(content.path) && std::filesystem::exists(content.path, ignored)) {
+    if (is_text_of_points(content.path) && std::filesystem::exists(content.path, ignored) && !holds_lines(source)) {
         content.kind = FileContent::Kind::points;
         return content;
     }
@@ -84,7 +102,7 @@ FileContent content_of(Source const& source) {
     for (auto* const layer : data->GetLayers()) {
         auto const type = shape_of(*layer);
         driver.check(fmt::format("{}, layer {}", what, layer->GetName()));
-        bool const is_line = OGR_GT_IsSubClassOf(type, wkbCurve) != 0 || OGR_GT_IsSubClassOf(type, wkbMultiCurve) != 0;
+        bool const is_line = is_of_lines(type);
         has_lines = has_lines || is_line;
         has_points = has_points || type == wkbPoint || type == wkbMultiPoint;
         if (is_line && std::string(layer->GetName()) == "arcs") {

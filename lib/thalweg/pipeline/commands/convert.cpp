@@ -192,6 +192,7 @@ public:
     }
 
     bool is_mask() const { return !database_ && write_.format == io::NetworkFormat::mask; }
+    bool is_in_degrees() const { return !database_ && write_.format == io::NetworkFormat::geojson; }
 
     /// Reports the user's columns that are renamed.
     void report_renamed_columns(io::NetworkTables const& tables, std::vector<Finding>& findings) const {
@@ -268,6 +269,13 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
     io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};
     tables.user = &user;
     out.report_renamed_columns(tables, converted.findings);
+    if (out.is_in_degrees()) {
+        converted.findings.push_back(
+            {.kind = "in_degrees",
+             .text = fmt::format("GeoJSON is written in degrees (WGS 84), as RFC 7946 has it, not in {}; --format "
+                                 "geojson2008 keeps its coordinates",
+                                 file.crs)});
+    }
     Grid const grid = out.is_mask() ? grid_of(plan, params, dem ? &*dem : nullptr, file.crs) : Grid{};
     converted.written = out.write(tables, grid, run);
     return converted;

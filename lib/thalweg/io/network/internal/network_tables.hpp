@@ -46,7 +46,7 @@ std::vector<Table> geopackage_tables(NetworkTables const& tables, std::string co
 
 // How a table becomes a layer of what GDAL has opened.
 
-enum class LayerFormat : std::uint8_t { geopackage, shapefile, flatgeobuf, geojson, postgresql };
+enum class LayerFormat : std::uint8_t { geopackage, shapefile, flatgeobuf, geojson, geojson2008, postgresql };
 
 struct LayerTarget {
     LayerFormat format;
@@ -66,9 +66,8 @@ struct LayerTarget {
 void write_layer(LayerTarget const& target, Table const& table, Run const& run);
 
 /// Writes tables with shapes as the layers of a new file: see write_tables. A shapefile's path ends in .shp, and it is
-/// UTF-8. GeoJSON is in its own coordinates, the CRS named as GeoJSON of 2008 does: RFC 7946 would round them to
-/// degrees.
-/// \throws BadInput also when GeoJSON has a CRS without EPSG code
+/// UTF-8. GeoJSON is in degrees (RFC 7946), rounded to 1e-9, about 0.1 mm; that of 2008 in its own coordinates, with
+/// the CRS named. \throws BadInput also when GeoJSON has no CRS, or that of 2008 one without EPSG code
 void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
                 Run const& run);
 
