@@ -210,6 +210,9 @@ TEST(Placeholders, AMouthMayLieAtZero) {
     EXPECT_EQ(taken(lines_of({{{0, 0, 90}, {9, 0, 40}, {20, 0, 0}}, {{20, 20, 80}, {20, 9, 30}, {20, 0, 0}}})),
               "... ...")
         << "two rivers with one mouth";
+    EXPECT_EQ(taken(lines_of({{{0, 0, 90}, {20, 0, 0}}, {{20, 20, 80}, {20, 0, 0}}})), ".. ..") << "drawn alike";
+    EXPECT_EQ(taken(lines_of({{{0, 0, 900}, {9, 0, 850}, {20, 0, 0}}, {{20, 20, 800}, {20, 0, 0}}})), "... ..");
+    EXPECT_EQ(taken(lines_of({{{0, 0, 90}, {20, 0, 0}}, {{20, 0, 0}, {20, 20, 80}}})), ".x x.") << "one leaves";
     EXPECT_EQ(taken(chain({{900, 700, 0}, {0, 300, 200, 0}})), "..x x...") << "a mouth beyond a cut";
     EXPECT_EQ(taken(chain({{900, 700, 0}, {0, 402, 401, 400, 0}})), "..x x...x") << "not a mouth, but a cut";
     EXPECT_EQ(taken(chain({{900, 700, 0}, {0, 402, 401}, {401, 390, 380, 0}})), "..x x.. ...x") << "likewise";

@@ -253,9 +253,10 @@ namespace {
 constexpr double no_data_m = -9999.0;
 constexpr double above_m = 1.0; ///< heights above it say that a line does not lie at the sea
 constexpr double high_m = 10.0; ///< likewise, where zeros follow one another
-constexpr double mouth_steepness =
-    2; ///< of the step to a mouth, by the steepest of the other ones, where lines share it
-constexpr double cliff_steepness = 5; ///< likewise, in a file with placeholders
+// How steep the step to a mouth may be, by the steepest of the line's other ones: where lines share it and are not
+// drawn alike; and in a file with placeholders.
+constexpr double mouth_steepness = 2;
+constexpr double cliff_steepness = 5;
 constexpr double missing = std::numeric_limits<double>::quiet_NaN();
 
 /// A line from one of its ends at 0.
@@ -269,6 +270,7 @@ struct FromZero {
     double steepest = 0.0;   ///< [m/m] of the other segments
 
     bool rises() const { return zeros == 1 && near_m > 0.0; }
+    bool is_mute() const { return rises() && !(far_m < near_m) && !(far_m >= near_m); } ///< has no other height
     bool is_fallen_to() const { return rises() && far_m >= near_m; }
     bool falls_away() const { return rises() && near_m - far_m > above_m; }
 };
@@ -303,9 +305,15 @@ struct ZeroNode {
     std::vector<FromZero> ends;
     double other_m = missing; ///< the height farthest from 0 that a vertex has there
 
+    /// Whether all lines fall to it, and none is drawn as what leaves a confluence.
     bool is_mouth_of_all() const {
-        return std::ranges::all_of(
-            ends, [](FromZero const& e) { return e.is_fallen_to() && e.step <= mouth_steepness * e.steepest; });
+        auto const falls = [](FromZero const& e) { return e.is_fallen_to() || e.is_mute(); };
+        auto const falls_gently = [](FromZero const& e) {
+            return e.is_fallen_to() && e.step <= mouth_steepness * e.steepest;
+        };
+        auto const is_drawn_alike = [&](FromZero const& e) { return e.is_back == ends.front().is_back; };
+        return std::ranges::all_of(ends, falls_gently) ||
+               (std::ranges::all_of(ends, falls) && std::ranges::all_of(ends, is_drawn_alike));
     }
     bool is_free() const { return ends.size() == 1 && !has_height({0.0, 0.0, other_m}); }
     /// Whether 0 is no height of one of its ends.
@@ -324,7 +332,7 @@ struct ZeroNode {
         return is_free() && end.is_fallen_to() && (end.near_m <= high_m || end.step <= cliff_steepness * end.steepest);
     }
     /// The same of a line that says nothing of how it falls.
-    bool may_be_mouth() const { return is_free() && !has_height({0.0, 0.0, ends.front().far_m}); }
+    bool may_be_mouth() const { return is_free() && ends.front().is_mute(); }
 };
 
 bool has_zero_between(std::vector<Vec3> const& line) {

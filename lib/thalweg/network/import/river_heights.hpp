@@ -25,9 +25,10 @@ struct WithoutPlaceholders {
 /// - at an end of a line: where another line has another height; where two or more lines end and rise from it; where
 ///   both ends are 0 and the line rises above 1 m between; where the rest of the line falls away from it.
 /// A free end that its line falls to is a mouth at 0 and stays, in a file with zeros of these kinds unless the last
-/// step is five times as steep as any other; so does one that lines share, each falling to it with a last step at most
-/// twice as steep as any other. \param lines any \return NaN in their place, in lines and channels; has_z is false
-/// where there were any
+/// step is five times as steep as any other; so does one that lines share, if they all fall to it and either are all
+/// drawn to it (or from it) or have last steps at most twice as steep as any other.
+/// \param lines any
+/// \return NaN in their place, in lines and channels; has_z is false where there were any
 WithoutPlaceholders without_placeholders(RiverLines lines);
 
 /// What fill_heights() returns.
@@ -46,7 +47,8 @@ struct FilledHeights {
 /// meet; from one to a free end as the line's other heights fall; without such in drawn direction or, if most lines
 /// with heights rise as drawn, against it; by at most `slope` and the mean of all lines with heights. A line that
 /// neither has nor meets one has at its lower end the height of the nearest known vertex. Without any heights, or with
-/// all: the lines unchanged. \throws BadParameter when slope is outside its range
+/// all: the lines unchanged.
+/// \throws BadParameter when slope is outside its range
 FilledHeights fill_heights(RiverLines lines, double slope);
 
 /// Gives heights to the vertices of a line that have none.
