@@ -8,11 +8,11 @@
 #   it is given.
 # Seen: `ogrinfo -ro` writes a .gfs beside the file. With it the option does nothing and says nothing: flowDirection_href is
 #   a field before, and none after.
-# Needs root, mmdebstrap and a Debian mirror ($MIRROR).
+# Needs root, mmdebstrap and a Debian mirror ($MIRROR). Exit status: 0 seen again, 1 changed, 77 not to be had.
 set -eu
 place=$(mktemp -d)
 trap 'rm -rf --one-file-system "$place"' EXIT
-mmdebstrap --quiet --variant=apt --include=gdal-bin=3.6.2+dfsg-1+b2 bookworm "$place/root" "${MIRROR:-http://deb.debian.org/debian}"
+mmdebstrap --quiet --variant=apt --include=gdal-bin=3.6.2+dfsg-1+b2 bookworm "$place/root" "${MIRROR:-http://deb.debian.org/debian}" || exit 77
 seen=$(chroot "$place/root" sh -euc '
     cd "$(mktemp -d)"
     cat > links.gml <<END
@@ -31,7 +31,7 @@ END
     rm links.gfs
     ogrinfo -ro -q links.gml > /dev/null
     ls
-    echo "after: $(fields)"')
+    echo "after: $(fields)"') || exit 1
 echo "$seen"
 [ "$seen" = "before: 1
 links.gfs

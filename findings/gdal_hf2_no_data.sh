@@ -7,11 +7,11 @@
 # Guess: the cells come back as no-data, or the format refuses them.
 # Seen: each cell is 1.17549435e-38, the smallest normal float. Beside the file NAME.hf2.aux.xml declares -9999, which no cell
 #   has; without that file nothing is declared. Statistics take holes for land at height 0.
-# Needs root, mmdebstrap and a Debian mirror ($MIRROR).
+# Needs root, mmdebstrap and a Debian mirror ($MIRROR). Exit status: 0 seen again, 1 changed, 77 not to be had.
 set -eu
 place=$(mktemp -d)
 trap 'rm -rf --one-file-system "$place"' EXIT
-mmdebstrap --quiet --variant=apt --include=gdal-bin=3.6.2+dfsg-1+b2 bookworm "$place/root" "${MIRROR:-http://deb.debian.org/debian}"
+mmdebstrap --quiet --variant=apt --include=gdal-bin=3.6.2+dfsg-1+b2 bookworm "$place/root" "${MIRROR:-http://deb.debian.org/debian}" || exit 77
 seen=$(chroot "$place/root" sh -euc '
     cd "$(mktemp -d)"
     gdal_create -q -of GTiff -outsize 20 20 -bands 1 -burn -9999 -ot Float32 -a_nodata -9999 -a_srs EPSG:32613 \
@@ -21,7 +21,7 @@ seen=$(chroot "$place/root" sh -euc '
     gdalinfo -mm none.hf2 | grep -E "NoData|Min/Max" | tr -s " "
     rm none.hf2.aux.xml
     echo "alone:"
-    gdalinfo -mm none.hf2 | grep -E "NoData|Min/Max" | tr -s " "')
+    gdalinfo -mm none.hf2 | grep -E "NoData|Min/Max" | tr -s " "') || exit 1
 echo "$seen"
 [ "$seen" = "1.17549435082229e-38
  Computed Min/Max=0.000,0.000

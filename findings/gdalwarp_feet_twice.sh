@@ -8,11 +8,11 @@
 #   writes metres as the band's unit.
 # Seen: 304.801 everywhere, and "Unit Type: US survey foot". Whoever trusts the unit converts a second time: 92.9 m for 304.8 m.
 #   With -novshift the numbers stay 1000, under the same unit.
-# Needs root, mmdebstrap and a Debian mirror ($MIRROR).
+# Needs root, mmdebstrap and a Debian mirror ($MIRROR). Exit status: 0 seen again, 1 changed, 77 not to be had.
 set -eu
 place=$(mktemp -d)
 trap 'rm -rf --one-file-system "$place"' EXIT
-mmdebstrap --quiet --variant=apt --include=gdal-bin=3.6.2+dfsg-1+b2 bookworm "$place/root" "${MIRROR:-http://deb.debian.org/debian}"
+mmdebstrap --quiet --variant=apt --include=gdal-bin=3.6.2+dfsg-1+b2 bookworm "$place/root" "${MIRROR:-http://deb.debian.org/debian}" || exit 77
 seen=$(chroot "$place/root" sh -euc '
     cd "$(mktemp -d)"
     gdal_create -q -of GTiff -outsize 20 20 -bands 1 -burn 1000 -ot Float32 -a_srs EPSG:26913+6360 \
@@ -21,7 +21,7 @@ seen=$(chroot "$place/root" sh -euc '
     gdalwarp -q -novshift -t_srs EPSG:26913 feet.tif kept.tif
     for file in feet warped kept; do
         echo "$file:$(gdalinfo -mm $file.tif | grep -E "Min/Max|Unit Type" | tr -d "\n" | tr -s " ")"
-    done')
+    done') || exit 1
 echo "$seen"
 [ "$seen" = "feet: Computed Min/Max=1000.000,1000.000 Unit Type: US survey foot
 warped: Computed Min/Max=304.801,304.801 Unit Type: US survey foot
