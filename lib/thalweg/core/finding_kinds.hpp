@@ -67,6 +67,8 @@ inline constexpr auto finding_rows = [] {
         {"null_number", note, verbose, "", "A feature has no value in a field of numbers.", ""},
         {"reprojected", note, verbose, "", "Coordinates of a file are reprojected.", ""},
         {"in_degrees", note, always, "", "A network is written as GeoJSON, in degrees.", ""},
+        {"same_heights", note, always, "m", "All lines have one and the same height, which counts as none.",
+         "Give them heights that fall downstream, or let network.heights set them."},
         {"text_number", note, verbose, "", "A field of texts is read as numbers.", ""},
         {"unused_fields", note, always, "lines",
          "Fields look like links, nodes or directions of lines, and no known data set has them.",

@@ -669,4 +669,41 @@ TEST(RiverFiles, HeightsAreMissingWhereAToolCutALine) {
     EXPECT_NEAR(heights_of_given(place / "mouth/network.gpkg", south)[1], 0.0, 1e-3);
 }
 
+TEST(RiverFiles, OfOtherProgramsAreReadByEveryCommand) {
+    Workplace const place;
+    std::string const upper = test::line("[500000,5002000,90],[500500,5001000,60]", R"("nr":11,"into":14)");
+    std::string const beside = test::line("[502000,5002000,80],[500500,5001000,60]", R"("nr":12,"into":14)");
+    std::string const lower = test::line("[500500,5001000,60],[500400,5000000,20]", R"("nr":14,"into":0)");
+    place.write("rivers.geojson", test::geojson(upper + "," + beside + "," + lower));
+    place.shell("mkdir zipped && ogr2ogr zipped/rivers.shp rivers.geojson && cd zipped && "
+                "python3 -c \"import shutil; shutil.make_archive('../rivers', 'zip', '.')\"");
+    place.shell(
+        "ogr2ogr -f GeoJSON one.geojson rivers.geojson -dialect sqlite -sql 'SELECT ST_Collect(geometry) FROM rivers'");
+    std::string const links = " --field arc_id=nr --field ds_arc=into";
+    Outcome const zipped = expect_run(place, "check rivers.zip" + links, 0);
+    EXPECT_TRUE(test::has(zipped.out, "3 arcs")) << zipped.out;
+    for (std::string const file : {"rivers.zip", "one.geojson"}) {
+        expect_run(place, "tin " + file + " --overwrite -o mesh.obj", 0);
+    }
+    // One and the same height is none, and that is said.
+    std::string level = file_bytes(place / "rivers.geojson");
+    for (std::string const z : {",90]", ",60]", ",80]", ",20]"}) {
+        for (std::size_t at = level.find(z); at != std::string::npos; at = level.find(z)) {
+            level.replace(at, z.size(), ",5.5]");
+        }
+    }
+    place.write("level.geojson", level);
+    expect_run(place, "make level.geojson --only network -o level", 0,
+               "same_heights all heights of level.geojson are 5.5 m: they count as none");
+}
+
+TEST(RiverFiles, ANetcdfIsNotReadByTheHeaderBesideIt) {
+    Workplace const place;
+    place.shell("gdal_create -q -of GTiff -outsize 64 48 -bands 1 -burn 105 -ot Int16 -a_srs EPSG:32631 "
+                "-a_ullr 500000 5000000 501920 4998560 one.tif && gdal_translate -q -of netCDF one.tif dem.nc && "
+                "gdal_translate -q -of ENVI one.tif dem.bil");
+    Outcome const stats = expect_run(place, "stats dem.nc --json", 0);
+    EXPECT_TRUE(test::has(stats.out, "105")) << stats.out;
+}
+
 } // namespace river_files_test

@@ -422,6 +422,8 @@ WithNetcdf::WithNetcdf(std::string const& path) {
     if (magic.starts_with("CDF") || magic == "\x89HDF") {
         added_ = true;
         GetGDALDriverManager()->RegisterDriver(unregistered_drivers().netcdf);
+        std::string const ending = fs::path(path).extension().string();
+        is_meant_ = magic.starts_with("CDF") || EQUAL(ending.c_str(), ".nc") || EQUAL(ending.c_str(), ".nc4");
     }
 }
 

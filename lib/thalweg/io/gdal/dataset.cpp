@@ -368,6 +368,13 @@ Dataset open_unchanged(Source const& source, unsigned kinds) {
         held->folder_of_copy = std::make_unique<Confined const>(held->file->path());
     }
     require_honest_sources(name, path, is_disguised);
+    if (held->netcdf->is_meant()) {
+        static constexpr std::array<char const*, 2> netcdf{"netCDF", nullptr};
+        Dataset data = opened(name, kinds, netcdf.data(), held, path);
+        if (data != nullptr) {
+            return data;
+        }
+    }
     return opened(name, kinds, nullptr, held, path);
 }
 

@@ -277,8 +277,9 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
         file.crs = name_of(own);
         return;
     }
+    std::string const name = arcs.what.substr(arcs.what.find(": ") + 2); // without the function
     // A network in the native schema has the CRS that its maker chose.
-    IntoMetres const metres(own, wish.crs, places.box(), arcs.what, native ? OwnMetres::kept : OwnMetres::judged);
+    IntoMetres const metres(own, wish.crs, places.box(), name, native ? OwnMetres::kept : OwnMetres::judged);
     file.crs = metres.crs();
     if (!metres.moves()) {
         return;

@@ -301,17 +301,21 @@ struct Bring {
     }
 };
 
-bool have_heights(std::vector<RiverLine> const& lines) {
-    double const first = lines.front().vertices.front().z;
-    bool differ = false;
+struct HeightsOfLines {
     bool complete = true;
+    bool differ = false;
+    double first_m = nan;
+};
+
+HeightsOfLines heights_of(std::vector<RiverLine> const& lines) {
+    HeightsOfLines heights{.first_m = lines.front().vertices.front().z};
     for (RiverLine const& line : lines) {
         for (Vec3 const& v : line.vertices) {
-            complete = complete && !std::isnan(v.z);
-            differ = differ || v.z != first;
+            heights.complete = heights.complete && !std::isnan(v.z);
+            heights.differ = heights.differ || v.z != heights.first_m;
         }
     }
-    return complete && differ;
+    return heights;
 }
 
 } // namespace
@@ -363,6 +367,9 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
                             "io.read_rivers: there is no file '{}'{}", path, words.empty() ? "" : " (" + words + ")");
         refuse_folder(path, "io.read_rivers: " + path);
         throw BadInput(fmt::format("io.read_rivers: {} is not a vector file that GDAL can read ({})", path, words));
+    }
+    if (inside_archive(path) != path) {
+        driver.take(); // what drivers say that read an archive of one file only
     }
     std::vector<OGRLayer*> const layers = params.rings && params.layer.empty()
                                               ? layers_of_areas(*data, "io.read_rivers: " + rivers.name)
@@ -425,7 +432,14 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
     rivers.attributes = read.attributes();
     rivers.rank_field = read.rank_name();
     rivers.crs = metres.crs();
-    rivers.has_z = have_heights(rivers.lines);
+    HeightsOfLines const heights = heights_of(rivers.lines);
+    rivers.has_z = heights.complete && heights.differ;
+    if (heights.complete && !heights.differ && heights.first_m != 0.0) {
+        rivers.findings.push_back(
+            {.kind = "same_heights",
+             .amount = heights.first_m,
+             .text = fmt::format("all heights of {} are {} m: they count as none", rivers.name, heights.first_m)});
+    }
     return rivers;
 }
 

@@ -46,6 +46,15 @@ OGRwkbGeometryType shape_of(OGRLayer& layer) {
             type = wkbFlatten(first->GetGeometryRef()->getGeometryType());
         }
     }
+    if (type == wkbGeometryCollection) { // of mixed shapes the first
+        OGRFeatureUniquePtr const first(layer.GetNextFeature());
+        layer.ResetReading();
+        OGRGeometry const* const shape = first ? first->GetGeometryRef() : nullptr;
+        bool const is_collection = shape != nullptr && wkbFlatten(shape->getGeometryType()) == wkbGeometryCollection;
+        if (is_collection && shape->toGeometryCollection()->getNumGeometries() > 0) {
+            type = wkbFlatten(shape->toGeometryCollection()->getGeometryRef(0)->getGeometryType());
+        }
+    }
     return type;
 }
 
@@ -73,8 +82,11 @@ FileContent content_of(Source const& source) {
     std::string const& path = source.path;
     FileContent content;
     std::error_code ignored;
-    content.path =
-        std::filesystem::is_directory(path, ignored) ? (std::filesystem::path(path) / "network.gpkg").string() : path;
+    auto const network = std::filesystem::path(path) / "network.gpkg";
+    bool const is_geodatabase = lower_case(std::filesystem::path(path).extension().string()) == ".gdb";
+    bool const is_folder =
+        std::filesystem::is_directory(path, ignored) && !(is_geodatabase && !std::filesystem::exists(network, ignored));
+    content.path = is_folder ? network.string() : path;
     std::string const what = "io.content_of: " + content.path;
     if (is_text_of_points(content.path) && std::filesystem::exists(content.path, ignored) && !holds_lines(source)) {
         content.kind = FileContent::Kind::points;
@@ -96,6 +108,9 @@ FileContent content_of(Source const& source) {
     bool const has_variables = data->GetLayerCount() == 0 && data->GetMetadata("SUBDATASETS") != nullptr;
     if (data->GetRasterCount() > 0 || has_variables) {
         return content;
+    }
+    if (inside_archive(content.path) != content.path) {
+        driver.take(); // what drivers say that read an archive of one file only
     }
     bool has_points = false;
     bool has_lines = false;

@@ -50,7 +50,11 @@ public:
     WithNetcdf(WithNetcdf const&) = delete;
     WithNetcdf& operator=(WithNetcdf const&) = delete;
 
+    /// Whether no other driver is meant: those of raw data take any file beside whose name a header lies, NAME.hdr.
+    bool is_meant() const { return is_meant_; }
+
 private:
+    bool is_meant_ = false;
     bool added_ = false;
 };
 
