@@ -143,6 +143,17 @@ TEST(FillHeights, AnEndWithoutHeightLiesBetweenTheLinesThatMeetThere) {
     EXPECT_EQ(heights(against.lines, 2), (std::vector<double>{10, 20, 30, 40}));
 }
 
+TEST(FillHeights, OneKnownHeightIsThatOfAll) {
+    auto const one = network::with_all_heights(
+        lines_of({{{0, 0, none}, {1, 0, 7}, {2, 0, none}}, {{2, 0, none}, {3, 0, none}}}), 0.1);
+    EXPECT_EQ(heights(one, 0), (std::vector<double>{7, 7, 7}));
+    EXPECT_EQ(heights(one, 1), (std::vector<double>{7, 7}));
+    auto const several = network::with_all_heights(lines_of({{{0, 0, 9}, {10, 0, none}, {20, 0, 7}}}), 0.1);
+    EXPECT_EQ(heights(several, 0), (std::vector<double>{9, 8, 7}));
+    EXPECT_TRUE(
+        std::isnan(network::with_all_heights(lines_of({{{0, 0, none}, {1, 0, none}}}), 0.1).lines[0].vertices[0].z));
+}
+
 TEST(FillHeights, ALineByItself) {
     EXPECT_EQ(network::with_heights_between({{0, 0, none}, {1, 0, 4}, {2, 0, none}, {4, 0, 10}, {9, 0, none}}),
               (std::vector<Vec3>{{0, 0, 4}, {1, 0, 4}, {2, 0, 6}, {4, 0, 10}, {9, 0, 10}}));
@@ -206,6 +217,8 @@ TEST(Placeholders, AMouthMayLieAtZero) {
     EXPECT_EQ(taken(chain({{9, 5, 3, 0, 0, 0}})), "......") << "a tidal river";
     EXPECT_EQ(taken(chain({{9, 5, 3, 0, 0}, {0, 0, 0}})), "..... ...");
     EXPECT_EQ(taken(chain({{0, 0, 0}})), "...");
+    EXPECT_EQ(taken(lines_of({{{0, 0, 0}, {9, 0, 0}, {9, 9, 0}, {0, 0, 0}}, {{0, 0, 40}, {-9, 0, 50}}})), ".... ..")
+        << "a shore that a river reaches from above";
     EXPECT_EQ(taken(chain({{9, 5, 0}, {0, -2, -3}})), "... ...") << "land below the sea";
     EXPECT_EQ(taken(lines_of({{{0, 0, 90}, {9, 0, 40}, {20, 0, 0}}, {{20, 20, 80}, {20, 9, 30}, {20, 0, 0}}})),
               "... ...")

@@ -661,6 +661,12 @@ TEST(RiverFiles, HeightsAreMissingWhereAToolCutALine) {
     Outcome const fixed = expect_run(place, "check split.geojson --fix fixed.gpkg", 3);
     EXPECT_TRUE(test::has(fixed.out, "arc 1: heights of 0 count as missing", "2 in all")) << fixed.out;
     EXPECT_NEAR(heights_of_given(place / "fixed.gpkg", south)[1], 500.0, 1e-9);
+    // One height is left.
+    std::string const last = R"("linkno":1,"dslinkno":-1)";
+    place.write("one.geojson",
+                test::geojson(test::line("[500000,5010000],[500000,5005000,700],[500000,5000000]", last)));
+    expect_run(place, "check one.geojson --fix one.gpkg", 3);
+    EXPECT_EQ(heights_of_given(place / "one.gpkg", south), (std::vector<double>{700, 700}));
     // A mouth may lie at 0.
     place.write("mouth.geojson",
                 test::geojson(test::line("[500000,5010000,90],[500000,5005000,40],[500000,5000000,0]")));

@@ -259,6 +259,12 @@ std::string inside_archive(std::string const& path) {
     return inside;
 }
 
+void forget_archive(std::string const& path, Driver const& driver) {
+    if (inside_archive(path) != path) {
+        driver.take();
+    }
+}
+
 void CloseDataset::operator()(GDALDataset* dataset) const {
     GDALClose(dataset);
 }

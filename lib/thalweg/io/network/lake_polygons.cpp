@@ -124,8 +124,8 @@ void add_areas(OGRGeometry const& shape, std::int64_t feature, std::vector<Polyg
 } // namespace
 
 LakeFilter::LakeFilter(OGRLayer& layer)
-    : all_tags_(layer, {"other_tags", "all_tags", "tags"}, false), ftype_(layer, {"ftype"}, false),
-      is_named_(is_named_for_lakes(layer)), is_of_land_(has_part(simple_name(layer.GetName()), land_names)) {
+    : all_tags_(FileColumn::with_tags(layer)), ftype_(layer, {"ftype"}, false), is_named_(is_named_for_lakes(layer)),
+      is_of_land_(has_part(simple_name(layer.GetName()), land_names)) {
     for (char const* key : {"natural", "water", "waterway", "landuse"}) {
         tags_.emplace_back(key, FileColumn(layer, {key}, false));
     }

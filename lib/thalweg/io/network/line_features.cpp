@@ -87,8 +87,12 @@ FileColumn::FileColumn(OGRLayer& layer, std::vector<std::string> const& names, b
     }
 }
 
+FileColumn FileColumn::with_tags(OGRLayer& layer) {
+    return {layer, {"other_tags", "all_tags", "tags"}, false};
+}
+
 FileColumn FileColumn::of_tags(OGRLayer& layer, std::string const& key) {
-    FileColumn column(layer, {"other_tags", "all_tags", "tags"}, false);
+    FileColumn column = with_tags(layer);
     if (!column.is_there() || FileColumn(layer, {key}, false).is_there()) {
         return {};
     }

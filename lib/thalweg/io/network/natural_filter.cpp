@@ -108,9 +108,8 @@ std::string value_of_tag(std::string_view tags, std::string_view key) {
 }
 
 NaturalFilter::NaturalFilter(OGRLayer& layer)
-    : all_tags_(layer, {"other_tags", "all_tags", "tags"}, false),
-      osm_id_(layer, {"osm_id", "osm_way_id", "full_id", "@id"}, false), ftype_(layer, {"ftype"}, false),
-      fcode_(layer, {"fcode"}, false) {
+    : all_tags_(FileColumn::with_tags(layer)), osm_id_(layer, {"osm_id", "osm_way_id", "full_id", "@id"}, false),
+      ftype_(layer, {"ftype"}, false), fcode_(layer, {"fcode"}, false) {
     for (std::string_view const keys : {std::string_view("waterway tunnel"), keys_of_ways, more_keys}) {
         for (std::string const& key : words_of(keys)) {
             tags_.emplace(key, FileColumn(layer, {key}, false));

@@ -154,9 +154,7 @@ NetworkSource open_network(std::string const& path, Driver const& driver) {
                            what);
         throw BadInput(fmt::format("{} cannot be read: {}", what, words));
     }
-    if (inside_archive(path) != path) {
-        driver.take(); // what drivers say that read an archive of one file only
-    }
+    forget_archive(path, driver);
     return {what, std::move(dataset)};
 }
 

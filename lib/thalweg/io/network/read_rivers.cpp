@@ -116,26 +116,27 @@ public:
     std::vector<Finding> findings;
 
 private:
-    /// Whether a feature has a value of this key among its tags.
-    bool is_a_tag(std::string const& key) const {
-        FileColumn const tags = FileColumn::of_tags(layer_, key);
+    /// The values of a key among the tags, where a feature has one.
+    FileColumn column_of_tags(std::string const& key) const {
+        FileColumn tags = FileColumn::of_tags(layer_, key);
+        if (!tags.is_there()) {
+            return tags;
+        }
         bool found = false;
         layer_.ResetReading();
-        for (OGRFeatureUniquePtr feature; tags.is_there() && !found; found = !tags.is_null(*feature)) {
-            feature.reset(layer_.GetNextFeature());
-            if (!feature) {
-                break;
-            }
+        for (OGRFeatureUniquePtr feature(layer_.GetNextFeature()); feature && !found;
+             feature.reset(layer_.GetNextFeature())) {
+            found = !tags.is_null(*feature);
         }
         layer_.ResetReading();
-        return found;
+        return found ? tags : FileColumn();
     }
 
     // A column that may be missing when it has its default name.
     FileColumn column(std::string const& field, std::string const& by_default = "") const {
         FileColumn found = field.empty() ? FileColumn() : FileColumn(layer_, {field});
-        if (!field.empty() && !found.is_there() && is_a_tag(field)) {
-            found = FileColumn::of_tags(layer_, field);
+        if (!field.empty() && !found.is_there()) {
+            found = column_of_tags(field);
         }
         if (!field.empty() && !found.is_there() && field != by_default) {
             auto const names = field_names(layer_);
@@ -368,9 +369,7 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         refuse_folder(path, "io.read_rivers: " + path);
         throw BadInput(fmt::format("io.read_rivers: {} is not a vector file that GDAL can read ({})", path, words));
     }
-    if (inside_archive(path) != path) {
-        driver.take(); // what drivers say that read an archive of one file only
-    }
+    forget_archive(path, driver);
     std::vector<OGRLayer*> const layers = params.rings && params.layer.empty()
                                               ? layers_of_areas(*data, "io.read_rivers: " + rivers.name)
                                               : rivers_layers(*data, params.layer, "io.read_rivers: " + rivers.name);

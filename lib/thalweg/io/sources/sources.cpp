@@ -36,26 +36,19 @@
 namespace thalweg::io {
 namespace {
 
-// For a layer of any geometry type the first feature decides.
+// For a layer of any geometry type the first feature decides, of a collection its first part.
 OGRwkbGeometryType shape_of(OGRLayer& layer) {
-    auto type = wkbFlatten(layer.GetGeomType());
-    if (type == wkbUnknown) {
-        OGRFeatureUniquePtr const first(layer.GetNextFeature());
-        layer.ResetReading();
-        if (first && first->GetGeometryRef() != nullptr) {
-            type = wkbFlatten(first->GetGeometryRef()->getGeometryType());
-        }
+    auto const type = wkbFlatten(layer.GetGeomType());
+    if (type != wkbUnknown && type != wkbGeometryCollection) {
+        return type;
     }
-    if (type == wkbGeometryCollection) { // of mixed shapes the first
-        OGRFeatureUniquePtr const first(layer.GetNextFeature());
-        layer.ResetReading();
-        OGRGeometry const* const shape = first ? first->GetGeometryRef() : nullptr;
-        bool const is_collection = shape != nullptr && wkbFlatten(shape->getGeometryType()) == wkbGeometryCollection;
-        if (is_collection && shape->toGeometryCollection()->getNumGeometries() > 0) {
-            type = wkbFlatten(shape->toGeometryCollection()->getGeometryRef(0)->getGeometryType());
-        }
+    OGRFeatureUniquePtr const first(layer.GetNextFeature());
+    layer.ResetReading();
+    OGRGeometry const* shape = first ? first->GetGeometryRef() : nullptr;
+    if (shape != nullptr && wkbFlatten(shape->getGeometryType()) == wkbGeometryCollection && shape->IsEmpty() == 0) {
+        shape = shape->toGeometryCollection()->getGeometryRef(0);
     }
-    return type;
+    return shape == nullptr ? type : wkbFlatten(shape->getGeometryType());
 }
 
 bool is_of_lines(OGRwkbGeometryType type) {
@@ -109,9 +102,7 @@ FileContent content_of(Source const& source) {
     if (data->GetRasterCount() > 0 || has_variables) {
         return content;
     }
-    if (inside_archive(content.path) != content.path) {
-        driver.take(); // what drivers say that read an archive of one file only
-    }
+    forget_archive(content.path, driver);
     bool has_points = false;
     bool has_lines = false;
     for (auto* const layer : data->GetLayers()) {

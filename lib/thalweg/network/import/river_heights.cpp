@@ -246,10 +246,6 @@ private:
     std::vector<std::size_t> open_;    ///< lines without heights, or with some
 };
 
-} // namespace
-
-namespace {
-
 constexpr double no_data_m = -9999.0;
 constexpr double above_m = 1.0; ///< heights above it say that a line does not lie at the sea
 constexpr double high_m = 10.0; ///< likewise, where zeros follow one another
@@ -270,7 +266,7 @@ struct FromZero {
     double steepest = 0.0;   ///< [m/m] of the other segments
 
     bool rises() const { return zeros == 1 && near_m > 0.0; }
-    bool is_mute() const { return rises() && !(far_m < near_m) && !(far_m >= near_m); } ///< has no other height
+    bool is_mute() const { return rises() && std::isnan(far_m); } ///< has no other height
     bool is_fallen_to() const { return rises() && far_m >= near_m; }
     bool falls_away() const { return rises() && near_m - far_m > above_m; }
 };
@@ -315,10 +311,10 @@ struct ZeroNode {
         return std::ranges::all_of(ends, falls_gently) ||
                (std::ranges::all_of(ends, falls) && std::ranges::all_of(ends, is_drawn_alike));
     }
-    bool is_free() const { return ends.size() == 1 && !has_height({0.0, 0.0, other_m}); }
+    bool is_free() const { return ends.size() == 1 && std::isnan(other_m); }
     /// Whether 0 is no height of one of its ends.
     bool is_missing(FromZero const& end) const {
-        if (has_height({0.0, 0.0, other_m})) {
+        if (!std::isnan(other_m)) {
             return end.zeros == 1 || std::fabs(other_m) > high_m;
         }
         if (ends.size() == 1) {
@@ -378,7 +374,7 @@ public:
 private:
     void add_ends(std::size_t i) {
         auto const& line = *lines_[i];
-        if (line.size() < 2) {
+        if (line.size() < 2 || in_plan(line.front()) == in_plan(line.back())) { // a shore at 0 has no ends
             return;
         }
         for (bool const is_back : {false, true}) {
@@ -522,6 +518,21 @@ FilledHeights fill_heights(RiverLines lines, double slope) {
     filling.fill();
     out.lines.has_z = true;
     return out;
+}
+
+RiverLines with_all_heights(RiverLines lines, double slope) {
+    FilledHeights filled = fill_heights(std::move(lines), slope);
+    double same = std::numeric_limits<double>::quiet_NaN();
+    for (RiverLine const& line : filled.lines.lines) {
+        auto const known = std::ranges::find_if(line.vertices, has_height);
+        same = known == line.vertices.end() ? same : known->z;
+    }
+    for (RiverLine& line : filled.lines.lines) {
+        for (Vec3& v : line.vertices) {
+            v.z = has_height(v) ? v.z : same; // else there was nothing to derive heights from
+        }
+    }
+    return std::move(filled.lines);
 }
 
 } // namespace thalweg::network

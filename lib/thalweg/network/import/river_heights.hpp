@@ -51,6 +51,9 @@ struct FilledHeights {
 /// \throws BadParameter when slope is outside its range
 FilledHeights fill_heights(RiverLines lines, double slope);
 
+/// As fill_heights(); where the known heights are one and the same, the others get it too. Without any they stay NaN.
+RiverLines with_all_heights(RiverLines lines, double slope);
+
 /// Gives heights to the vertices of a line that have none.
 /// \param line vertices [m]
 /// \return between two known heights linear by length, beyond the last one the same; without any: unchanged

@@ -206,7 +206,10 @@ private:
                 fmt::format("arc {}: heights of {} count as missing and are interpolated ({} in all, the first at "
                             "({}, {}))",
                             number, checked.zeros > 0 ? "0" : "-9999 m", checked.vertices, checked.at.x, checked.at.y));
-            result_.rivers = network::fill_heights(std::move(result_.rivers), NetworkRecipe{}.slope).lines;
+            result_.rivers = network::with_all_heights(std::move(result_.rivers), NetworkRecipe{}.slope);
+            for (RiverLine& line : result_.rivers.lines) {
+                fill_line(line.vertices, nullptr, nullptr); // with 0 where the file has none but placeholders
+            }
         }
     }
 

@@ -91,9 +91,9 @@ Breaklines read_lines(std::string const& path, TinParams const& params, std::str
         read.findings.push_back(placeholder_finding(checked));
         run.report(read.findings);
     }
-    rivers = network::fill_heights(std::move(checked.lines), NetworkRecipe{}.slope).lines;
+    rivers = network::with_all_heights(std::move(checked.lines), NetworkRecipe{}.slope);
     for (RiverLine& line : rivers.lines) {
-        read.lines.push_back(network::with_heights_between(std::move(line.vertices)));
+        read.lines.push_back(std::move(line.vertices));
     }
     return read;
 }

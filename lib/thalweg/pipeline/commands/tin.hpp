@@ -52,7 +52,7 @@ struct TinResult {
     double crossings_dz_m = 0.0;
     std::int64_t medial = 0;            ///< points in level areas, by medial_points
     std::optional<double> flat = {};    ///< [0, 1] share of the area in level triangles, for lines and points
-    std::vector<Finding> findings = {}; ///< how a DEM or a point cloud was read
+    std::vector<Finding> findings = {}; ///< how a DEM, points or lines were read
 };
 
 /// Runs `thalweg tin`: reads a file and writes a TIN of its content, completely or not at all: of a DEM within an

@@ -15,6 +15,8 @@ class GDALDataset;
 
 namespace thalweg::io {
 
+class Driver;
+
 struct CloseDataset {
     std::shared_ptr<void const> keeps = {}; ///< released after the data set is closed
     void operator()(GDALDataset* dataset) const;
@@ -72,6 +74,9 @@ Dataset in_memory(Raster<float> const& dem, std::string const& what);
 /// The name by which GDAL opens the content of a zip archive: the archive itself, or its only folder if its files are
 /// there. Other paths are returned unchanged. Needs a Driver that outlives it.
 std::string inside_archive(std::string const& path);
+
+/// Drops the errors of opening an archive (.zip) that was opened: of several files in it, drivers say so that read one.
+void forget_archive(std::string const& path, Driver const& driver);
 
 /// Passes a Run through GDAL, which does not support exceptions: pass &GdalProgress::step and the object as GDAL's
 /// progress function and argument, then call settle() before checking whether GDAL succeeded.

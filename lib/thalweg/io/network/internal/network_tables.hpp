@@ -67,7 +67,8 @@ void write_layer(LayerTarget const& target, Table const& table, Run const& run);
 
 /// Writes tables with shapes as the layers of a new file: see write_tables. A shapefile's path ends in .shp, and it is
 /// UTF-8. GeoJSON is in degrees (RFC 7946), rounded to 1e-9, about 0.1 mm; that of 2008 in its own coordinates, with
-/// the CRS named. \throws BadInput also when GeoJSON has no CRS, or that of 2008 one without EPSG code
+/// the CRS named.
+/// \throws BadInput also when GeoJSON has no CRS, or that of 2008 one without EPSG code
 void write_file(std::span<Table const> tables, std::string const& crs, std::string const& path, LayerFormat format,
                 Run const& run);
 

@@ -70,8 +70,9 @@ public:
     /// Takes the first of the names that the layer has.
     FileColumn(OGRLayer& layer, std::vector<std::string> const& names, bool or_feature_id = true);
 
-    /// The values of one of OpenStreetMap's keys in the column that holds all others (other_tags, all_tags, tags);
-    /// nothing where the layer has a column of this name, or none with tags.
+    /// The column that holds OpenStreetMap's keys without a column of their own: other_tags, all_tags or tags.
+    static FileColumn with_tags(OGRLayer& layer);
+    /// The values of one of these keys; nothing where the layer has a column of this name, or none with tags.
     static FileColumn of_tags(OGRLayer& layer, std::string const& key);
 
     bool is_there() const { return field_ != absent; }
