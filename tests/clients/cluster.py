@@ -61,11 +61,20 @@ def start(state):
     run(binaries() / "psql", "-X", "-q", "-v", "ON_ERROR_STOP=1", "-h", folder, "-U", user, "-d", "thalweg", *extensions)
 
 
+def is_running(data):
+    """A server that was killed leaves its postmaster.pid."""
+    try:
+        run(binaries() / "pg_ctl", "-D", data, "status")
+    except RuntimeError:
+        return False
+    return True
+
+
 def stop(state):
     if not state.exists():
         return
     folder = pathlib.Path(connection(state)["host"])
-    if (folder / "data" / "postmaster.pid").exists():
+    if is_running(folder / "data"):
         run(binaries() / "pg_ctl", "-D", folder / "data", "-m", "immediate", "-w", "stop")
     shutil.rmtree(folder, ignore_errors=True)
     state.unlink()
