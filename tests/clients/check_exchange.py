@@ -9,6 +9,7 @@ lines to the last bit, the arc downstream of each, Strahler's order, Shreve's, a
 NetworkX reads the graphs as a forest in which every source has an outlet. A network in PostGIS itself is checked there by
 `thalweg check`, and pgRouting finds its ways in the view. A changed copy of each kind must be told from the original.
 Prints one JSON line and exits with 1 on any violation, 2 when there is nothing to check."""
+import math
 import pathlib
 import subprocess
 import tempfile
@@ -82,7 +83,8 @@ def check_schemas(thalweg, source, place, report):
         folder.mkdir()
         for ending in VECTORS:
             out = folder / f"net{ending}"
-            if not thalweg("convert", source, "-o", out, "--schema", schema):
+            exact = ["--format", "geojson2008"] if ending == ".geojson" else []
+            if not thalweg("convert", source, "-o", out, "--schema", schema, *exact):
                 continue
             if schema == "native" and ending != ".gpkg":
                 out = folder / f"net_arcs{ending}"
@@ -90,6 +92,23 @@ def check_schemas(thalweg, source, place, report):
             if thalweg("convert", out, "-o", back, "--from", schema):
                 for words in differences(before, arcs_of(back), schema):
                     report.fault("not_as_it_was", f"{schema}{ending}: {words}")
+
+
+def check_degrees(thalweg, source, place, report):
+    """GeoJSON as RFC 7946 has it: in degrees, and back within a millimetre, in the order of the arcs."""
+    out, back = place / "hydrorivers" / "degrees.geojson", place / "back_degrees.gpkg"
+    if not (thalweg("convert", source, "-o", out, "--schema", "hydrorivers") and thalweg("convert", out, "-o", back)):
+        return
+    written, *files = [ogr.Open(str(path)) for path in (out, source, back)]
+    report.unless(written.GetLayer().GetSpatialRef().IsGeographic(), "not_degrees", out)
+    rows = [list(file.GetLayerByName("arcs")) for file in files]
+    report.equal("degrees_arcs", *map(len, rows))
+    for before, after in zip(*rows):
+        lines = [row.GetGeometryRef().GetPoints() for row in (before, after)]
+        report.equal("degrees_vertices", *map(len, lines))
+        far = max(map(math.dist, *lines))
+        report.unless(far < 1e-3, "not_where_it_was", f"arc {before['arc_id']}: {far} m")
+        report.unless(before["strahler"] == after["strahler"], "not_as_it_was", f"strahler of arc {before['arc_id']}")
 
 
 def check_readers(place, state, report):
@@ -184,6 +203,7 @@ def main(executable, folder, state):
         if thalweg("convert", folder, "-o", source, "--max-upstream", "2"):
             figures["arcs"] = len(arcs_of(source))
             check_schemas(thalweg, source, place, report)
+            check_degrees(thalweg, source, place, report)
             figures["files_read"] = check_readers(place, state, report)
             figures["graphs"] = check_graphs(thalweg, source, place, figures["arcs"], report)
             check_mask(thalweg, folder, place, report)
