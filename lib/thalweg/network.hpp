@@ -22,6 +22,7 @@
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/import/river_heights.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>

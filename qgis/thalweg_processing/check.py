@@ -9,12 +9,12 @@ from typing import Any
 from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,
                        QgsProcessingOutputBoolean, QgsProcessingOutputLayerDefinition, QgsProcessingOutputNumber,
                        QgsProcessingOutputVectorLayer,
-                       QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
-                       QgsProcessingParameterVectorDestination, QgsProject)
+                       QgsProcessingParameterEnum, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
+                       QgsProcessingParameterString, QgsProcessingParameterVectorDestination, QgsProject)
 
 from .algorithm import LIMITS, NODATA, ends_in, warn_of_failed
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
-from .network_input import NetworkAlgorithm
+from .network_input import MAIN, MAIN_HELP, NetworkAlgorithm
 from .program import Finished
 
 SHOWN = 20  # findings, and repairs, in the log
@@ -43,6 +43,8 @@ class Check(NetworkAlgorithm):
                                               optional=True, minValue=0),
                  "Report line ends closer than this to a line that they do not meet; the repair joins those that meet no other "
                  "line. Default: a millionth of the network's extent.")
+        self.add(QgsProcessingParameterEnum("MAIN", "Main stems of the repaired network by", MAIN, optional=True,
+                                            usesStaticStrings=True), MAIN_HELP, advanced=True)
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
         self.add(QgsProcessingParameterVectorDestination("FIX", "Repaired network", QgsProcessing.TypeVectorLine, optional=True,
                                                          createByDefault=False),
@@ -73,7 +75,7 @@ class Check(NetworkAlgorithm):
         if self.fix and self.fix == self.findings:
             raise QgsProcessingException("FIX and FINDINGS: name two files")
         options = self.network_options(parameters, context, files)
-        options += self.options(parameters, context, NEAR="--near", NODATA="--nodata")
+        options += self.options(parameters, context, NEAR="--near", MAIN="--main", NODATA="--nodata")
         options += [f"--dem={files['DEM'].path}"] if "DEM" in files else []
         options += [f"--fix={self.fix}"] if self.fix else []
         options += [f"--findings={self.findings}"] if self.findings else []

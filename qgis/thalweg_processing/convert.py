@@ -12,7 +12,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
 
 from .algorithm import NODATA
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
-from .network_input import SCHEMAS, NetworkAlgorithm
+from .network_input import MAIN, MAIN_HELP, SCHEMAS, NetworkAlgorithm
 from .program import Finished
 
 FORMATS = ["gpkg", "shp", "fgb", "geojson", "geojson2008", "graphml", "csv", "edges", "tif"]
@@ -27,16 +27,18 @@ class Convert(NetworkAlgorithm):
     TITLE = "Convert river network"
     GROUP = "Networks"
     TEXT = ("Convert a river network to another schema or format.\n"
-            "Networks that are not trees are rejected; Check river network tells why. Arcs get new numbers; the native field "
-            "feature keeps their ids of another schema. TauDEM allows two arcs upstream of one: set Most arcs upstream to 2. "
-            "A shapefile, FlatGeobuf or GeoJSON in the native schema is two files, NAME_arcs and NAME_nodes. A raster has 1 in "
-            "river cells and 0 elsewhere.")
+            "Networks that are not trees are rejected, but for divergences in the schema nhdplus; Check river network tells why. "
+            "Arcs get new numbers; the native field feature keeps their ids of another schema. TauDEM allows two arcs upstream "
+            "of one: set Most arcs upstream to 2. A shapefile, FlatGeobuf or GeoJSON in the native schema is two files, "
+            "NAME_arcs and NAME_nodes. A raster has 1 in river cells and 0 elsewhere.")
     TAGS = ("taudem", "nhdplus", "hydrorivers", "grass", "graphml", "schema", "format", "rivers", "streams")
 
     def initAlgorithm(self, configuration: dict[str, Any] | None = None) -> None:
         self.add_network()
         self.add(QgsProcessingParameterEnum("SCHEMA", "New schema", SCHEMAS, defaultValue="native", usesStaticStrings=True),
                  "Field names, units and line directions of the output.")
+        self.add(QgsProcessingParameterEnum("MAIN", "Main stems by", MAIN, optional=True, usesStaticStrings=True), MAIN_HELP,
+                 advanced=True)
         self.add(QgsProcessingParameterNumber("MAX_UPSTREAM", "Most arcs upstream of one", optional=True, minValue=2),
                  "Split nodes where more arcs than this end: the others join a little downstream.")
         self.add(QgsProcessingParameterNumber("SPLIT_DISTANCE", "Distance of split confluences [m]",
@@ -72,7 +74,7 @@ class Convert(NetworkAlgorithm):
     def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
         self.output = self.file(parameters, "OUTPUT", context)
         options = self.network_options(parameters, context, files)
-        options += self.options(parameters, context, SCHEMA="--schema", MAX_UPSTREAM="--max-upstream",
+        options += self.options(parameters, context, SCHEMA="--schema", MAIN="--main", MAX_UPSTREAM="--max-upstream",
                                 SPLIT_DISTANCE="--split-distance", CELL="--cell", FORMAT="--format", NODATA="--nodata")
         options += [f"--dem={files['DEM'].path}"] if "DEM" in files else []
         return [files["NETWORK"].path, f"--output={self.output}", *options, "--overwrite"]

@@ -12,6 +12,9 @@ from .algorithm import Algorithm
 from .layers import File, VectorInput, file_name, free_path, vector_input
 
 SCHEMAS = ["native", "taudem", "nhdplus", "hydrorivers", "grass"]
+MAIN = ["file", "name", "area", "length", "arbolate"]
+MAIN_HELP = ("What tells the main stems: the file (its level paths, names, classes and areas, as far as it has them), or its "
+             "names, its areas, the length of the flow path, the arbolate sum alone. Default: file.")
 
 
 class NetworkAlgorithm(Algorithm):

@@ -110,6 +110,7 @@ Command add_check(CLI::App& app, Session& session) {
            "other line. Default: a millionth of the network's extent; --fix: by the cell that make would take.")
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
+    add_main_option(app, options->params.main);
     add_dem_options(app, options->params.reading);
     add_json_option(app, session);
     add_overwrite_option(app, options->params.existing, "Replace existing --fix and --findings files.");

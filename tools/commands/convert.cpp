@@ -38,8 +38,11 @@ void tell(pipeline::ConvertResult const& made, Session const& session) {
     }
     session.run.tell("read", fmt::format("{} arcs and {} nodes, schema {}{}", made.arcs, made.nodes, made.schema,
                                          made.split > 0 ? fmt::format(", {} confluences moved", made.split) : ""));
+    if (made.divergences > 0) {
+        session.run.tell("read", fmt::format("{} minor branches leave at divergences", made.divergences));
+    }
     if (std::string(made.heights) == "none") {
-        session.run.tell("note", "the heights are unknown and written as 0; --dem takes them from a DEM");
+        session.run.tell("note", "the heights are unknown: lines are written without; --dem takes them from a DEM");
     }
     if (std::string(made.areas) == "none") {
         session.run.tell("note", "the contributing areas are unknown and written as -1; --dem measures them");
@@ -47,9 +50,15 @@ void tell(pipeline::ConvertResult const& made, Session const& session) {
 }
 
 nlohmann::ordered_json json_of(pipeline::ConvertResult const& made) {
-    nlohmann::ordered_json json{{"written", made.written}, {"schema", made.schema}, {"crs", made.crs},
-                                {"arcs", made.arcs},       {"nodes", made.nodes},   {"split", made.split},
-                                {"heights", made.heights}, {"areas", made.areas}};
+    nlohmann::ordered_json json{{"written", made.written},
+                                {"schema", made.schema},
+                                {"crs", made.crs},
+                                {"arcs", made.arcs},
+                                {"nodes", made.nodes},
+                                {"split", made.split},
+                                {"divergences", made.divergences},
+                                {"heights", made.heights},
+                                {"areas", made.areas}};
     json["findings"] = nlohmann::ordered_json::parse(pipeline::findings_json(made.findings));
     for (auto& one : json["findings"]) {
         one["where"] = {one.value("x", 0.0), one.value("y", 0.0)}; // its name in earlier versions
@@ -95,6 +104,7 @@ Command add_convert(CLI::App& app, Session& session) {
     app.add_option("--cell", params.cell_m, "Set the cell size of a raster output without a DEM [m].")
         ->type_name("M")
         ->check(CLI::PositiveNumber);
+    add_main_option(app, params.main);
     app.add_option("--table", params.table, "Name the database tables NAME or SCHEMA.NAME.")
         ->type_name("NAME")
         ->capture_default_str();
@@ -102,7 +112,8 @@ Command add_convert(CLI::App& app, Session& session) {
     add_json_option(app, session);
     add_overwrite_option(app, params.existing, "Replace existing files, or the tables and view in a database.");
     app.footer(
-        "Networks that are not trees are rejected; thalweg check tells why. Arcs get new numbers; the native field "
+        "Networks that are not trees are rejected; thalweg check tells why. The schema nhdplus holds divergences too. "
+        "Arcs get new numbers; the native field "
         "feature keeps their ids of another schema. TauDEM allows two arcs upstream of one: use --max-upstream 2. In "
         "the native schema, a shapefile, FlatGeobuf or GeoJSON output is two files, NAME_arcs and NAME_nodes. A raster "
         "has 1 in river cells and 0 elsewhere, as RivGraph expects. A database gets tables NAME_arcs and NAME_nodes "

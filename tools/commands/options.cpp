@@ -64,6 +64,19 @@ void add_json_option(CLI::App& app, Session& session) {
     app.add_flag("--json", session.json, "Print one JSON object.");
 }
 
+void add_main_option(CLI::App& app, network::MainBy& main) {
+    static std::map<std::string, network::MainBy> const names{{"file", network::MainBy::file},
+                                                              {"name", network::MainBy::name},
+                                                              {"area", network::MainBy::area},
+                                                              {"length", network::MainBy::length},
+                                                              {"arbolate", network::MainBy::arbolate}};
+    app.add_option("--main", main,
+                   "Tell main stems by the file (its level paths, names, classes and areas, as far as it has them), by "
+                   "name, area, length of the flow path, or arbolate sum. Default: file.")
+        ->type_name("file|name|area|length|arbolate")
+        ->transform(CLI::CheckedTransformer(names, CLI::ignore_case));
+}
+
 void add_overwrite_option(CLI::App& app, io::Existing& existing, std::string const& meaning) {
     app.add_flag_callback(
         "--overwrite", [&existing] { existing = io::Existing::replace; }, meaning);

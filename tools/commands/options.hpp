@@ -12,6 +12,7 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 
 #include "commands/commands.hpp"
 
@@ -59,6 +60,9 @@ void add_overwrite_option(CLI::App& app, io::Existing& existing,
 
 /// The option of commands that read a DEM.
 void add_dem_options(CLI::App& app, io::ReadDemParams& reading);
+
+/// The option of commands that compute main stems.
+void add_main_option(CLI::App& app, network::MainBy& main);
 
 /// Explains why a word is not a random seed that a recipe can hold; "": it is one.
 std::string is_seed(std::string const& word);

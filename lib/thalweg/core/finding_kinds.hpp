@@ -156,6 +156,8 @@ inline constexpr auto finding_rows = [] {
          "Make grid.cell smaller, or take a part of the rivers."},
         {"deep_cut", warning, always, "m", "A river is cut deeper into the DEM than surface.max_cut.",
          "If its water sinks there: --set network.inland=sink; else look whether river and DEM fit together."},
+        {"degrees_as_metres", warning, always, "m", "Coordinates look like degrees, but count as metres.",
+         "Assign the CRS in which they are: --source-crs EPSG:4326."},
         {"extended_rivers", warning, always, "m",
          "Many rivers end inside the grid and are extended far beyond the data.",
          "Set network.inland = \"coast\" if they end at the sea, \"sink\" if their water sinks in; give the outlines "
@@ -286,6 +288,11 @@ inline constexpr auto finding_rows = [] {
         {"zero_length", error, verbose, "", "An arc has no length.",
          "check --fix draws it straight between its nodes, or leaves it out."},
         // Copies that check --fix writes.
+        {"areas_overlap", note, always, "arcs",
+         "Inflows have more contributing area together than the arc into which they run.",
+         "Right where rivers divide above; else an area is wrong."},
+        {"area_raised", note, verbose, "m2", "A contributing area is raised to that of a larger inflow.",
+         "Compare it with the file: one of the two is wrong."},
         {"drawn", note, verbose, "m", "An arc without a line is drawn straight between its nodes.", ""},
         {"mended", note, verbose, "", "Faults of one kind are repaired in the copy.", ""},
         {"level", note, verbose, "vertices", "Vertices without a height are interpolated between their neighbours.",

@@ -140,7 +140,7 @@ struct NetworkFile {
         std::int64_t shreve = 0;
         std::int64_t basin = 0;
         std::vector<Vec3> line = {};                                  ///< [m] directed downstream
-        double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN: not in the file
+        double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN: unknown
         double ds_area_m2 = std::numeric_limits<double>::quiet_NaN();
         double persistence = std::numeric_limits<double>::infinity(); ///< [cells]
         std::int64_t feature = 0;      ///< number in its layer, from 1; schema native: the file's value, 0 for none
@@ -149,6 +149,8 @@ struct NetworkFile {
         Channel channel = Channel::unknown; ///< as RiverLine
         std::int64_t rank = 0;              ///< as RiverLine
         std::string name = {};              ///< as RiverLine
+        std::int64_t path = 0;              ///< number of its level path; 0: unknown
+        double level = 0.0;                 ///< class of its stem, greater for lesser ones; 0: unknown
         std::string unnatural = {};         ///< why it is not a natural watercourse, or ""
         bool is_channel = false;            ///< unnatural, but carries water: a canal, ditch, drain or pipe
         int runs = 0;                       ///< as RiverLine

@@ -160,13 +160,13 @@ struct ElevatedNetwork {
 struct NetworkOrders {
     std::vector<int> strahler;           ///< [1, ...] by arc (Strahler 1957)
     std::vector<std::int64_t> shreve;    ///< [1, ...] by arc: number of sources upstream (Shreve 1966)
-    std::vector<int> hack;               ///< [1, ...] by arc: 1 = main stem (Hack 1957, by longest flow path)
+    std::vector<int> hack;               ///< [1, ...] by arc: 1 = main stem (Hack 1957)
     std::vector<int> topological;        ///< [1, ...] by arc: 1 at the outlet, increasing upstream
     std::vector<std::int64_t> arc_basin; ///< [1, ...] by arc
     std::vector<std::int64_t> node_basin;
     std::vector<int> node_strahler;      ///< of the stream that leaves the node (outlet: that enters)
     std::vector<double> node_dist_out_m; ///< [m] along the stream to the outlet
-    std::vector<ArcId> main_stem;        ///< the longest flow path of all basins, from its source down
+    std::vector<ArcId> main_stem;        ///< of the basin of the longest flow path, from its source down
 };
 
 } // namespace thalweg

@@ -109,7 +109,38 @@ TEST(MendNetwork, AreasStayWhereTheEndDoes) {
     }
 }
 
-TEST(MendNetwork, WithoutHeightsAllAreZero) {
+TEST(MendNetwork, AnAreaIsRaisedToThatOfALargerInflowAndSaidSo) {
+    // Two rivers of 6 and 5 km2 meet; below, the file says 9 km2, which holds where both count common water; then 4.
+    auto const file_with = [](double below_m2, double inflow_m2) {
+        NetworkFile file;
+        file.schema = "nhdplus";
+        file.says.nodes = false;
+        file.nodes = {{1, {0, 2000, 8}}, {2, {2000, 2000, 8}}, {3, {1000, 1000, 4}}, {4, {1000, 0, 0}}};
+        file.arcs = {{1, 1, 3, 3, 1, 1, 4, {{0, 2000, 8}, {1000, 1000, 4}}},
+                     {2, 2, 3, 3, 1, 1, 4, {{2000, 2000, 8}, {1000, 1000, 4}}},
+                     {3, 3, 4, 0, 2, 2, 4, {{1000, 1000, 4}, {1000, 0, 0}}}};
+        file.arcs[0].ds_area_m2 = 6e6;
+        file.arcs[1].ds_area_m2 = inflow_m2;
+        file.arcs[2].us_area_m2 = below_m2;
+        file.arcs[2].ds_area_m2 = below_m2;
+        return file;
+    };
+    RepairedNetwork const kept = mend(file_with(9e6, 5e6));
+    ASSERT_TRUE(kept.done);
+    EXPECT_TRUE(kept.mended.empty());
+    EXPECT_EQ(kept.ds_area_m2, (std::vector<double>{6e6, 5e6, 9e6}));
+    EXPECT_EQ(kept.us_area_m2, (std::vector<double>{-1.0, -1.0, 9e6}));
+    RepairedNetwork const raised = mend(file_with(4e6, 5e6));
+    ASSERT_TRUE(raised.done);
+    EXPECT_EQ(kinds_of(raised), std::vector<std::string>{"area_raised"});
+    EXPECT_EQ(raised.mended[0].feature, 3);
+    EXPECT_EQ(raised.mended[0].amount, 2e6);
+    EXPECT_EQ(raised.ds_area_m2, (std::vector<double>{6e6, 5e6, 6e6}));
+    RepairedNetwork const unknown = mend(file_with(9e6, faults::no_number));
+    EXPECT_EQ(unknown.ds_area_m2, (std::vector<double>{6e6, -1.0, 9e6}));
+}
+
+TEST(MendNetwork, WithoutHeightsThereAreNone) {
     NetworkFile file = faults::clean(5);
     for (auto& arc : file.arcs) {
         for (Vec3& p : arc.line) {
@@ -123,6 +154,7 @@ TEST(MendNetwork, WithoutHeightsAllAreZero) {
     RepairedNetwork const mended = mend(file);
     ASSERT_TRUE(mended.done);
     EXPECT_EQ(kinds_of(mended), std::vector<std::string>{"level"});
+    EXPECT_FALSE(mended.has_heights);
     EXPECT_EQ(std::count(mended.network.node_z.begin(), mended.network.node_z.end(), 0.0),
               static_cast<std::ptrdiff_t>(mended.network.node_z.size()));
 }

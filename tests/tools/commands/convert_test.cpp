@@ -1,8 +1,11 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
+#include <cmath>
 #include <filesystem>
 #include <map>
+#include <set>
 #include <string>
+#include <tuple>
 
 #include <gtest/gtest.h>
 #include <io/vector_files.hpp>
@@ -204,6 +207,82 @@ TEST(Convert, ColumnsOfNhdPlusKeepTheirValuesUnderAnotherName) {
     for (auto const& [comid, difference] : comids) {
         EXPECT_EQ(difference, 0) << comid;
     }
+}
+
+namespace {
+
+/// The value of a column by COMID, of NHDPlus or of what became of it.
+std::map<std::int64_t, double> column_of(fs::path const& file, std::string const& column) {
+    auto const data = opened(file);
+    std::map<std::int64_t, double> values;
+    if (data != nullptr) {
+        OGRLayer& layer = *data->GetLayer(0);
+        bool const is_ours = layer.GetLayerDefn()->GetFieldIndex("u_COMID") >= 0;
+        for (auto const& row : layer) {
+            values[row->GetFieldAsInteger64(is_ours ? "u_COMID" : "COMID")] = row->GetFieldAsDouble(column.c_str());
+        }
+    }
+    return values;
+}
+
+/// The arcs of each level path.
+std::set<std::set<std::int64_t>> level_paths(fs::path const& file, std::map<std::int64_t, double> const& among) {
+    std::map<double, std::set<std::int64_t>> paths;
+    for (auto const& [comid, path] : column_of(file, "LevelPathI")) {
+        if (among.contains(comid)) {
+            paths[path].insert(comid);
+        }
+    }
+    std::set<std::set<std::int64_t>> sets;
+    for (auto const& [path, arcs] : paths) {
+        sets.insert(arcs);
+    }
+    return sets;
+}
+
+/// By how many COMIDs two columns differ.
+int differences(std::map<std::int64_t, double> const& given, std::map<std::int64_t, double> const& made) {
+    int count = 0;
+    for (auto const& [comid, value] : made) {
+        count += std::fabs(given.at(comid) - value) > 1e-9 * std::fabs(value) + 1e-9 ? 1 : 0;
+    }
+    return count;
+}
+
+} // namespace
+
+TEST(Convert, DividedRiversOfNhdPlusKeepTheirHydrography) {
+    Workplace const place;
+    fs::path const given = fs::path(samples) / "new_hope_nhdplus.gpkg";
+    std::string const source = given.string();
+    auto const json = expect_run(place, "convert " + source + " -o all.gpkg --schema nhdplus --json", 0).json();
+    EXPECT_EQ(json.at("divergences"), 84);
+    expect_refused(place, "convert " + source + " -o native.gpkg", {"2 arcs leave", "--fix"});
+    Outcome const mended = expect_run(place, "check " + source + " --fix mended.gpkg --json", 3);
+    EXPECT_FALSE(test::has(mended.out, "area_raised"));
+    Outcome const checked = expect_run(place, "check mended.gpkg --json", 0);
+    EXPECT_TRUE(test::has(checked.out, "areas_overlap"));
+    expect_run(place, "convert mended.gpkg -o tree.gpkg --schema nhdplus", 0);
+    for (auto const& [file, arcs, paths] : {std::tuple("all.gpkg", 746U, 228U), std::tuple("tree.gpkg", 570U, 144U)}) {
+        fs::path const made = place / file;
+        auto const areas = column_of(made, "TotDASqKM");
+        EXPECT_EQ(areas.size(), arcs);
+        EXPECT_NEAR(areas.at(8897784), 595.3383, 1e-9) << "at the outlet";
+        for (char const* const column : {"TotDASqKM", "AreaSqKM", "StreamOrde", "StreamCalc", "StartFlag"}) {
+            EXPECT_EQ(differences(column_of(given, column), column_of(made, column)), 0) << file << " " << column;
+        }
+        EXPECT_EQ(level_paths(made, areas), level_paths(given, areas)) << file;
+        EXPECT_EQ(level_paths(made, areas).size(), paths) << file;
+        EXPECT_EQ(column_of(made, "MAXELEVSMO").at(8897784), -9998.0) << "unknown";
+        EXPECT_EQ(column_of(made, "SLOPE").at(8897784), -9998.0);
+    }
+    for (char const* const column : {"Divergence", "RtnDiv"}) {
+        EXPECT_EQ(differences(column_of(given, column), column_of(place / "all.gpkg", column)), 0) << column;
+    }
+    // By length instead, other rivers are main stems.
+    expect_run(place, "convert mended.gpkg -o length.gpkg --schema nhdplus --main length", 0);
+    auto const among = column_of(place / "length.gpkg", "TotDASqKM");
+    EXPECT_NE(level_paths(place / "length.gpkg", among), level_paths(given, among));
 }
 
 TEST(Convert, JsonTellsWhatBecameOfIt) {

@@ -223,10 +223,12 @@ void FilePlaces::add(double x, double y) {
     high_ = {std::max(high_.x, x), std::max(high_.y, y)};
     double const turned = x < 0.0 ? x + 360.0 : x;
     turned_ = {std::min(turned_.x, turned), std::max(turned_.y, turned)};
+    ++places_;
+    whole_ += x == std::floor(x) && y == std::floor(y) ? 1 : 0;
 }
 
 FileBox FilePlaces::box() const {
-    return {low_, high_, turned_};
+    return {low_, high_, turned_, 2 * whole_ >= places_};
 }
 
 bool is_missing(OGRSpatialReference const* reference) {
@@ -237,6 +239,20 @@ bool is_missing(OGRSpatialReference const* reference) {
 OGRSpatialReference crs_of_layer(OGRSpatialReference const* own, std::string const& source_crs) {
     OGRSpatialReference const named = source_crs.empty() ? OGRSpatialReference() : read_reference(source_crs);
     return is_missing(own) ? named : *own;
+}
+
+std::optional<Finding> degrees_as_metres(OGRSpatialReference const& own, FileBox const& box, std::string const& name) {
+    auto const within = [](Vec2 p) { return std::fabs(p.x) <= 360.0 && std::fabs(p.y) <= 90.0; };
+    if (own.IsProjected() == 0 || box.is_whole || !within(box.low) || !within(box.high)) {
+        return std::nullopt;
+    }
+    return Finding{.kind = "degrees_as_metres",
+                   .where = box.low,
+                   .amount = distance(box.low, box.high),
+                   .text = fmt::format("the coordinates of {}, from ({:.6g}, {:.6g}) to ({:.6g}, {:.6g}), look like "
+                                       "degrees but count as those of {}; if they are degrees, assign EPSG:4326 "
+                                       "(--source-crs EPSG:4326, ogr2ogr -a_srs EPSG:4326)",
+                                       name, box.low.x, box.low.y, box.high.x, box.high.y, own.GetName())};
 }
 
 struct IntoMetres::Turn {

@@ -3,10 +3,14 @@
 #include <thalweg/io/network/internal/network_tables.hpp>
 
 #include <algorithm>
+#include <array>
 #include <bit>
 #include <cmath>
+#include <iterator>
+#include <map>
 #include <memory>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 
@@ -156,6 +160,167 @@ void add_user_columns(Table& table, AttributeTable const& attributes,
 
 namespace {
 
+/// The divergences of a forest. A minor branch begins in a node of its own, without inflow, at the place of the node
+/// that its main branch leaves.
+class Divided {
+public:
+    /// \param has_any whether nodes at one place count as divergences
+    Divided(StreamNetwork const& plan, bool has_any, NetworkTables const& tables)
+        : plan_(plan), start_(plan.from()), minor_(plan.node_count()) {
+        if (has_any) {
+            find();
+        }
+        order_downstream_first();
+        if (any_) {
+            count_orders();
+            route_areas(tables);
+            find_returns();
+        }
+    }
+
+    bool any() const { return any_; }
+    /// The node that an arc leaves, of a minor branch that of the main one.
+    NodeId start(ArcId a) const { return start_[a]; }
+    bool is_minor(ArcId a) const { return start_[a] != plan_.from(a); }
+    /// The minor branches that leave a node.
+    std::vector<ArcId> const& minor(NodeId n) const { return minor_[n]; }
+    /// All arcs, each after those into which its water runs.
+    std::vector<ArcId> const& downstream_first() const { return downstream_first_; }
+    std::int64_t stream_calc(ArcId a) const { return calc_[a]; }
+    std::int64_t strahler(ArcId a) const { return strahler_[a]; }
+    double routed_m2(ArcId a) const { return routed_m2_[a]; } ///< -1: unknown
+    bool returns(ArcId a) const { return any_ && returns_[a] != 0; }
+
+private:
+    void find() {
+        std::map<std::pair<double, double>, NodeId> divides; // by place: nodes with inflow and outflow
+        for (NodeId n = 0; n < plan_.node_count(); ++n) {
+            if (plan_.out(n) != no_arc && !plan_.in(n).empty()) {
+                divides.emplace(std::pair(plan_.node(n).at.x, plan_.node(n).at.y), n);
+            }
+        }
+        for (ArcId a = 0; a < plan_.arc_count(); ++a) {
+            NodeId const n = plan_.from(a);
+            auto const divide = divides.find({plan_.node(n).at.x, plan_.node(n).at.y});
+            if (plan_.in(n).empty() && divide != divides.end()) {
+                start_[a] = divide->second;
+                minor_[divide->second].push_back(a);
+                any_ = true;
+            }
+        }
+    }
+
+    void order_downstream_first() {
+        std::vector<std::size_t> missing(plan_.node_count()); // by node: arcs that leave it and are not yet in order
+        std::vector<NodeId> ready;
+        for (NodeId const n : plan_.upstream_order()) {
+            missing[n] = (plan_.out(n) == no_arc ? 0 : 1) + minor_[n].size();
+            if (missing[n] == 0) {
+                ready.push_back(n);
+            }
+        }
+        for (std::size_t i = 0; i < ready.size(); ++i) {
+            for (ArcId const a : plan_.in(ready[i])) {
+                downstream_first_.push_back(a);
+                if (--missing[start_[a]] == 0) {
+                    ready.push_back(start_[a]);
+                }
+            }
+        }
+        refuse_if<BadInput>(downstream_first_.size() < plan_.arc_count(),
+                            "io.write_network: rivers run in a circle through a divergence; run thalweg check on the "
+                            "file; its --fix writes a mended copy");
+    }
+
+    /// Strahler's rule without minor branches, and the order of the water that enters these.
+    void count_orders() {
+        calc_.assign(plan_.arc_count(), 0);
+        strahler_.assign(plan_.arc_count(), 0);
+        for (auto a = downstream_first_.rbegin(); a != downstream_first_.rend(); ++a) { // upstream first
+            std::int64_t highest = 0;
+            std::int64_t how_many = 0;
+            std::int64_t arriving = 0;
+            for (ArcId const up : plan_.in(start_[*a])) {
+                how_many = calc_[up] > highest ? 1 : how_many + (calc_[up] == highest ? 1 : 0);
+                highest = std::max(highest, calc_[up]);
+                arriving = std::max(arriving, strahler_[up]);
+            }
+            bool const is_source = plan_.in(start_[*a]).empty();
+            std::int64_t const by_rule = is_source ? 1 : highest + (highest > 0 && how_many > 1 ? 1 : 0);
+            calc_[*a] = is_minor(*a) ? 0 : by_rule;
+            strahler_[*a] = std::max({by_rule, calc_[*a] == 0 ? arriving : 0, std::int64_t{1}});
+        }
+    }
+
+    void route_areas(NetworkTables const& tables) {
+        routed_m2_.assign(plan_.arc_count(), -1.0);
+        for (auto a = downstream_first_.rbegin(); a != downstream_first_.rend(); ++a) {
+            double const us_m2 = tables.us_area_m2[*a];
+            double const ds_m2 = tables.ds_area_m2[*a];
+            if (us_m2 < 0.0 || ds_m2 < 0.0) {
+                continue;
+            }
+            double sum_m2 = 0.0;
+            double routed_m2 = is_minor(*a) ? 0.0 : plan_.in(plan_.from(*a)).empty() ? us_m2 : 0.0;
+            bool is_known = true;
+            for (ArcId const up : plan_.in(plan_.from(*a))) {
+                sum_m2 += tables.ds_area_m2[up];
+                routed_m2 += routed_m2_[up];
+                is_known = is_known && routed_m2_[up] >= 0.0;
+            }
+            bool const has_inflow = !plan_.in(plan_.from(*a)).empty();
+            double const between_m2 = has_inflow ? std::max(us_m2 - sum_m2, 0.0) : 0.0;
+            if (is_known) {
+                routed_m2_[*a] = std::min(routed_m2 + between_m2 + (ds_m2 - us_m2), ds_m2);
+            }
+        }
+    }
+
+    /// Follows the water of each divergence downstream to where all of it has met again.
+    void find_returns() {
+        returns_.assign(plan_.arc_count(), 0);
+        std::vector<std::size_t> rank(plan_.arc_count()); // falls downstream
+        for (std::size_t i = 0; i < downstream_first_.size(); ++i) {
+            rank[downstream_first_[i]] = i;
+        }
+        for (NodeId divide = 0; divide < plan_.node_count(); ++divide) {
+            if (minor_[divide].empty()) {
+                continue;
+            }
+            std::map<std::size_t, int> ahead; // by rank: how many inflows of an arc have this water
+            auto const enter = [&](NodeId n) {
+                auto const add = [&](ArcId a) { ++ahead[rank[a]]; };
+                std::ranges::for_each(minor_[n], add);
+                if (plan_.out(n) != no_arc) {
+                    add(plan_.out(n));
+                }
+            };
+            enter(divide);
+            while (ahead.size() > 1) {
+                auto const farthest = std::prev(ahead.end());
+                ArcId const a = downstream_first_[farthest->first];
+                ahead.erase(farthest);
+                enter(plan_.to(a));
+                for (auto const& [at, inflows] : ahead) {
+                    if (inflows > 1) {
+                        returns_[downstream_first_[at]] = 1;
+                    }
+                }
+            }
+        }
+    }
+
+    StreamNetwork const& plan_;
+    std::vector<NodeId> start_;             ///< by arc
+    std::vector<std::vector<ArcId>> minor_; ///< by node
+    bool any_ = false;
+    std::vector<ArcId> downstream_first_ = {};
+    std::vector<std::int64_t> calc_ = {};     ///< by arc
+    std::vector<std::int64_t> strahler_ = {}; ///< by arc
+    std::vector<double> routed_m2_ = {};      ///< by arc
+    std::vector<std::uint8_t> returns_ = {};  ///< by arc
+};
+
 /// The quantities of a network's arcs in a schema.
 class Arcs {
 public:
@@ -163,13 +328,14 @@ public:
         : tables_(tables), plan_(tables.network.planform), schema_(schema),
           z_unit_m_(schema.schema == Schema::native ? metres_in(tables.unit) : 1.0), key_(plan_.arc_count()),
           mouth_(plan_.arc_count()), outlet_(plan_.arc_count()), length_up_m_(plan_.arc_count()),
-          longest_up_m_(plan_.arc_count()) {
+          longest_up_m_(plan_.arc_count()), divided_(plan_, schema.divergences, tables) {
         auto const& upstream = plan_.upstream_order();
-        std::int64_t key = 0;
+        for (std::int64_t key = 0; ArcId const a : divided_.downstream_first()) {
+            key_[a] = ++key;
+        }
         for (NodeId const n : upstream) { // outlets first
             if (ArcId const a = plan_.out(n); a != no_arc) {
                 ArcId const below = down(a);
-                key_[a] = ++key;
                 outlet_[a] = below == no_arc ? a : outlet_[below];
                 mouth_[a] = below != no_arc && hack_of(below) == hack_of(a) ? mouth_[below] : a;
             }
@@ -197,12 +363,14 @@ public:
         return line;
     }
 
+    bool is_native() const { return schema_.schema == Schema::native; }
+
     /// In m, m2 and m/m; NULL where it is not known, or there is no such arc.
     Value value(Quantity quantity, ArcId a) const {
         using enum Quantity;
         Arc const& arc = plan_.arc(a);
         NetworkOrders const& orders = tables_.orders;
-        bool const heights = tables_.heights || schema_.schema == Schema::native;
+        bool const heights = tables_.heights;
         double const length_m = plan_.length_m(a);
         double const dist_out_m = orders.node_dist_out_m[plan_.to(a)];
         double const us_m2 = tables_.us_area_m2[a];
@@ -223,12 +391,12 @@ public:
         case ds_path: return key_of(mouth(down(a)));
         case us_path: return key_of(mouth(main_up(a)));
         case outlet_path: return key_of(mouth_[outlet_[a]]);
-        case from_node: return static_cast<std::int64_t>(plan_.from(a)) + 1;
+        case from_node: return static_cast<std::int64_t>(divided_.start(a)) + 1;
         case to_node: return static_cast<std::int64_t>(plan_.to(a)) + 1;
         case n_up: return static_cast<std::int64_t>(above(a).size());
         case basin_id: return orders.arc_basin[a];
         case topo_ord: return orders.topological[a];
-        case strahler: return orders.strahler[a];
+        case strahler: return divided_.any() ? divided_.strahler(a) : orders.strahler[a];
         case shreve: return orders.shreve[a];
         case hack: return hack_of(a);
         case feature: return arc.feature;
@@ -236,14 +404,14 @@ public:
         case braided: return tables_.braided != nullptr && (*tables_.braided)[a] != 0 ? 1 : 0;
         case given: return arc.is_input ? 1 : 0;
         case ds_hack: return down(a) == no_arc ? 0 : hack_of(down(a));
-        case n_down: return down(a) == no_arc ? 0 : 1;
+        case n_down: return static_cast<std::int64_t>((down(a) == no_arc ? 0 : 1) + divided_.minor(plan_.to(a)).size());
         case is_source: return above(a).empty() ? 1 : 0;
         case is_outlet: return down(a) == no_arc ? 1 : 0;
         case horton: return orders.strahler[mouth_[a]]; // orders never fall downstream
         case scheidegger: return 2 * orders.shreve[a];
         case drwal: return static_cast<std::int64_t>(std::bit_width(static_cast<std::uint64_t>(orders.shreve[a])));
         case length: return length_m;
-        case length_3d: return length_in_space(a);
+        case length_3d: return known(heights, length_in_space(a));
         case straight: return straight_m(a);
         case z_up: return known(heights, z(a).front() / z_unit_m_);
         case z_down: return known(heights, z(a).back() / z_unit_m_);
@@ -258,6 +426,13 @@ public:
         case us_area: return known(!(us_m2 < 0.0), us_m2);
         case ds_area: return known(!(ds_m2 < 0.0), ds_m2);
         case own_area: return known(!(us_m2 < 0.0) && !(ds_m2 < 0.0), ds_m2 - us_m2);
+        case routed_area:
+            return divided_.any() ? known(divided_.routed_m2(a) >= 0.0, divided_.routed_m2(a))
+                                  : known(!(ds_m2 < 0.0), ds_m2);
+        case stream_calc: return divided_.any() ? divided_.stream_calc(a) : orders.strahler[a];
+        case divergence: return divided_.is_minor(a) ? 2 : divided_.minor(plan_.from(a)).empty() ? 0 : 1;
+        case ds_minor: return divided_.minor(plan_.to(a)).empty() ? Value() : key_[divided_.minor(plan_.to(a)).front()];
+        case returns: return divided_.returns(a) ? 1 : 0;
         case persistence: return known(!std::isinf(arc.persistence), arc.persistence);
         case constant: break;
         }
@@ -272,12 +447,13 @@ private:
     int hack_of(ArcId a) const { return tables_.orders.hack[a]; }
     ArcId mouth(ArcId a) const { return a == no_arc ? no_arc : mouth_[a]; }
     ArcId down(ArcId a) const { return plan_.out(plan_.to(a)); }
-    std::span<ArcId const> above(ArcId a) const { return plan_.in(plan_.from(a)); }
+    std::span<ArcId const> above(ArcId a) const { return plan_.in(divided_.start(a)); }
     ArcId up(ArcId a, std::size_t k) const { return k < above(a).size() ? above(a)[k] : no_arc; }
     /// The arc upstream on the same main stem.
     ArcId main_up(ArcId a) const {
         std::span<ArcId const> const upstream = above(a);
-        auto const found = std::ranges::find_if(upstream, [&](ArcId b) { return hack_of(b) == hack_of(a); });
+        int const hack = hack_of(divided_.is_minor(a) ? plan_.out(divided_.start(a)) : a);
+        auto const found = std::ranges::find_if(upstream, [&](ArcId b) { return hack_of(b) == hack; });
         return found == upstream.end() ? no_arc : *found;
     }
     double straight_m(ArcId a) const { return distance(plan_.arc(a).line.front(), plan_.arc(a).line.back()); }
@@ -301,6 +477,7 @@ private:
     std::vector<ArcId> outlet_;        ///< the arc at the outlet
     std::vector<double> length_up_m_;  ///< of all arcs upstream and its own
     std::vector<double> longest_up_m_; ///< of the longest path from a source, its own length included
+    Divided divided_;
 };
 
 /// The name of a field, or its first other one that fits into a shapefile.
@@ -310,6 +487,9 @@ std::string short_name(SchemaField const& field) {
     return fits == names.end() ? names.front().substr(0, dbf_name) : *fits;
 }
 
+/// Follows from heights: NULL in the native schema where these are unknown.
+constexpr std::array of_heights{Quantity::length_3d, Quantity::z_up, Quantity::z_down, Quantity::slope};
+
 /// What is not known is the field's own word for it, and -1 where it has none.
 Value field_value(SchemaField const& field, Arcs const& arcs, ArcId a) {
     if (field.quantity == Quantity::constant && field.kind == Kind::text) {
@@ -317,6 +497,10 @@ Value field_value(SchemaField const& field, Arcs const& arcs, ArcId a) {
     }
     bool const is_real = field.kind == Kind::real;
     Value value = arcs.value(field.quantity, a);
+    if (arcs.is_native() && std::holds_alternative<std::monostate>(value) &&
+        std::ranges::find(of_heights, field.quantity) != of_heights.end()) {
+        return value;
+    }
     if (std::holds_alternative<std::monostate>(value)) {
         double const none = field.quantity == Quantity::constant ? field.value
                             : std::isnan(field.unknown)          ? -1.0
@@ -369,13 +553,18 @@ QgisStyle style_of_arcs(NetworkTables const& tables, SchemaTable const& schema) 
 
 Table arcs_table(NetworkTables const& tables, SchemaTable const& schema, bool short_names) {
     auto const arcs = std::make_shared<Arcs const>(tables, schema);
-    Table table{std::string(schema.layer), Table::Shape::line, tables.network.planform.arc_count(), {}, {}};
+    Table table{std::string(schema.layer),
+                tables.heights ? Table::Shape::line : Table::Shape::plan_line,
+                tables.network.planform.arc_count(),
+                {},
+                {}};
     table.shape_at = [arcs](std::size_t row) { return arcs->line(row); };
     for (SchemaField const& field : schema.fields) {
         if (field.written) {
             table.columns.push_back({short_names ? short_name(field) : std::string(field.name), field.kind,
                                      field.decimals,
                                      [arcs, &field](std::size_t row) { return field_value(field, *arcs, row); }});
+            table.columns.back().may_be_null = !tables.heights;
         }
     }
     if (tables.user != nullptr) {
@@ -454,7 +643,8 @@ Table nodes_table(NetworkTables const& tables) {
     auto const z = [&z_m = tables.network.node_z, unit_m = metres_in(tables.unit)](NodeId n) {
         return z_m[n] / unit_m;
     };
-    Table table{"nodes", Table::Shape::point, plan.node_count(), {}, {}};
+    bool const heights = tables.heights;
+    Table table{"nodes", heights ? Table::Shape::point : Table::Shape::plan_point, plan.node_count(), {}, {}};
     table.shape_at = [z, &plan](std::size_t row) {
         Vec2 const p = plan.node(row).at;
         return std::vector<Vec3>{{p.x, p.y, z(row)}};
@@ -470,7 +660,8 @@ Table nodes_table(NetworkTables const& tables) {
         integer("deg_out", [&plan](auto row) { return plan.out(row) == no_arc ? 0 : 1; }),
         integer("basin_id", [&orders](auto row) { return orders.node_basin[row]; }),
         integer("strahler", [&orders](auto row) { return orders.node_strahler[row]; }),
-        real("z", length_decimals, z),
+        {"z", Kind::real, length_decimals, [z, heights](std::size_t row) { return heights ? Value(z(row)) : Value(); },
+         false, !heights},
         real("area", area_decimals, [&area = tables.node_area_m2](auto row) { return area[row]; }),
         real("dist_out", length_decimals, [&orders](auto row) { return orders.node_dist_out_m[row]; }),
     };

@@ -281,6 +281,9 @@ void reproject_to_metres(NetworkFile& file, Layer const& arcs, std::optional<Lay
     // A network in the native schema has the CRS that its maker chose.
     IntoMetres const metres(own, wish.crs, places.box(), name, native ? OwnMetres::kept : OwnMetres::judged);
     file.crs = metres.crs();
+    if (auto const doubt = degrees_as_metres(own, places.box(), name); doubt && !wish.whole) {
+        notes.add(arcs.what, *doubt);
+    }
     if (!metres.moves()) {
         return;
     }

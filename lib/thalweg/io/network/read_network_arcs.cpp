@@ -162,6 +162,7 @@ public:
             link_by_keys(file, keys_, ds_keys_);
         }
         if (by_feature_) {
+            file.says.areas = knows_areas_;
             link_by_features(file);
         }
         for (FileArc& arc : file.arcs) {
@@ -233,6 +234,12 @@ private:
         return value == told.field->unknown ? nan : value * told.field->unit;
     }
 
+    // [m2] Below 0, such as -1 and -9999, it is unknown.
+    double area(OGRFeature const& feature, Quantity quantity) const {
+        double const value = real(feature, quantity);
+        return value < 0.0 ? nan : value;
+    }
+
     // What stands for no arc in a column of links.
     std::int64_t none(Quantity quantity) const {
         SchemaField const* const field = columns_[quantity].field;
@@ -279,17 +286,17 @@ private:
         arc.basin = has(Q::basin_id)      ? number(Q::basin_id)
                     : has(Q::outlet_path) ? number(Q::outlet_path)
                                           : optional(Q::outlet_arc);
-        arc.ds_area_m2 = real(feature, Q::ds_area);
-        arc.us_area_m2 = has(Q::us_area) ? real(feature, Q::us_area) : arc.ds_area_m2 - real(feature, Q::own_area);
+        arc.ds_area_m2 = area(feature, Q::ds_area);
+        arc.us_area_m2 = has(Q::us_area) ? area(feature, Q::us_area) : arc.ds_area_m2 - area(feature, Q::own_area);
+        arc.path = has(Q::path) ? optional(Q::path) : 0;
+        if (double const level = real(feature, Q::hack); level > 0.0) {
+            arc.level = level;
+        }
         double const persistence = real(feature, Q::persistence);
         arc.persistence = std::isnan(persistence) ? std::numeric_limits<double>::infinity() : persistence;
         arc.feature = native ? optional(Q::feature) : number_;
         arc.record = number_;
-        if (native) {
-            arc.columns = columns_of(feature);
-        } else {
-            take_fields(arc, feature);
-        }
+        take_fields(arc, feature, native);
         arc.type = column(Q::type).text(feature);
         if (arc.type == "none") { // which stands for an empty text
             arc.type.clear();
@@ -313,12 +320,20 @@ private:
                 .slope = told(Q::slope)};
     }
 
-    void take_fields(FileArc& arc, OGRFeature const& feature) {
+    void take_fields(FileArc& arc, OGRFeature const& feature, bool native) {
         RiverLine line;
         fields_.read(feature, line);
+        arc.name = std::move(line.name);
+        if (native) {
+            arc.columns = columns_of(feature);
+            return;
+        }
+        if (by_feature_ && line.area_m2 > 0.0) {
+            arc.ds_area_m2 = line.area_m2;
+            knows_areas_ = true;
+        }
         arc.size = std::move(line.size);
         arc.channel = line.channel;
-        arc.name = std::move(line.name);
         Unnatural unnatural = natural_.of(feature);
         arc.unnatural = std::move(unnatural.reason);
         arc.is_channel = unnatural.is_channel;
@@ -400,6 +415,7 @@ private:
     AttributeReader attributes_;
     bool by_feature_ = false;        // arcs have the numbers of their features
     bool whole_ = false;             // findings are refused
+    bool knows_areas_ = false;       // of lines in no schema, by a column of their data set
     std::int64_t number_ = 0;        // of the feature in hand, in the order of the layer, from 1
     std::int64_t ds_key_ = 0;        // likewise
     std::vector<std::int64_t> keys_; // by arc

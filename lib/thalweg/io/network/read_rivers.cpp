@@ -395,6 +395,9 @@ RiverLines read_rivers(ReadRiversParams const& params, Run const& run) {
         }
     }
     IntoMetres const metres(own, params.crs, places.box(), rivers.name);
+    if (auto const doubt = degrees_as_metres(own, places.box(), rivers.name)) {
+        read.findings.push_back(*doubt);
+    }
     Bring const bring{metres, height_unit_of(layer, source_crs), rivers.name, driver};
     for (auto& line : read.lines) {
         run.check();

@@ -126,7 +126,7 @@ constexpr std::array nhdplus_fields{
     always("FCODE", Kind::integer, 46006),
     integer(Q::hack, "StreamLeve", "StreamLevel"),
     integer(Q::strahler, "StreamOrde", "StreamOrder"),
-    integer(Q::strahler, "StreamCalc"),
+    integer(Q::stream_calc, "StreamCalc"),
     integer(Q::from_node, "FromNode"),
     integer(Q::to_node, "ToNode"),
     integer(Q::key, "Hydroseq"),
@@ -134,23 +134,23 @@ constexpr std::array nhdplus_fields{
     real(Q::dist_out, "Pathlength", km),
     integer(Q::outlet_path, "TerminalPa", "TerminalPath"),
     real(Q::length_us, "ArbolateSu", km, "ArbolateSum"),
-    always("Divergence", Kind::integer, 0),
+    integer(Q::divergence, "Divergence"),
     integer(Q::is_source, "StartFlag"),
     integer(Q::is_outlet, "TerminalFl", "TerminalFlag"),
     integer(Q::ds_hack, "DnLevel"),
     link(Q::us_path, "UpLevelPat", 0),
     link(Q::us_key, "UpHydroseq", 0),
     link(Q::ds_path, "DnLevelPat", 0),
-    always("DnMinorHyd", Kind::integer, 0),
+    link(Q::ds_minor, "DnMinorHyd", 0),
     integer(Q::n_down, "DnDrainCou"),
     link(Q::ds_key, "DnHydroseq", 0),
     only_read(link(Q::ds_arc, "tocomid", 0)), // nhdplusTools
     always("FromMeas", Kind::real, 0),
     always("ToMeas", Kind::real, 100),
-    always("RtnDiv", Kind::integer, 0),
+    integer(Q::returns, "RtnDiv"),
     real(Q::own_area, "AreaSqKM", km2),
     real(Q::ds_area, "TotDASqKM", km2),
-    real(Q::ds_area, "DivDASqKM", km2),
+    real(Q::routed_area, "DivDASqKM", km2),
     real(Q::z_up, "MAXELEVSMO", cm, {}, -9998),
     real(Q::z_down, "MINELEVSMO", cm, {}, -9998),
     real(Q::slope, "SLOPE", ratio, {}, -9998),
@@ -212,7 +212,7 @@ constexpr std::array<std::string_view, 2> grass_told{"stream cat", "next_stream 
 constexpr ByEnum<Schema, SchemaTable, 5> tables{{{
     {Schema::native, "native", native_fields, native_told},
     {Schema::taudem, "taudem", taudem_fields, taudem_told, "streamnet", 0, 2, true, true},
-    {Schema::nhdplus, "nhdplus", nhdplus_fields, nhdplus_told, "NHDFlowline_Network"},
+    {Schema::nhdplus, "nhdplus", nhdplus_fields, nhdplus_told, "NHDFlowline_Network", 1, 0, false, false, true},
     {Schema::hydrorivers, "hydrorivers", hydrorivers_fields, hydrorivers_told, "HydroRIVERS"},
     {Schema::grass, "grass", grass_fields, grass_told, "streams", 1, 5},
 }}};
@@ -394,13 +394,14 @@ constexpr std::array data_sets{
 
 // In the order of the enumerators.
 constexpr ByEnum<Quantity, std::string_view, static_cast<std::size_t>(Quantity::constant) + 1> quantity_names{
-    {"arc_id",      "from_node", "to_node",     "ds_arc",    "n_up",        "basin_id",   "topo_ord", "strahler",
-     "shreve",      "hack",      "length",      "length_3d", "straight",    "z_up",       "z_down",   "dist_out",
-     "slope",       "us_area",   "ds_area",     "survives",  "feature",     "type",       "braided",  "given",
-     "us_arc_1",    "us_arc_2",  "us_arc_3",    "us_arc_4",  "us_arc_5",    "outlet_arc", "key",      "ds_key",
-     "us_key",      "path",      "ds_path",     "us_path",   "outlet_path", "ds_hack",    "n_down",   "is_source",
-     "is_outlet",   "horton",    "scheidegger", "drwal",     "drop",        "sinuosity",  "dist_mid", "dist_up",
-     "dist_source", "length_us", "own_area",    "constant"}};
+    {"arc_id",      "from_node", "to_node",     "ds_arc",      "n_up",        "basin_id",   "topo_ord", "strahler",
+     "shreve",      "hack",      "length",      "length_3d",   "straight",    "z_up",       "z_down",   "dist_out",
+     "slope",       "us_area",   "ds_area",     "survives",    "feature",     "type",       "braided",  "given",
+     "us_arc_1",    "us_arc_2",  "us_arc_3",    "us_arc_4",    "us_arc_5",    "outlet_arc", "key",      "ds_key",
+     "us_key",      "path",      "ds_path",     "us_path",     "outlet_path", "ds_hack",    "n_down",   "is_source",
+     "is_outlet",   "horton",    "scheidegger", "drwal",       "drop",        "sinuosity",  "dist_mid", "dist_up",
+     "dist_source", "length_us", "own_area",    "routed_area", "stream_calc", "divergence", "ds_minor", "returns",
+     "constant"}};
 static_assert(quantity_names[Quantity::constant] == "constant");
 
 } // namespace

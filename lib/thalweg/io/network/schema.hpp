@@ -58,7 +58,7 @@ enum class Quantity : std::uint8_t {
     us_path,     ///< path of the main arc upstream; 0 at a source
     outlet_path, ///< path at the outlet
     ds_hack,     ///< hack of the arc downstream; 0 at an outlet
-    n_down,      ///< 1, or 0 at an outlet
+    n_down,      ///< how many arcs leave its end
     is_source,   ///< 1 where nothing flows in
     is_outlet,   ///< 1 where it ends at the outlet
     horton,      ///< greatest strahler along the main stem (of one hack order)
@@ -71,6 +71,11 @@ enum class Quantity : std::uint8_t {
     dist_source, ///< from its end down to the farthest source
     length_us,   ///< sum of the lengths of all arcs upstream, its own among them
     own_area,    ///< ds_area - us_area
+    routed_area, ///< ds_area without what a minor branch of a divergence carries a second time
+    stream_calc, ///< strahler of the water of main branches alone; 0 on minor branches up to their first tributary
+    divergence,  ///< 1 on the main, 2 on a minor branch of a divergence, else 0
+    ds_minor,    ///< key of the first minor branch that leaves its end
+    returns,     ///< 1 where branches of a divergence meet again at its upper end
     constant,    ///< nothing: the field's value or text, always
 };
 
@@ -107,6 +112,7 @@ struct SchemaTable {
     int most_upstream = 0;       ///< how many arcs may flow into one; 0 for any number
     bool drawn_upstream = false; ///< vertex 0 is at the lower end
     bool segment_parts = false;  ///< every segment of a line is a part of its own
+    bool divergences = false;    ///< several arcs may leave a node
 };
 
 /// The columns by which the river lines of a data set say where water goes. A column is "" where there is none; of

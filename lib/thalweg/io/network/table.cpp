@@ -48,8 +48,9 @@ constexpr ByEnum<LayerFormat, FileFormat, 6> file_formats{
       {"postgis", "PostgreSQL", {"GEOMETRY_NAME=geom", "FID=fid", "GEOMETRY_NULLABLE=NO"}}}}};
 
 // In the order of Table::Shape.
-constexpr ByEnum<Shape, OGRwkbGeometryType, 7> shape_types{
-    {{wkbNone, wkbPoint25D, wkbLineString25D, wkbLineString, wkbPolygon25D, wkbMultiPolygon, wkbLineString25D}}};
+constexpr ByEnum<Shape, OGRwkbGeometryType, 8> shape_types{
+    {{wkbNone, wkbPoint25D, wkbLineString25D, wkbLineString, wkbPolygon25D, wkbMultiPolygon, wkbLineString25D,
+      wkbPoint}}};
 
 // A dBase field is text: its width holds what a reader takes for a 32-bit, a 64-bit and a real number. A user's columns
 // have room for any such number, also for one that a reader takes for 64 bits.
@@ -92,7 +93,7 @@ OGRLayer& create_layer(LayerTarget const& target, Table const& table) {
         if (target.format == LayerFormat::shapefile) {
             field.SetWidth(column.is_users ? kind.users_width : kind.width);
             field.SetPrecision(column.decimals);
-        } else if (!column.is_users) {
+        } else if (!column.is_users && !column.may_be_null) {
             field.SetNullable(FALSE);
         }
         target.require(layer->CreateField(&field) == OGRERR_NONE);
@@ -161,13 +162,17 @@ std::unique_ptr<OGRGeometry> drawn_shape(Table const& table, std::size_t row, st
         return drawn_polygons(table.parts_at(row));
     }
     std::vector<Vec3> const positions = table.shape_at(row);
-    bool const needs_heights = table.shape != Shape::plan_line && table.shape != Shape::partly_line;
+    bool const needs_heights =
+        table.shape != Shape::plan_line && table.shape != Shape::partly_line && table.shape != Shape::plan_point;
     for (Vec3 const& p : positions) {
         refuse_if<BadInput>(needs_heights ? !is_finite(p) : !is_finite(in_plan(p)),
                             "{}: {} {} has a vertex ({}, {}, {})", what, table.name, row + 1, p.x, p.y, p.z);
     }
     if (table.shape == Shape::point && positions.empty()) {
         return std::make_unique<OGRPoint>(); // empty
+    }
+    if (table.shape == Shape::plan_point) {
+        return std::make_unique<OGRPoint>(positions.at(0).x, positions.at(0).y);
     }
     if (table.shape == Shape::point) {
         return std::make_unique<OGRPoint>(positions.at(0).x, positions.at(0).y, positions.at(0).z);

@@ -25,12 +25,13 @@ struct Column {
     int decimals = 0;                         ///< of a real in a shapefile, whose fields have 24 characters
     std::function<Value(std::size_t row)> at; ///< of the kind's type; texts for dates and times
     bool is_users = false;                    ///< may be NULL, and numbers of any size
+    bool may_be_null = false;
 };
 
 /// A layer of a vector file: its features are the rows [0, rows), numbered from 1.
 struct Table {
-    /// plan_line: without heights; partly_line: NaN at vertices without one
-    enum class Shape { none, point, line, plan_line, polygon, multi_polygon, partly_line };
+    /// plan_line, plan_point: without heights; partly_line: NaN at vertices without one
+    enum class Shape { none, point, line, plan_line, polygon, multi_polygon, partly_line, plan_point };
 
     std::string name;
     Shape shape = Shape::none;

@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <iterator>
 #include <set>
+#include <utility>
 
 #include <fmt/format.h>
 #include <ogrsf_frmts.h>
@@ -52,10 +53,15 @@ std::string in_python(std::string_view text) {
     return out + '\'';
 }
 
-std::string well_known(std::vector<Vec3> const& line) {
-    std::string out = "LINESTRING Z (";
-    for (std::size_t i = 0; i < line.size(); ++i) {
-        fmt::format_to(std::back_inserter(out), "{}{} {} {}", i == 0 ? "" : ", ", line[i].x, line[i].y, line[i].z);
+std::string well_known(Table const& lines, std::size_t row) {
+    bool const in_plan = lines.shape == Table::Shape::plan_line;
+    std::string out = in_plan ? "LINESTRING (" : "LINESTRING Z (";
+    char const* separator = "";
+    for (Vec3 const p : lines.shape_at(row)) {
+        fmt::format_to(std::back_inserter(out), "{}{} {}", std::exchange(separator, ", "), p.x, p.y);
+        if (!in_plan) {
+            fmt::format_to(std::back_inserter(out), " {}", p.z);
+        }
     }
     return out + ')';
 }
@@ -119,6 +125,9 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
     auto const data = [&](Table const& table, char letter, std::size_t row) {
         std::string out;
         for (std::size_t i = 0; i < table.columns.size(); ++i) {
+            if (std::holds_alternative<std::monostate>(table.columns[i].at(row))) {
+                continue; // an empty text is no number
+            }
             out += fmt::format("<data key=\"{}{}\">{}</data>", letter, i,
                                value_text(table, table.columns[i], row, xml_escaped, what));
         }
@@ -133,7 +142,7 @@ void write_graphml(NetworkTables const& tables, Table const& arcs, std::string c
     each_row(arcs, run, [&](std::size_t row) {
         graph.append(fmt::format("    <edge source=\"{}\" target=\"{}\">{}<data key=\"geometry\">{}</data></edge>\n",
                                  plan.from(row) + 1, plan.to(row) + 1, data(arcs, 'e', row),
-                                 xml_escaped(well_known(arcs.shape_at(row)))));
+                                 xml_escaped(well_known(arcs, row))));
     });
     graph.append("  </graph>\n</graphml>\n");
     graph.close();
@@ -166,7 +175,7 @@ void write_edges(NetworkTables const& tables, Table arcs, std::string const& pat
         }
         NodeId const from = plan.from(row) + 1;
         NodeId const to = plan.to(row) + 1;
-        graph.append(is_csv ? fmt::format("{},{},{}{}\r\n", from, to, line, in_csv(well_known(arcs.shape_at(row))))
+        graph.append(is_csv ? fmt::format("{},{},{}{}\r\n", from, to, line, in_csv(well_known(arcs, row)))
                             : fmt::format("{} {} {{{}}}\n", from, to, line));
     });
     graph.close();

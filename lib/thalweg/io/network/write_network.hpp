@@ -39,7 +39,7 @@ struct NetworkTables {
     std::vector<SecondaryLine> const* secondary = nullptr; ///< layer secondary of the GeoPackage; likewise
     UserData const* user = nullptr;                        ///< none when null
     HeightUnit unit = HeightUnit::metre; ///< of heights in the native schema; feet add the column z_unit
-    bool heights = true;                 ///< else they are unknown and written as 0
+    bool heights = true;                 ///< else unknown: shapes are in plan, columns NULL or the schema's word
     std::vector<NodeId> sinks = {};      ///< outlets where water ends inland, ascending: nodes of the kind sink
 };
 

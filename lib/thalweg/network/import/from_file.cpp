@@ -5,6 +5,7 @@
 #include <algorithm>
 #include <cmath>
 #include <limits>
+#include <map>
 #include <string>
 #include <utility>
 
@@ -163,6 +164,7 @@ void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, Ne
     made.braided.push_back(arc.braided ? 1 : 0);
     made.arc_ids.push_back(arc.id);
     made.records.push_back(arc.record);
+    made.clues.arcs.push_back(clues_of(arc));
 }
 
 /// By arc: the stretches of features it consists of.
@@ -186,7 +188,66 @@ void require_arcs_at_nodes(NetworkFile const& file, Nodes const& nodes, StreamNe
     }
 }
 
+/// The main one of arcs that leave a node.
+std::size_t main_of(NetworkFile const& file, std::vector<std::size_t> const& leaving,
+                    std::map<std::int64_t, std::int64_t> const& links) {
+    auto const is_main = [&](std::size_t a) { return file.arcs[a].channel == Channel::main; };
+    auto const is_minor = [&](std::size_t a) { return file.arcs[a].channel == Channel::minor; };
+    auto const linked = std::ranges::max_element(leaving, {}, [&](std::size_t a) {
+        auto const link = links.find(file.arcs[a].id);
+        return link == links.end() ? 0 : link->second;
+    });
+    if (links.contains(file.arcs[*linked].id)) {
+        return *linked;
+    }
+    if (auto const main = std::ranges::find_if(leaving, is_main); main != leaving.end()) {
+        return *main;
+    }
+    auto const other = std::ranges::find_if_not(leaving, is_minor);
+    return other == leaving.end() ? leaving.front() : *other;
+}
+
 } // namespace
+
+std::pair<NetworkFile, std::int64_t> divide(NetworkFile file) {
+    std::map<std::int64_t, std::vector<std::size_t>> leaving; // by node
+    std::map<std::int64_t, std::int64_t> links;               // by arc: how many lead to it
+    for (std::size_t a = 0; a < file.arcs.size(); ++a) {
+        leaving[file.arcs[a].from_node].push_back(a);
+        if (file.says.downstream && file.arcs[a].ds_arc != 0) {
+            ++links[file.arcs[a].ds_arc];
+        }
+    }
+    std::map<std::int64_t, std::size_t> place; // by node
+    std::int64_t next = 1;
+    for (std::size_t n = 0; n < file.nodes.size(); ++n) {
+        place.try_emplace(file.nodes[n].id, n);
+        next = std::max(next, file.nodes[n].id + 1);
+    }
+    std::int64_t divided = 0;
+    for (auto const& [node, arcs] : leaving) {
+        auto const at = place.find(node);
+        if (arcs.size() < 2 || at == place.end()) {
+            continue;
+        }
+        std::size_t const main = main_of(file, arcs, links);
+        for (std::size_t const a : arcs) {
+            if (a != main) {
+                NetworkFile::FileNode copy = file.nodes[at->second];
+                copy.id = next++;
+                file.arcs[a].from_node = copy.id;
+                file.nodes.push_back(std::move(copy));
+                ++divided;
+            }
+        }
+    }
+    return {std::move(file), divided};
+}
+
+StemClues::OfArc clues_of(NetworkFile::FileArc const& arc) {
+    double const area_m2 = std::isnan(arc.ds_area_m2) ? 0.0 : arc.ds_area_m2;
+    return {.path = arc.path, .level = arc.level, .name = arc.name, .area_m2 = area_m2, .size = arc.size};
+}
 
 FileNetwork from_file(NetworkFile const& file) {
     refuse_if<BadInput>(file.arcs.empty(), "network.from_file: the file holds no arcs: is it the right layer?");

@@ -76,10 +76,19 @@ std::vector<ArcId> longest_path(StreamNetwork const& network, NetworkOrders cons
 
 } // namespace
 
-NetworkOrders order(StreamNetwork const& network) {
+NetworkOrders order(StreamNetwork const& network, std::vector<ArcId> const& main_in) {
     require_trees(network, "network.order");
     std::size_t const arcs = network.arc_count();
     std::size_t const nodes = network.node_count();
+    for (NodeId n = 0; n < nodes && !main_in.empty(); ++n) {
+        bool const is_of_node =
+            main_in.size() == nodes &&
+            (network.in(n).empty() ? main_in[n] == no_arc : std::ranges::count(network.in(n), main_in[n]) == 1);
+        refuse_if<BadInput>(!is_of_node,
+                            "network.order: main inflow {} does not end in node {}; give those of this "
+                            "network",
+                            n < main_in.size() ? main_in[n] : no_arc, n);
+    }
 
     NetworkOrders orders;
     orders.strahler.assign(arcs, 0);
@@ -110,16 +119,25 @@ NetworkOrders order(StreamNetwork const& network) {
             orders.node_strahler[*n] = orders.strahler[out];
         }
     }
+    std::vector<ArcId> const& main = main_in.empty() ? longest_in : main_in;
     for (NodeId const n : network.upstream_order()) {
         ArcId const out = network.out(n);
         for (ArcId const a : network.in(n)) {
-            orders.hack[a] = (out == no_arc ? 1 : orders.hack[out]) + (a == longest_in[n] ? 0 : 1);
+            orders.hack[a] = (out == no_arc ? 1 : orders.hack[out]) + (a == main[n] ? 0 : 1);
             orders.topological[a] = (out == no_arc ? 0 : orders.topological[out]) + 1;
             orders.arc_basin[a] = network.basin(n);
             orders.node_dist_out_m[network.from(a)] = orders.node_dist_out_m[n] + network.length_m(a);
         }
     }
     orders.main_stem = longest_path(network, orders);
+    if (!main_in.empty() && !orders.main_stem.empty()) { // the main stem of the basin of the longest flow path
+        NodeId node = network.to(orders.main_stem.back());
+        orders.main_stem.clear();
+        for (ArcId a = main[node]; a != no_arc; a = main[network.from(a)]) {
+            orders.main_stem.push_back(a);
+        }
+        std::ranges::reverse(orders.main_stem);
+    }
     return orders;
 }
 
@@ -184,9 +202,11 @@ StreamCounts count_streams(std::vector<std::int64_t> const& down) {
         if (mouth || order[down[i]] != order[i]) {
             ++counts.streams[order[i] - 1];
         }
-        // The two streams that form the next order are not its side branches.
-        if (!mouth && order[down[i]] > order[i] && !(highest[down[i]] == order[i] && order[down[i]] == order[i] + 1)) {
+        if (!mouth && order[down[i]] > order[i] && order[i] < highest[down[i]]) {
             ++counts.branches[order[down[i]] - 1][order[down[i]] - order[i] - 1];
+        }
+        if (equals[i] > 2) { // two of them form the order
+            counts.branches[order[i] - 1][0] += equals[i] - 2;
         }
     }
     for (std::size_t k = 1; k < orders; ++k) {

@@ -9,14 +9,15 @@
 
 namespace thalweg::network {
 
-/// Computes Strahler, Shreve, Hack and topological orders, basins and distances to the outlet. The main stem is the
-/// longest flow path (ties: lower arc number).
+/// Computes Strahler, Shreve, Hack and topological orders, basins and distances to the outlet.
 /// \param network a forest
+/// \param main_in by node, as main_inflows(): the arc by which the main stem goes on upstream; empty: that of the
+/// longest flow path (ties: lower arc number)
 /// \return by arc and by node; 0: a node without arcs
-/// \throws BadInput naming the position of a node that two arcs leave, or of a cycle
+/// \throws BadInput naming the position of a node that two arcs leave, or of a cycle; for main_in of another network
 ///
 /// Source: \cite strahler1957; \cite shreve1966; \cite hack1957.
-NetworkOrders order(StreamNetwork const& network);
+NetworkOrders order(StreamNetwork const& network, std::vector<ArcId> const& main_in = {});
 
 /// Labels streams, chains of arcs of one Strahler order.
 /// \param network a forest
@@ -38,8 +39,8 @@ struct StreamCounts {
     std::vector<double> side; ///< by k - 1: T_k, side branches k orders lower, the mean over streams of all orders
 };
 
-/// Counts streams and their side branches. Where three or more links meet, all but one of the highest order are
-/// branches.
+/// Counts streams and their side branches. Where links meet of which several have the highest order, two of these form
+/// the next order and all others are its branches; else all but the one of the highest order are branches.
 /// \param down by link: the link downstream, a lower number; -1: none
 /// \return counts by Strahler's rule
 /// \throws BadInput when a link flows into one with a higher number

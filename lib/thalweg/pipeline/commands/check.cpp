@@ -192,7 +192,7 @@ void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOut
                                    &mended.secondary,
                                    &mended.user,
                                    HeightUnit::metre,
-                                   true,
+                                   mended.has_heights,
                                    sinks_in(mended.network.planform, file)};
     if (output.is_shapefile()) {
         for (io::ShortenedName const& one : io::shortened_names(tables)) {
@@ -233,6 +233,40 @@ bool has_direction(measure::TopologyReport const& topology) {
     });
 }
 
+/// A note of the arcs whose inflows have more area together than they have themselves; none where no areas overlap.
+std::vector<Finding> areas_that_overlap(NetworkFile const& file) {
+    constexpr double rounding = 1e-6; // of areas in a file
+    if (file.schema != "native" || !file.says.areas || !file.says.downstream) {
+        return {};
+    }
+    std::unordered_map<std::int64_t, double> arriving_m2; // by the arc downstream
+    for (NetworkFile::FileArc const& arc : file.arcs) {
+        if (arc.ds_arc != 0 && arc.ds_area_m2 > 0.0) {
+            arriving_m2[arc.ds_arc] += arc.ds_area_m2;
+        }
+    }
+    NetworkFile::FileArc const* worst = nullptr;
+    double most_m2 = 0.0;
+    std::size_t count = 0;
+    for (NetworkFile::FileArc const& arc : file.arcs) {
+        auto const found = arriving_m2.find(arc.id);
+        double const over_m2 = found == arriving_m2.end() ? 0.0 : found->second - arc.us_area_m2;
+        if (over_m2 > rounding * arc.us_area_m2) { // false for NaN
+            ++count;
+            worst = over_m2 > most_m2 ? &arc : worst;
+            most_m2 = std::max(most_m2, over_m2);
+        }
+    }
+    if (worst == nullptr) {
+        return {};
+    }
+    return {{"areas_overlap", worst->id - file.id_shift, worst->line.empty() ? nowhere : in_plan(worst->line.front()),
+             static_cast<double>(count),
+             fmt::format("the inflows of {} arcs have more contributing area together than the arc, by up to {:.6g} "
+                         "km2 (arc {}): right where rivers divide above and count common water in both branches",
+                         count, most_m2 * 1e-6, worst->id - file.id_shift)}};
+}
+
 } // namespace
 
 bool CheckResult::ok() const {
@@ -262,6 +296,7 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
     append(checked.checks, topology.checks);
     append(checked.findings, topology.findings);
 
+    append(checked.notes, areas_that_overlap(network));
     if (!params.dem.empty() && has_direction(topology)) {
         RiverRasters const rasters = rasters_beside(params.network);
         checked.certificate = certify_files(network, params, rasters, run);
@@ -285,7 +320,7 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
             read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.reading, stage_log, run);
         append(checked.notes, stage_log.take_findings());
         RepairedNetwork const mended =
-            repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr}, run);
+            repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr, params.main}, run);
         checked.mended = mended.mended;
         append(checked.notes, mended.doubts);
         if (mended.done) {

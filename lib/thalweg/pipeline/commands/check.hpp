@@ -13,6 +13,7 @@
 #include <thalweg/io/network/read_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 
 namespace thalweg::pipeline {
 
@@ -24,6 +25,7 @@ struct CheckParams {
     std::string fix = {};            ///< NAME.gpkg or NAME.shp: a repaired copy; "": none
     std::string findings = {};       ///< NAME.gpkg: the findings as points; "": none
     io::Existing existing = io::Existing::refuse; ///< fix and findings
+    network::MainBy main = network::MainBy::file; ///< by what fix tells main stems
     double near_m = 0.0;                          ///< [m] >= 0: as measure::TopologyParams
     io::ReadDemParams reading = {};               ///< how the DEM is read
 };

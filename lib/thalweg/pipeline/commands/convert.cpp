@@ -6,6 +6,7 @@
 #include <filesystem>
 #include <optional>
 #include <system_error>
+#include <tuple>
 #include <utility>
 
 #include <fmt/format.h>
@@ -19,6 +20,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/from_file.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
@@ -40,8 +42,22 @@ struct Ready {
     std::vector<double> node_area_m2;
 };
 
-bool is_known(std::vector<double> const& areas) {
-    return std::ranges::all_of(areas, [](double a) { return a >= 0.0; }); // NaN and -1 fail the test
+/// What the file says of areas.
+enum class Areas : std::uint8_t { none, some, all };
+
+Areas areas_of(network::FileNetwork const& source) {
+    auto const is_known = [](double a) { return !std::isnan(a); };
+    bool const all =
+        std::ranges::all_of(source.us_area_m2, is_known) && std::ranges::all_of(source.ds_area_m2, is_known);
+    bool const some = std::ranges::any_of(source.ds_area_m2, is_known);
+    return all ? Areas::all : some ? Areas::some : Areas::none;
+}
+
+/// NaN as files have it.
+void mark_unknown(std::vector<double>& areas) {
+    for (double& area : areas) {
+        area = std::isnan(area) ? -1.0 : area;
+    }
 }
 
 Raster<float> read_dem(ConvertParams const& params, std::string const& crs, std::vector<Finding>& findings,
@@ -71,18 +87,17 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
             }
         }
     }
-    if (is_known(source.us_area_m2) && is_known(source.ds_area_m2)) {
-        ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
-    } else if (dem != nullptr) {
+    Areas const areas_in_file = areas_of(source);
+    if (areas_in_file != Areas::all && dem != nullptr) {
         converted.areas = "d8";
         flow::ContributingAreas areas = flow::areas_d8(source.network.planform, flow::route(*dem, run), run);
         source.us_area_m2 = std::move(areas.us_area_m2);
         source.ds_area_m2 = std::move(areas.ds_area_m2);
         ready.node_area_m2 = std::move(areas.node_m2);
     } else {
-        converted.areas = "none";
-        std::ranges::fill(source.us_area_m2, -1.0);
-        std::ranges::fill(source.ds_area_m2, -1.0);
+        converted.areas = areas_in_file == Areas::none ? "none" : "file";
+        mark_unknown(source.us_area_m2);
+        mark_unknown(source.ds_area_m2);
         ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
     }
 }
@@ -96,6 +111,7 @@ void split(Ready& ready, ConvertParams const& params, ConvertResult& converted, 
     for (network::SplitPiece const& piece : made.pieces) {
         source.braided.push_back(source.braided[piece.of]);
         source.records.push_back(source.records[piece.of]);
+        source.clues.arcs.push_back(source.clues.arcs[piece.of]);
     }
     source.stretches = LineSources(source.network.planform, source.stretches).redrawn(made.network.planform);
     source.network = std::move(made.network);
@@ -239,6 +255,9 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
     converted.schema = file.schema;
     converted.crs = file.crs;
     converted.findings = std::move(file.findings);
+    if (!out.is_mask() && io::table_of(params.schema).divergences) {
+        std::tie(file, converted.divergences) = network::divide(std::move(file));
+    }
     Ready ready{network::from_file(file), {}, {}};
     std::optional<Raster<float>> dem;
     if (!params.dem.empty()) {
@@ -249,7 +268,7 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
         split(ready, params, converted, run);
     }
     StreamNetwork const& plan = ready.source.network.planform;
-    ready.orders = network::order(plan);
+    ready.orders = network::order(plan, network::main_inflows(plan, ready.source.clues, params.main));
     converted.arcs = static_cast<std::int64_t>(plan.arc_count());
     converted.nodes = static_cast<std::int64_t>(plan.node_count());
     io::NetworkTables tables{ready.source.network,

@@ -16,9 +16,11 @@
 #include <thalweg/core/vec.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
+#include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/import/river_heights.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/internal/given.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
@@ -64,6 +66,30 @@ private:
     std::vector<std::pair<std::int64_t, std::size_t>> by_id_;
     std::vector<std::pair<double, double>> by_place_;
 };
+
+/// Whether every vertex of a file has a height, and not all the same.
+bool heights_tell_directions(NetworkFile const& file) {
+    double low = greatest_coordinate;
+    double high = -greatest_coordinate;
+    for (auto const& arc : file.arcs) {
+        for (Vec3 const p : arc.line) {
+            if (!is_number(p.z)) {
+                return false;
+            }
+            low = std::min(low, p.z);
+            high = std::max(high, p.z);
+        }
+    }
+    return file.says.heights && low < high;
+}
+
+/// What decides the directions of a file's lines. Where no schema says how they are drawn, heights do, as for make.
+network::Orientation orientation_of(NetworkFile const& file) {
+    bool const by_height = file.schema == "lines" && heights_tell_directions(file);
+    return file.schema == "native" ? network::Orientation::least_turned
+           : by_height             ? network::Orientation::automatic
+                                   : network::Orientation::links;
+}
 
 /// Replaces missing heights by interpolation between neighbours; at the ends by the node's, if it has one, else by the
 /// neighbour's.
@@ -317,31 +343,105 @@ private:
     std::vector<std::pair<std::int64_t, std::size_t>> by_feature_;
 };
 
-/// An arc has the file's area at an end that did not move; otherwise the sum of its inflows, a lower bound.
-void take_areas(Known const& known, double near_m, RepairedNetwork& mended) {
-    StreamNetwork const& plan = mended.network.planform;
-    mended.us_area_m2.assign(plan.arc_count(), 0.0);
-    mended.ds_area_m2.assign(plan.arc_count(), 0.0);
-    mended.node_area_m2.assign(plan.node_count(), 0.0);
-    auto const is_at = [&](Vec2 p, Vec3 q) { return distance(p, {q.x, q.y}) <= near_m; };
-    for (auto node = plan.upstream_order().rbegin(); node != plan.upstream_order().rend(); ++node) {
-        for (ArcId const a : plan.in(*node)) {
-            mended.node_area_m2[*node] += mended.ds_area_m2[a];
+constexpr double unknown_area = -1.0;
+
+/// The known areas of arcs that end in one node.
+struct ArrivingAreas {
+    double sum_m2 = 0.0;
+    double largest_m2 = 0.0;
+    bool is_known = false; ///< of one at least
+
+    void add(double area_m2) {
+        if (area_m2 >= 0.0) {
+            is_known = true;
+            sum_m2 += area_m2;
+            largest_m2 = std::max(largest_m2, area_m2);
         }
-        if (plan.out(*node) == no_arc) {
-            continue;
-        }
-        auto const a = plan.out(*node);
-        Arc const& arc = plan.arc(a);
-        auto const& given = known.arc(arc.feature);
-        auto const& line = known.line(arc.feature).vertices;
-        bool const keeps_up = is_at(arc.line.front(), line.front()) && std::isfinite(given.us_area_m2);
-        bool const keeps_down = is_at(arc.line.back(), line.back()) && std::isfinite(given.ds_area_m2);
-        double const arriving = mended.node_area_m2[*node];
-        mended.us_area_m2[a] = keeps_up ? std::max(given.us_area_m2, arriving) : arriving;
-        mended.ds_area_m2[a] = keeps_down ? std::max(given.ds_area_m2, mended.us_area_m2[a]) : mended.us_area_m2[a];
-        mended.node_area_m2[*node] = mended.us_area_m2[a];
     }
+};
+
+/// Computes the areas of the arcs of a repaired network. At an end that did not move an arc has the file's area, raised
+/// where one upstream is larger: rivers that divide count common water in both branches, so that the sum of two is no
+/// bound. At a new end it has the sum of its inflows, at most the file's area farther down. What the file does not know
+/// stays unknown.
+class AreaKeeper {
+public:
+    AreaKeeper(Known const& known, double near_m, std::int64_t id_shift, RepairedNetwork& mended)
+        : known_(known), near_m_(near_m), id_shift_(id_shift), mended_(mended) {}
+
+    void take() {
+        StreamNetwork const& plan = mended_.network.planform;
+        mended_.us_area_m2.assign(plan.arc_count(), unknown_area);
+        mended_.ds_area_m2.assign(plan.arc_count(), unknown_area);
+        mended_.node_area_m2.assign(plan.node_count(), unknown_area);
+        for (auto node = plan.upstream_order().rbegin(); node != plan.upstream_order().rend(); ++node) {
+            ArrivingAreas arriving;
+            for (ArcId const a : plan.in(*node)) {
+                arriving.add(mended_.ds_area_m2[a]);
+            }
+            if (ArcId const a = plan.out(*node); a != no_arc) {
+                take(a, arriving);
+                mended_.node_area_m2[*node] = mended_.us_area_m2[a];
+            } else if (arriving.is_known) {
+                mended_.node_area_m2[*node] = arriving.sum_m2;
+            }
+        }
+    }
+
+private:
+    void take(ArcId a, ArrivingAreas const& arriving) {
+        Arc const& arc = mended_.network.planform.arc(a);
+        auto const& given = known_.arc(arc.feature);
+        auto const& line = known_.line(arc.feature).vertices;
+        bool const is_up = is_at(arc.line.front(), line.front());
+        bool const is_down = is_at(arc.line.back(), line.back());
+        bool const knows_down = std::isfinite(given.ds_area_m2);
+        double& us_m2 = mended_.us_area_m2[a];
+        double& ds_m2 = mended_.ds_area_m2[a];
+        if (is_up && std::isfinite(given.us_area_m2)) {
+            us_m2 = at_least(given.us_area_m2, arriving.largest_m2, arc);
+        } else if (!is_up && knows_down) {
+            us_m2 = std::max(std::min(arriving.sum_m2, given.ds_area_m2), arriving.largest_m2);
+        }
+        if (is_down && knows_down) {
+            ds_m2 = at_least(given.ds_area_m2, std::max(us_m2, arriving.largest_m2), arc);
+        } else if (!is_down && knows_down) {
+            ds_m2 = us_m2;
+        }
+    }
+
+    bool is_at(Vec2 p, Vec3 q) const { return distance(p, {q.x, q.y}) <= near_m_; }
+
+    double at_least(double area_m2, double least_m2, Arc const& arc) {
+        constexpr double rounding = 1e-9; // of numbers in km2
+        if (area_m2 >= least_m2 * (1.0 - rounding)) {
+            return area_m2;
+        }
+        std::int64_t const number = arc.feature - id_shift_;
+        if (std::exchange(raised_, number) == number) {
+            return least_m2; // its other end was told of
+        }
+        mended_.mended.push_back({"area_raised", number, arc.line.front(), least_m2 - area_m2,
+                                  fmt::format("arc {}: its contributing area is {} km2, less than the {} km2 of an "
+                                              "inflow, and is raised to that",
+                                              number, area_m2 * 1e-6, least_m2 * 1e-6)});
+        return least_m2;
+    }
+
+    Known const& known_;
+    double near_m_;
+    std::int64_t id_shift_;
+    RepairedNetwork& mended_;
+    std::int64_t raised_ = -1; ///< the last arc that was told of
+};
+
+/// What the file says of the main stems.
+network::StemClues clues_of(Known const& known, StreamNetwork const& plan) {
+    network::StemClues clues;
+    for (Arc const& arc : plan.arcs()) {
+        clues.arcs.push_back(network::clues_of(known.arc(arc.feature)));
+    }
+    return clues;
 }
 
 /// The features of an arc that is part of the file's arc, or all of it.
@@ -427,15 +527,14 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
     double const cell_m = may_have_gaps ? network::choose_cell(lines.rivers, {}, run).cell_m : 0.0;
     network::Imported imported;
     try {
-        imported = network::import_lines(
-            lines.rivers,
-            {.snap_m = near_m,
-             .orientation = file.schema == "native" ? network::Orientation::least_turned : network::Orientation::links,
-             .join = false,
-             .snapped = network::SnappedEnds::open,
-             .cell_m = cell_m,
-             .dem = params.dem},
-            run);
+        imported = network::import_lines(lines.rivers,
+                                         {.snap_m = near_m,
+                                          .orientation = orientation_of(file),
+                                          .join = false,
+                                          .snapped = network::SnappedEnds::open,
+                                          .cell_m = cell_m,
+                                          .dem = params.dem},
+                                         run);
     } catch (BadInput const& cannot) {
         return give_up(cannot.what());
     }
@@ -445,12 +544,14 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
     report_lowering(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {
         mended.mended.push_back(
-            {"level", 0, {}, static_cast<double>(file.arcs.size()), "the file has no heights: all are 0"});
+            {"level", 0, {}, static_cast<double>(file.arcs.size()), "the file has no heights, nor has the copy"});
     }
     mended.network = std::move(lowered.network);
-    mended.orders = network::order(mended.network.planform);
+    mended.has_heights = file.says.heights;
     Known const known(file, lines);
-    take_areas(known, near_m, mended);
+    StreamNetwork const& plan = mended.network.planform;
+    mended.orders = network::order(plan, network::main_inflows(plan, clues_of(known, plan), params.main));
+    AreaKeeper(known, near_m, file.id_shift, mended).take();
     take_words(known, mended);
     mended.user.attributes = file.attributes;
     append(lines.secondary, std::move(imported.secondary));

@@ -174,6 +174,7 @@ TEST(TokunagaLaws, AreThePapersTable) {
 
 TEST(CountStreams, CountsByHand) {
     using Down = std::vector<std::int64_t>;
+    using Branches = std::vector<std::vector<std::int64_t>>;
     EXPECT_EQ(network::count_streams(Down{}).order, 0);
     // A stream of order 2 with one side branch, and beside it a lone link.
     auto const counts = network::count_streams(Down{-1, 0, 0, 1, 1, -1});
@@ -182,6 +183,10 @@ TEST(CountStreams, CountsByHand) {
     EXPECT_EQ(counts.streams, (std::vector<std::int64_t>{4, 1}));
     EXPECT_EQ(counts.branches[1], std::vector<std::int64_t>{1});
     EXPECT_EQ(counts.side, std::vector<double>{1.0});
+    // Three equal streams: two form the order, the third is its branch; of unequal ones all but the highest are.
+    EXPECT_EQ(network::count_streams(Down{-1, 0, 0, 0}).branches, (Branches{{}, {1}}));
+    EXPECT_EQ(network::count_streams(Down{-1, 0, 0, 0, 0}).branches, (Branches{{}, {2}}));
+    EXPECT_EQ(network::count_streams(Down{-1, 0, 0, 0, 1, 1}).branches, (Branches{{}, {2}}));
     EXPECT_THROW(network::count_streams(Down{0}), BadInput);
     EXPECT_THROW(network::count_streams(Down{1, -1}), BadInput);
 }

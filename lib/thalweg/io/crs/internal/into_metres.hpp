@@ -10,6 +10,7 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/vec.hpp>
 
 class OGRSpatialReference;
@@ -33,6 +34,7 @@ struct FileBox {
     Vec2 low;
     Vec2 high;
     std::optional<Vec2> across_180 = {}; ///< [degrees] low.x and high.x as longitudes from 0 to 360
+    bool is_whole = false;               ///< most coordinates are whole numbers
 };
 
 /// Accumulates the bounding box of positions.
@@ -48,7 +50,17 @@ private:
     Vec2 low_{far, far};
     Vec2 high_{-far, -far};
     Vec2 turned_{far, -far};
+    std::int64_t places_ = 0;
+    std::int64_t whole_ = 0; ///< places of whole numbers
 };
+
+/// Finds coordinates that are degrees, though their CRS is projected: a wrong CRS was assigned or named. Whole numbers
+/// are taken for metres.
+/// \param own the file's CRS
+/// \param box of the data
+/// \param name of the file, for messages
+/// \return a warning, degrees_as_metres [m]: the length of the box's diagonal; nothing for others
+std::optional<Finding> degrees_as_metres(OGRSpatialReference const& own, FileBox const& box, std::string const& name);
 
 /// Treatment of a file's own CRS that is projected in metres.
 enum class OwnMetres : std::uint8_t {

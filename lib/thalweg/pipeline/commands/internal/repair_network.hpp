@@ -11,20 +11,23 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 
 namespace thalweg::pipeline {
 
 struct RepairNetworkParams {
     double near_m = 0.0;                ///< [m] >= 0: as measure::TopologyParams
     Raster<float> const* dem = nullptr; ///< as network::ImportParams
+    network::MainBy main = network::MainBy::file;
 };
 
 /// A network repaired from the faults of its file.
 struct RepairedNetwork {
     ElevatedNetwork network;
     NetworkOrders orders;
-    std::vector<double> us_area_m2; ///< by arc
-    std::vector<double> ds_area_m2; ///< by arc
+    bool has_heights = true;        ///< else those of the network are 0
+    std::vector<double> us_area_m2; ///< by arc; -1: unknown
+    std::vector<double> ds_area_m2; ///< by arc; -1: unknown
     std::vector<double> node_area_m2;
     std::vector<std::uint8_t> braided; ///< by arc
     io::UserData user;                 ///< of the file
@@ -40,9 +43,9 @@ struct RepairedNetwork {
 /// watercourses secondary. Then calls network::import_lines, under foreign schemas with the file's links (makes
 /// branches beside the main path secondary, joins open ends, splits arcs where they meet, drops duplicates, reverses
 /// lines that contradict the others) and network::lower_rises. Orders and basins are computed. An arc whose end did not
-/// move keeps its area; other arcs get the sum of their inflows, a lower bound; 0 if the file has none. Heights are 0
-/// in a file without heights. Kinds of mended: left_out (vertices; arc: 0), drawn [m], moved [m], turned [m], cut [m],
-/// those of import_lines, lowered [m], level (arcs), secondary [m], mended (findings of one kind), not_mended. A file
+/// move keeps its area, raised to that of a larger inflow; at a new end it gets the sum of its inflows, a lower bound.
+/// Kinds of mended: left_out (vertices; arc: 0), drawn [m], moved [m], turned [m], cut [m], those of import_lines,
+/// lowered [m], level (arcs), area_raised [m2], secondary [m], mended (findings of one kind), not_mended. A file
 /// without faults keeps its arcs, nodes and vertices.
 /// \param file as read
 /// \param found result of the check with the same near_m
