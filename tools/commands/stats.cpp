@@ -31,12 +31,16 @@ std::string length(solver::CorrelationLength const& l) {
     return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
 }
 
-void print_laws(pipeline::DemLaws const& found) {
-    fmt::print("\nrivers where at least {} cells ({:.3g} km²) drain\n{:58}  in nature\n", found.support_cells,
-               found.support_m2 / 1e6, "");
-    for (pipeline::LawRow const& row : pipeline::law_rows(found.laws)) {
-        std::string const value =
-            row.value ? fmt::format("{:.4g}{}{}", *row.value, row.unit.empty() ? "" : " ", row.unit) : "unknown";
+std::string value_of(pipeline::LawRow const& row) {
+    return row.value ? fmt::format("{:.4g}{}{}", *row.value, row.unit.empty() ? "" : " ", row.unit) : "unknown";
+}
+
+/// inside: laws of the rivers whose areas the edge does not cut, or null.
+void print_rows(measure::NetworkLaws const& laws, measure::NetworkLaws const* inside = nullptr) {
+    auto const rows_inside = inside == nullptr ? std::vector<pipeline::LawRow>{} : pipeline::law_rows(*inside);
+    fmt::print("{:58}  {}in nature\n", "", inside == nullptr ? "" : "inside            ");
+    for (std::size_t i = 0; pipeline::LawRow const& row : pipeline::law_rows(laws)) {
+        std::string const within = inside == nullptr ? "" : fmt::format("{:<16}  ", value_of(rows_inside[i++]));
         std::string const range =
             row.nature != nullptr ? fmt::format("{:g} to {:g}", row.nature->low, row.nature->high) : "";
         std::string fit;
@@ -45,8 +49,34 @@ void print_laws(pipeline::DemLaws const& found) {
                 fit = fmt::format("r2 {:.3f}", figure);
             }
         }
-        fmt::print("{:<28}  {:<16}  {:<10}  {}\n", row.name, value, fit, range);
+        fmt::print("{:<28}  {:<16}  {:<10}  {}{}\n", row.name, value_of(row), fit, within, range);
     }
+}
+
+void print_laws(pipeline::DemLaws const& found) {
+    fmt::print("\nrivers where at least {} cells ({:.3g} km²) drain\n"
+               "inside: {} of {} arcs, whose areas lie whole inside the data\n",
+               found.support_cells, found.support_m2 / 1e6, found.arcs_inside, found.arcs);
+    print_rows(found.laws, found.inside ? &*found.inside : nullptr);
+}
+
+void print_line_laws(pipeline::LineLaws const& found) {
+    fmt::print("{} arcs of {:.1f} km, {} outlets", found.arcs, found.length_m / 1e3, found.outlets);
+    if (found.left_out > 0) {
+        fmt::print("; {} lines of {:.1f} km are not in the tree", found.left_out, found.left_out_m / 1e3);
+    }
+    fmt::print("\n\n{:>5}  {:>8}  {:>12}  {:>12}  {}\n", "order", "streams", "length, km", "area, km²",
+               "side branches one, two ... orders lower, of all");
+    for (measure::StreamOrder const& order : found.laws.horton.orders) {
+        std::string branches;
+        for (std::int64_t const count : found.streams.branches[static_cast<std::size_t>(order.order) - 1]) {
+            branches += fmt::format("{} ", count);
+        }
+        fmt::print("{:>5}  {:>8}  {:>12.4g}  {:>12}  {}\n", order.order, order.streams, order.length_m / 1e3,
+                   order.area_m2 > 0.0 ? fmt::format("{:.4g}", order.area_m2 / 1e6) : "unknown", branches);
+    }
+    fmt::print("\n");
+    print_rows(found.laws);
 }
 
 void print_relief(pipeline::TerrainRelief const& found) {
@@ -80,6 +110,14 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
     pipeline::StatsResult const found = pipeline::run_stats(params, session.run);
     if (found.recipe) {
         print_recipe(*found.recipe);
+        return Exit::done;
+    }
+    if (found.lines) {
+        if (session.json) {
+            print_result(session, nlohmann::ordered_json::parse(pipeline::line_laws_json(*found.lines)), {}, -1);
+        } else {
+            print_line_laws(*found.lines);
+        }
         return Exit::done;
     }
     measure::Statistics const& s = found.statistics;
@@ -117,15 +155,19 @@ int stats(pipeline::StatsParams const& params, Session const& session) {
 
 Command add_stats(CLI::App& app, Session& session) {
     auto const params = std::make_shared<pipeline::StatsParams>();
-    app.add_option("DEM", params->path, "Any height raster GDAL reads.")->type_name("FILE")->required();
+    app.add_option("DEM", params->path, "Any height raster GDAL reads; for --laws also a file of river lines.")
+        ->type_name("FILE")
+        ->required();
     add_dem_options(app, params->reading);
     add_json_option(app, session);
     CLI::Option* const recipe =
         app.add_flag("--recipe", params->recipe, "Print a recipe of other terrain with the same statistics, for make.");
     CLI::Option* const laws =
         app.add_flag("--laws", params->laws,
-                     "Print network laws of the streams extracted from the DEM, with natural ranges.")
+                     "Print network laws of the streams extracted from the DEM, or of river lines, with natural "
+                     "ranges.")
             ->excludes(recipe);
+    add_main_option(app, params->main);
     app.add_flag("--relief", params->relief, "Print morphometric indices, with those of reference DEMs.")
         ->excludes(recipe);
     app.add_option("--support", params->support_cells, "Start a stream where this many cells drain.")
@@ -141,6 +183,7 @@ Command add_stats(CLI::App& app, Session& session) {
                "Examples:\n"
                "  thalweg stats valley/dem.tif\n"
                "  thalweg stats samples/bigtujunga_srtm1.tif --laws --support 500\n"
+               "  thalweg stats samples/new_hope_nhdplus.gpkg --laws\n"
                "  thalweg stats samples/jacksboro_srtm3.tif --recipe > alike.toml\n");
     return [params, &session] { return stats(*params, session); };
 }

@@ -7,6 +7,7 @@
 
 #include <gtest/gtest.h>
 
+#include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
@@ -93,6 +94,26 @@ TEST(Laws, OfReferenceDemsLieInOrNearNature) {
         near_nature(rows, "tokunaga_a", 1.0);
         near_nature(rows, "tokunaga_c", 0.5);
     }
+}
+
+TEST(Laws, OfScheideggersSurfaceAreTheirsWhereTheEdgeCutsNone) {
+    // Water runs south-west or south-east, to the lower of two random heights; the cells between are ridges.
+    Grid grid{400, 480, 10.0, 500000.0, 5000000.0, "EPSG:32632"};
+    Raster<float> dem(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        Cell const c = grid.at(i);
+        double const noise = static_cast<double>(random_word(3, static_cast<std::uint64_t>(i)) >> 11U) * 0x1p-53;
+        double const ridge = (c.col + c.row) % 2 == 0 ? 0.0 : 7.0;
+        dem[i] = static_cast<float>(10.0 * static_cast<double>(grid.height - c.row) + 5.0 * noise + ridge);
+    }
+    DemLaws const found = laws_of_dem(dem, {.support_cells = 4});
+    ASSERT_TRUE(found.inside.has_value());
+    EXPECT_LT(found.arcs_inside, found.arcs);
+    EXPECT_GT(found.arcs_inside, found.arcs / 2);
+    // Dodds and Rothman (2000): h = 2/3, R_n = 5.2.
+    EXPECT_NEAR(value(law_rows(*found.inside), "hack"), 2.0 / 3.0, 0.03);
+    EXPECT_LT(value(law_rows(found.laws), "hack"), 0.645);
+    EXPECT_NEAR(value(law_rows(found.laws), "bifurcation"), 5.2, 0.6);
 }
 
 TEST(Laws, TheDemsRiversAreAsLongAsTheNetwork) {

@@ -55,6 +55,7 @@ HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std
     laws.orders.resize(highest);
     std::vector<CompensatedSum> length(highest);
     std::vector<CompensatedSum> area(highest);
+    std::vector<std::int64_t> known_areas(highest, 0);
     for (std::size_t a = 0; a < arcs; ++a) {
         auto const k = static_cast<std::size_t>(orders.strahler[a]) - 1;
         length[k].add(network.length_m(a));
@@ -62,7 +63,10 @@ HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std
         bool const ends = next == no_arc || orders.strahler[next] != orders.strahler[a];
         if (ends) {
             ++laws.orders[k].streams;
-            area[k].add(ds_area_m2[a]);
+            if (ds_area_m2[a] > 0.0) {
+                ++known_areas[k];
+                area[k].add(ds_area_m2[a]);
+            }
         }
     }
     for (std::size_t k = 0; k < highest; ++k) {
@@ -70,7 +74,9 @@ HortonLaws horton(StreamNetwork const& network, NetworkOrders const& orders, std
         o.order = static_cast<int>(k) + 1;
         if (o.streams > 0) {
             o.length_m = length[k].value() / static_cast<double>(o.streams);
-            o.area_m2 = area[k].value() / static_cast<double>(o.streams);
+        }
+        if (known_areas[k] > 0) {
+            o.area_m2 = area[k].value() / static_cast<double>(known_areas[k]);
         }
     }
     laws.bifurcation =

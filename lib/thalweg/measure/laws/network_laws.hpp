@@ -19,7 +19,7 @@ struct StreamOrder {
     int order = 1;
     std::int64_t streams = 0;
     double length_m = 0.0; ///< [m] mean
-    double area_m2 = 0.0;  ///< [m2] mean drainage area at downstream ends
+    double area_m2 = 0.0;  ///< [m2] mean drainage area at downstream ends, of those that are known; 0: of none
 };
 
 /// A ratio of consecutive orders.
@@ -41,7 +41,7 @@ struct HortonLaws {
 /// negative) of the least-squares line of natural logarithms over order, all orders with equal weight.
 /// \param network a forest
 /// \param orders orders of this network
-/// \param ds_area_m2 [m2] by arc: area at its downstream end
+/// \param ds_area_m2 [m2] by arc: area at its downstream end; not above 0, or NaN: unknown
 /// \return an order of mean 0 is left out; with fewer than two orders there is no ratio
 /// \throws BadInput when there is not one order and area per arc, or an order is below 1
 ///

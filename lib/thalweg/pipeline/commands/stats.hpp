@@ -11,6 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
@@ -19,9 +20,10 @@ namespace thalweg::pipeline {
 
 /// Options of run_stats().
 struct StatsParams {
-    std::string path = {};          ///< any raster of heights
-    io::ReadDemParams reading = {}; ///< how the DEM is read
-    bool laws = false;              ///< of the streams extracted from the DEM
+    std::string path = {};                        ///< any raster of heights, or, for the laws alone, river lines
+    io::ReadDemParams reading = {};               ///< how the DEM is read
+    bool laws = false;                            ///< of the streams extracted from the DEM, or of the lines
+    network::MainBy main = network::MainBy::file; ///< by what main stems of lines are told
     bool relief = false;
     bool recipe = false;                                        ///< of other terrain with the same statistics
     std::int64_t support_cells = DemLawsParams{}.support_cells; ///< of the laws, as in DemLawsParams
@@ -32,6 +34,7 @@ struct StatsResult {
     Grid grid; ///< of the DEM that was measured
     measure::Statistics statistics;
     std::optional<DemLaws> laws = {};
+    std::optional<LineLaws> lines = {}; ///< laws of lines: then there is no DEM, and grid and statistics are empty
     std::optional<TerrainRelief> relief = {};
     std::optional<DemRecipe> recipe = {};
     std::vector<Finding> findings = {}; ///< how the DEM was read
@@ -39,8 +42,11 @@ struct StatsResult {
 
 /// Runs `thalweg stats`: reads a DEM and computes its statistics. One that is not on squares in metres is warped to
 /// such as io::read_drawable does, and findings say so; count, mean, deviation, extremes, skewness and kurtosis remain
-/// those of the file's own cells (of degrees weighted by their area). \param params file and options \return the
-/// statistics, and what else is set \throws BadInput as io::read_drawable, the statistics and recipe_of_dem
+/// those of the file's own cells (of degrees weighted by their area). Lines are repaired as by `thalweg check --fix`.
+/// \param params file and options
+/// \return the statistics, and what else is set
+/// \throws BadInput as io::read_drawable, io::read_network, the statistics and recipe_of_dem, and for lines that make
+/// no tree
 StatsResult run_stats(StatsParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

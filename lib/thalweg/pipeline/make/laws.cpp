@@ -4,8 +4,10 @@
 
 #include <algorithm>
 #include <cmath>
+#include <limits>
 
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/flow/edge.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
@@ -14,6 +16,56 @@ namespace thalweg::pipeline {
 namespace {
 
 constexpr double cells_of_junction = 10.0;
+
+/// Whether the cell of an arc next to its end has an area that the edge cuts; the end itself may lie at the edge.
+bool is_cut(Arc const& arc, Mask const& cut) {
+    Grid const& grid = cut.grid();
+    Cell const end = grid.cell_of(arc.line.back());
+    Cell const before = grid.cell_of(arc.line[arc.line.size() - 2]);
+    auto const towards = [](std::int64_t from, std::int64_t to) { return to > from ? 1 : to < from ? -1 : 0; };
+    Cell const next{end.col + towards(end.col, before.col), end.row + towards(end.row, before.row)};
+    return cut[next] != 0;
+}
+
+/// The streams whose areas lie inside the data: with an arc all those upstream of it.
+flow::ExtractedStreams inside_of(flow::ExtractedStreams const& streams, Mask const& cut) {
+    StreamNetwork const& plan = streams.network.planform;
+    NetworkDraft kept;
+    flow::ExtractedStreams inside;
+    std::vector<NodeId> number(plan.node_count(), plan.node_count()); // of a node in the kept network
+    auto const node = [&](NodeId n) {
+        if (number[n] == plan.node_count()) {
+            number[n] = kept.nodes.size();
+            kept.add_node(plan.node(n).at);
+            inside.network.node_z.push_back(streams.network.node_z[n]);
+            inside.areas.node_m2.push_back(streams.areas.node_m2[n]);
+        }
+        return number[n];
+    };
+    for (ArcId a = 0; a < plan.arc_count(); ++a) {
+        if (!is_cut(plan.arc(a), cut)) {
+            NodeId const from = node(plan.from(a));
+            kept.add_arc(from, node(plan.to(a)), plan.arc(a));
+            inside.network.arc_z.push_back(streams.network.arc_z[a]);
+            inside.areas.us_area_m2.push_back(streams.areas.us_area_m2[a]);
+            inside.areas.ds_area_m2.push_back(streams.areas.ds_area_m2[a]);
+        }
+    }
+    inside.areas.source = streams.areas.source;
+    inside.network.planform = std::move(kept);
+    return inside;
+}
+
+/// The cells that the rivers of a network drain.
+std::int64_t cells_of_outlets(StreamNetwork const& plan, flow::ContributingAreas const& areas, Grid const& grid) {
+    double sum_m2 = 0.0;
+    for (NodeId const outlet : plan.outlets()) {
+        for (ArcId const a : plan.in(outlet)) {
+            sum_m2 += areas.ds_area_m2[a];
+        }
+    }
+    return static_cast<std::int64_t>(std::llround(sum_m2 / (grid.cell_m * grid.cell_m)));
+}
 
 /// flow_length: of the DEM under the network, or null.
 measure::NetworkLaws laws_of(ElevatedNetwork const& network, NetworkOrders const& orders,
@@ -49,6 +101,14 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
         flow::extract_streams(drainage, dem, {.support_cells = found.support_cells}, run);
     found.laws =
         laws_of(streams.network, network::order(streams.network.planform), streams.areas, grid, land, &flow_length);
+    flow::ExtractedStreams const inside = inside_of(streams, flow::cut_by_edge(drainage));
+    StreamNetwork const& plan = inside.network.planform;
+    found.arcs = static_cast<std::int64_t>(streams.network.planform.arc_count());
+    found.arcs_inside = static_cast<std::int64_t>(plan.arc_count());
+    if (found.arcs_inside > 0) {
+        found.inside = laws_of(inside.network, network::order(plan), inside.areas, grid,
+                               cells_of_outlets(plan, inside.areas, grid), &flow_length);
+    }
     return found;
 }
 
@@ -80,6 +140,45 @@ RiverLaws laws_of_terrain(Terrain const& terrain, std::int64_t land_cells, Run c
 
 namespace {
 
+/// [m] A chord that most links are long enough for.
+double chord_of(measure::LinkLengths const& links) {
+    double const shorter = std::fmin(links.exterior.median_m, links.interior.median_m); // NaN: there are none
+    return 0.5 * shorter;
+}
+
+} // namespace
+
+LineLaws laws_of_lines(MeasuredRivers const& rivers) {
+    StreamNetwork const& plan = rivers.network.planform;
+    refuse_if<BadInput>(plan.arc_count() == 0, "pipeline.laws_of_lines: the network has no arcs");
+    LineLaws found;
+    found.streams = network::count_streams(plan);
+    found.arcs = static_cast<std::int64_t>(plan.arc_count());
+    found.outlets = static_cast<std::int64_t>(plan.outlets().size());
+    double land_m2 = 0.0; // of all outlets
+    for (NodeId const outlet : plan.outlets()) {
+        for (ArcId const a : plan.in(outlet)) {
+            double const area_m2 = rivers.areas.ds_area_m2[a];
+            land_m2 += area_m2 > 0.0 ? area_m2 : std::numeric_limits<double>::quiet_NaN();
+        }
+    }
+    bool const knows_land = land_m2 > 0.0;
+    measure::NetworkLawsParams params{.land_m2 = knows_land ? land_m2 : 1.0,
+                                      .junction_reach_m = chord_of(measure::link_lengths(plan))};
+    params.side_branches = found.streams.side;
+    found.laws = measure::network_laws(rivers.network, rivers.orders, rivers.areas, params);
+    found.length_m = found.laws.drainage_density_m * double{params.land_m2};
+    if (!knows_land) {
+        found.laws.drainage_density_m = std::numeric_limits<double>::quiet_NaN();
+    }
+    if (!rivers.heights) {
+        found.laws.concavity.reset();
+    }
+    return found;
+}
+
+namespace {
+
 using Details = std::vector<std::pair<std::string_view, double>>;
 
 LawRow row(std::string_view key, std::string_view name, std::string_view unit, std::optional<double> value,
@@ -90,9 +189,11 @@ LawRow row(std::string_view key, std::string_view name, std::string_view unit, s
     return {key, name, unit, value, std::move(details), measure::natural_range(key)};
 }
 
-LawRow horton_row(std::string_view key, std::string_view name, std::optional<measure::HortonRatio> const& law) {
+LawRow horton_row(std::string_view key, std::string_view name, std::optional<measure::HortonRatio> const& law,
+                  double streams) {
     return row(key, name, "", law ? std::optional(law->ratio) : std::nullopt,
-               law ? Details{{"r2", law->r2}, {"orders", static_cast<double>(law->orders)}} : Details{});
+               law ? Details{{"r2", law->r2}, {"orders", static_cast<double>(law->orders)}, {"streams", streams}}
+                   : Details{});
 }
 
 LawRow power_row(std::string_view key, std::string_view name, std::optional<measure::PowerLaw> const& law,
@@ -119,10 +220,14 @@ std::vector<LawRow> law_rows(measure::NetworkLaws const& laws) {
     Details const terms =
         tokunaga ? Details{{"r2", tokunaga->r2}, {"terms", static_cast<double>(tokunaga->terms)}} : Details{};
     measure::JunctionAngles const& angles = laws.junctions;
+    double streams = 0.0;
+    for (measure::StreamOrder const& order : laws.horton.orders) {
+        streams += static_cast<double>(order.streams);
+    }
     return {
-        horton_row("bifurcation", "bifurcation ratio R_B", laws.horton.bifurcation),
-        horton_row("length", "length ratio R_L", laws.horton.length),
-        horton_row("area", "area ratio R_A", laws.horton.area),
+        horton_row("bifurcation", "bifurcation ratio R_B", laws.horton.bifurcation, streams),
+        horton_row("length", "length ratio R_L", laws.horton.length, streams),
+        horton_row("area", "area ratio R_A", laws.horton.area, streams),
         row("tokunaga_a", "Tokunaga’s a", "", tokunaga ? std::optional(tokunaga->a) : std::nullopt, terms),
         row("tokunaga_c", "Tokunaga’s c", "", tokunaga ? std::optional(tokunaga->c) : std::nullopt, terms),
         power_row("hack", "Hack’s exponent h", laws.hack, 1.0),

@@ -15,6 +15,7 @@
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/laws/network_laws.hpp>
 #include <thalweg/measure/relief/relief.hpp>
+#include <thalweg/network/order/order.hpp>
 
 namespace thalweg::pipeline {
 
@@ -24,7 +25,38 @@ struct DemLaws {
     std::int64_t support_cells = 0; ///< cells that drain through the first cell of a river
     double support_m2 = 0.0;        ///< [m2] the same as an area
     bool as_dense = false;          ///< the support was chosen to match the drainage density of a network
+    /// Of the rivers whose area lies whole inside the data (flow::cut_by_edge), in the trees that they form; nothing
+    /// where there are none.
+    std::optional<measure::NetworkLaws> inside = {};
+    std::int64_t arcs = 0;
+    std::int64_t arcs_inside = 0;
 };
+
+/// A network with heights and areas, as far as they are known.
+struct MeasuredRivers {
+    ElevatedNetwork const& network;
+    NetworkOrders const& orders;
+    flow::ContributingAreas const& areas; ///< below 0: unknown
+    bool heights = true;                  ///< else those of the network mean nothing
+};
+
+/// The laws of the river lines of a file.
+struct LineLaws {
+    measure::NetworkLaws laws;
+    network::StreamCounts streams;
+    std::int64_t arcs = 0;
+    std::int64_t outlets = 0;
+    double length_m = 0.0;
+    std::int64_t left_out = 0; ///< lines that are not in the tree: minor branches, canals, coasts
+    double left_out_m = 0.0;
+};
+
+/// Computes the laws of a network. Hack's lengths begin at sources; angles at junctions are over half of the median
+/// link. What needs areas or heights that are unknown is not computed; the drainage density needs those of all outlets.
+/// \param rivers a network
+/// \return laws and counts; nothing is left out
+/// \throws BadInput when the values do not belong to the network, or it has no arcs
+LineLaws laws_of_lines(MeasuredRivers const& rivers);
 
 /// The laws of a terrain: of its rivers as drawn, if any, and of those extracted from its surface.
 struct RiverLaws {

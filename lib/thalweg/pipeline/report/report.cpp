@@ -171,6 +171,8 @@ ordered_json dem_laws_object(DemLaws const& found) {
     ordered_json out = laws_object(found.laws);
     out["support"] = {
         {"cells", found.support_cells}, {"area_m2", found.support_m2}, {"as_dense_as_the_network", found.as_dense}};
+    out["edge"] = {{"arcs", found.arcs}, {"arcs_inside", found.arcs_inside}};
+    out["inside"] = found.inside ? laws_object(*found.inside) : ordered_json(nullptr);
     return out;
 }
 
@@ -547,6 +549,17 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
     if (relief != nullptr) {
         out["relief"] = ordered_json::parse(relief_json(*relief));
     }
+    return out.dump() + "\n";
+}
+
+std::string line_laws_json(LineLaws const& found) {
+    ordered_json const out{{"arcs", found.arcs},
+                           {"outlets", found.outlets},
+                           {"length_m", found.length_m},
+                           {"left_out", {{"lines", found.left_out}, {"length_m", found.left_out_m}}},
+                           {"horton", horton(found.laws.horton)},
+                           {"tokunaga", streams_object(found.streams)},
+                           {"laws", laws_object(found.laws)}};
     return out.dump() + "\n";
 }
 

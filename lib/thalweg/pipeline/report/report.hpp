@@ -35,6 +35,12 @@ std::vector<std::string> files_of_report(std::string const& json);
 std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
                             TerrainRelief const* relief = nullptr);
 
+/// Formats the laws of river lines as one JSON object: arcs, outlets, length_m, left_out (lines, length_m), horton and
+/// tokunaga as under "network" in report.json, laws.
+/// \param found the laws
+/// \return JSON
+std::string line_laws_json(LineLaws const& found);
+
 /// Formats checks as one JSON array, as under "checks" in report.json.
 /// \param checks any
 /// \return JSON
