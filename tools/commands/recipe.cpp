@@ -82,7 +82,7 @@ std::string keys_as_list(std::vector<KeyHelp> const& keys) {
             text += text.empty() ? "" : "\n";
             text += section.empty() ? "" : section == "patch" ? "[[patch]]\n" : "[" + section + "]\n";
         }
-        text += fmt::format("{:<18}{}{}\n{:<18}{}; {}{}\n", key_name(key.path), key.meaning,
+        text += fmt::format("{:<17} {}{}\n{:<18}{}; {}{}\n", key_name(key.path), key.meaning,
                             key.unit.empty() ? "" : " [" + key.unit + "]", "", key.type, key.range,
                             key.standard.empty() ? "" : "; default " + key.standard);
     }
