@@ -167,7 +167,6 @@ Command add_stats(CLI::App& app, Session& session) {
                      "Print network laws of the streams extracted from the DEM, or of river lines, with natural "
                      "ranges.")
             ->excludes(recipe);
-    add_main_option(app, params->main);
     app.add_flag("--relief", params->relief, "Print morphometric indices, with those of reference DEMs.")
         ->excludes(recipe);
     app.add_option("--support", params->support_cells, "Start a stream where this many cells drain.")

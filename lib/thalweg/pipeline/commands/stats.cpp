@@ -40,8 +40,7 @@ StatsResult stats_of_lines(StatsParams const& params, Run const& run) {
     read.any_lines = true;
     read.bridge = true;
     NetworkFile const file = io::read_network(params.path, read, run);
-    RepairedNetwork const mended =
-        repair_network(file, measure::check_topology(file, {}, run), {.main = params.main}, run);
+    RepairedNetwork const mended = repair_network(file, measure::check_topology(file, {}, run), {}, run);
     refuse_if<BadInput>(!mended.done, "pipeline.run_stats: {} makes no tree of rivers: {}", params.path,
                         mended.mended.empty() ? std::string("thalweg check tells why") : mended.mended.back().text);
     StatsResult found;

@@ -11,7 +11,6 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
@@ -20,10 +19,9 @@ namespace thalweg::pipeline {
 
 /// Options of run_stats().
 struct StatsParams {
-    std::string path = {};                        ///< any raster of heights, or, for the laws alone, river lines
-    io::ReadDemParams reading = {};               ///< how the DEM is read
-    bool laws = false;                            ///< of the streams extracted from the DEM, or of the lines
-    network::MainBy main = network::MainBy::file; ///< by what main stems of lines are told
+    std::string path = {};          ///< any raster of heights, or, for the laws alone, river lines
+    io::ReadDemParams reading = {}; ///< how the DEM is read
+    bool laws = false;              ///< of the streams extracted from the DEM, or of the lines
     bool relief = false;
     bool recipe = false;                                        ///< of other terrain with the same statistics
     std::int64_t support_cells = DemLawsParams{}.support_cells; ///< of the laws, as in DemLawsParams

@@ -56,15 +56,15 @@ flow::ExtractedStreams inside_of(flow::ExtractedStreams const& streams, Mask con
     return inside;
 }
 
-/// The cells that the rivers of a network drain.
-std::int64_t cells_of_outlets(StreamNetwork const& plan, flow::ContributingAreas const& areas, Grid const& grid) {
+/// [m2] What the rivers of a network drain; NaN: the area of an outlet is unknown.
+double area_of_outlets(StreamNetwork const& plan, flow::ContributingAreas const& areas) {
     double sum_m2 = 0.0;
     for (NodeId const outlet : plan.outlets()) {
         for (ArcId const a : plan.in(outlet)) {
-            sum_m2 += areas.ds_area_m2[a];
+            sum_m2 += areas.ds_area_m2[a] > 0.0 ? areas.ds_area_m2[a] : std::numeric_limits<double>::quiet_NaN();
         }
     }
-    return static_cast<std::int64_t>(std::llround(sum_m2 / (grid.cell_m * grid.cell_m)));
+    return sum_m2;
 }
 
 /// flow_length: of the DEM under the network, or null.
@@ -106,8 +106,9 @@ DemLaws laws_of_dem(Raster<float> const& dem, flow::FlowField const& drainage, R
     found.arcs = static_cast<std::int64_t>(streams.network.planform.arc_count());
     found.arcs_inside = static_cast<std::int64_t>(plan.arc_count());
     if (found.arcs_inside > 0) {
-        found.inside = laws_of(inside.network, network::order(plan), inside.areas, grid,
-                               cells_of_outlets(plan, inside.areas, grid), &flow_length);
+        found.inside =
+            laws_of(inside.network, network::order(plan), inside.areas, grid,
+                    std::llround(area_of_outlets(plan, inside.areas) / (grid.cell_m * grid.cell_m)), &flow_length);
     }
     return found;
 }
@@ -155,13 +156,7 @@ LineLaws laws_of_lines(MeasuredRivers const& rivers) {
     found.streams = network::count_streams(plan);
     found.arcs = static_cast<std::int64_t>(plan.arc_count());
     found.outlets = static_cast<std::int64_t>(plan.outlets().size());
-    double land_m2 = 0.0; // of all outlets
-    for (NodeId const outlet : plan.outlets()) {
-        for (ArcId const a : plan.in(outlet)) {
-            double const area_m2 = rivers.areas.ds_area_m2[a];
-            land_m2 += area_m2 > 0.0 ? area_m2 : std::numeric_limits<double>::quiet_NaN();
-        }
-    }
+    double const land_m2 = area_of_outlets(plan, rivers.areas);
     bool const knows_land = land_m2 > 0.0;
     measure::NetworkLawsParams params{.land_m2 = knows_land ? land_m2 : 1.0,
                                       .junction_reach_m = chord_of(measure::link_lengths(plan))};
