@@ -6,6 +6,6 @@
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/direction.hpp>
-#include <thalweg/flow/edge.hpp>
 #include <thalweg/flow/extract_streams.hpp>
+#include <thalweg/flow/paths.hpp>
 #include <thalweg/flow/route.hpp>

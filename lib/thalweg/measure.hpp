@@ -14,5 +14,8 @@
 #include <thalweg/measure/relief/slope_area.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/measure/relief/wetness.hpp>
+#include <thalweg/measure/relief/zones.hpp>
+#include <thalweg/measure/rivers/profiles.hpp>
 #include <thalweg/measure/texture/texture.hpp>
 #include <thalweg/measure/topology/topology.hpp>

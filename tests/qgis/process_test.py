@@ -145,7 +145,7 @@ class InTheProcessingExecutable(Case):
                 ("rebuild", {"RIVERS": COAST, "CELL": 300, "OUTPUT": self.folder / "x"}, "has lines without Z"),
                 ("tin", {"DEM": JACKSBORO, "LINES": COAST, "OUTPUT": self.folder / "x.2dm"},
                  "Give exactly one of DEM, POINTS, TEXT"),
-                ("measure", {"DEM": JACKSBORO, "WHAT": 3, "OUTPUT": self.folder / "x"}, "catchments need rivers"),
+                ("measure", {"DEM": JACKSBORO, "WHAT": 10, "OUTPUT": self.folder / "x"}, "catchments need rivers"),
                 ("check", {"NETWORK": COAST, "FIELDS": "arc_id", "OUTPUT": "x"}, "write QUANTITY=NAME"),
                 ("blend", {"TARGET": JACKSBORO, "SOURCE": JACKSBORO, "WINDOW": "1,2", "OUTPUT": self.folder / "x.tif"},
                  "WINDOW: write")):

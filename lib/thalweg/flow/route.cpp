@@ -10,41 +10,11 @@
 
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/flow/internal/each_downstream.hpp>
 #include <thalweg/flow/internal/priority_flood.hpp>
 
 namespace thalweg::flow {
 namespace {
-
-// Calls visit(cell, receiver) for every cell with a receiver, after all its donors: follows water from each cell
-// without donors as long as all donors have arrived. The directions must stay on the grid and form no cycle. Source:
-// Braun and Willett 2013.
-template <class Visit> void each_downstream(Raster<Direction> const& direction, Run const& run, Visit visit) {
-    constexpr std::uint8_t done = 255;
-    auto const offsets = d8_offsets(direction.grid());
-    Raster<std::uint8_t> awaited_by(direction.grid()); // donors whose water has not arrived yet
-    std::uint8_t* const awaited = awaited_by.values().data();
-    Direction const* const way = direction.values().data();
-    for (std::int64_t i = 0; i < direction.cells(); ++i) {
-        if (goes_on(way[i])) {
-            ++awaited[i + offsets[index_of(way[i])]];
-        }
-    }
-    for (std::int64_t i = 0; i < direction.cells(); ++i) {
-        if (i % cells_between_checks == 0) {
-            run.check();
-        }
-        for (std::int64_t at = i; awaited[at] == 0;) {
-            awaited[at] = done;
-            if (!goes_on(way[at])) {
-                break;
-            }
-            std::int64_t const next = at + offsets[index_of(way[at])];
-            visit(at, next);
-            --awaited[next];
-            at = next;
-        }
-    }
-}
 
 using Sinks = std::vector<std::int64_t>; ///< cells, ascending
 

@@ -517,7 +517,32 @@ std::vector<Basin> basins_of(std::vector<CatchmentRow> const& rows, std::vector<
     return basins;
 }
 
+Raster<std::int32_t> numbered(Raster<std::int32_t> const& rows, std::vector<std::int32_t> const& basin_of_row) {
+    Raster<std::int32_t> basin_number(rows.grid(), none);
+    for (std::int64_t i = 0; i < rows.cells(); ++i) {
+        if (rows[i] >= 0) {
+            basin_number[i] = basin_of_row[static_cast<std::size_t>(rows[i])];
+        }
+    }
+    return basin_number;
+}
+
+/// Columns that are asked by row of a table, from ones that are asked by another number.
+void add_columns(Table& table, std::vector<Column> const& columns,
+                 std::function<std::size_t(std::size_t row)> const& number_of) {
+    for (Column column : columns) {
+        column.at = [at = column.at, number_of](std::size_t row) { return at(number_of(row)); };
+        table.columns.push_back(std::move(column));
+    }
+}
+
 } // namespace
+
+Raster<std::int32_t> basins_by_cell(CatchmentTables const& tables) {
+    std::vector<std::int32_t> basin_of_row;
+    basins_of(tables.rows, basin_of_row);
+    return numbered(tables.number, basin_of_row);
+}
 
 CatchmentCount write_catchments(CatchmentTables const& tables, std::string const& path, Run const& run) {
     Grid const& grid = tables.number.grid();
@@ -535,12 +560,7 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
     }
     std::vector<std::int32_t> basin_of_row;
     auto const basins = basins_of(tables.rows, basin_of_row);
-    Raster<std::int32_t> basin_number(grid, -1);
-    for (std::int64_t i = 0; i < grid.cells(); ++i) {
-        if (tables.number[i] >= 0) {
-            basin_number[i] = basin_of_row[tables.number[i]];
-        }
-    }
+    Raster<std::int32_t> const basin_number = numbered(tables.number, basin_of_row);
     auto const shores = polygonise(basin_number, static_cast<std::int64_t>(basins.size()), run);
     count.catchments = static_cast<std::int64_t>(drawn.size());
     count.basins = static_cast<std::int64_t>(basins.size());
@@ -556,6 +576,7 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
         {"area", Kind::real, 0, [=](std::size_t row) { return area(row_at(row).cells); }},
         {"ds_area", Kind::real, 0, [=](std::size_t row) { return area(row_at(row).upstream_cells); }},
     };
+    add_columns(catchments, tables.columns, [&](std::size_t row) { return drawn[row]; });
     catchments.parts_at = [&](std::size_t row) { return outlines[drawn[row]]; };
     catchments.style = catchment_style(false);
 
@@ -567,6 +588,7 @@ CatchmentCount write_catchments(CatchmentTables const& tables, std::string const
         {"cells", Kind::wide_integer, 0, [=](std::size_t row) { return basin_at(row).cells; }},
         {"area", Kind::real, 0, [=](std::size_t row) { return area(basin_at(row).cells); }},
     };
+    add_columns(whole, tables.basin_columns, [](std::size_t row) { return row; });
     whole.parts_at = [&](std::size_t row) { return shores[row]; };
     whole.style = catchment_style(true);
     write_tables({std::move(catchments), std::move(whole)}, grid.crs, path, run);

@@ -10,6 +10,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/gdal/access.hpp>
+#include <thalweg/io/network/table.hpp>
 
 namespace thalweg::io {
 
@@ -86,7 +87,14 @@ struct CatchmentRow {
 struct CatchmentTables {
     Raster<std::int32_t> const& number; ///< by cell: row of its catchment; below 0: none
     std::vector<CatchmentRow> const& rows;
+    std::vector<Column> columns = {};       ///< further ones of catchments, asked by number
+    std::vector<Column> basin_columns = {}; ///< further ones of basins, asked by place in the order of basin_id
 };
+
+/// Numbers the basins that have cells, as the layer basins does.
+/// \param tables catchments
+/// \return by cell: place in the order of basin_id; -1: none
+Raster<std::int32_t> basins_by_cell(CatchmentTables const& tables);
 
 /// The numbers of features in a file.
 struct CatchmentCount {

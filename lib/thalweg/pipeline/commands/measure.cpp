@@ -3,6 +3,7 @@
 #include <thalweg/pipeline/commands/measure.hpp>
 
 #include <algorithm>
+#include <array>
 #include <cmath>
 #include <cstdint>
 #include <filesystem>
@@ -17,22 +18,42 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
+#include <thalweg/flow/paths.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/io/raster/read_drawable.hpp>
+#include <thalweg/measure/relief/wetness.hpp>
+#include <thalweg/pipeline/commands/internal/measure_rivers.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 namespace {
 
 namespace fs = std::filesystem;
 
-constexpr char const* d8 = "d8";
-constexpr char const* dinf = "dinf";
-constexpr char const* directions = "directions";
-constexpr char const* outlines = "catchments";
+/// A measure, and the files that it writes.
+struct Measure {
+    std::string name;
+    std::vector<std::string> files;
+};
+
+std::vector<Measure> const& measures() {
+    static std::vector<Measure> const all = {
+        {"d8", {"area_d8.tif", "area_d8.qml"}},
+        {"dinf", {"area_dinf.tif", "area_dinf.qml"}},
+        {"directions", {"direction_d8.tif", "direction_dinf.tif"}},
+        {"edge", {"edge.tif"}},
+        {"lengths", {"length_up.tif", "length_down.tif"}},
+        {"hand", {"hand.tif"}},
+        {"twi", {"twi.tif"}},
+        {"orders", {"strahler.tif", "shreve.tif"}},
+        {"chi", {"chi.tif", "ksn.tif"}},
+        {"streams", {"streams.gpkg"}},
+        {"catchments", {"catchments.gpkg"}},
+    };
+    return all;
+}
 
 struct Measured {
     std::string dem;
@@ -53,21 +74,29 @@ Measured source_of(MeasureParams const& params) {
 }
 
 std::set<std::string> wanted_of(MeasureParams const& params, Measured const& source) {
-    std::vector<std::string> const known{d8, dinf, directions, outlines};
+    std::vector<std::string> known;
+    for (Measure const& measure : measures()) {
+        known.push_back(measure.name);
+    }
+    std::set<std::string> wanted;
     for (std::string const& word : params.what) {
-        if (std::find(known.begin(), known.end(), word) == known.end()) {
-            throw BadParameter(fmt::format("pipeline.run_measure: unknown measure '{}'; the measures are {}.{}", word,
-                                           fmt::join(known, ", "), did_you_mean(word, known)));
+        if (word == "all") {
+            wanted.insert(known.begin(), known.end());
+        } else if (std::ranges::find(known, word) == known.end()) {
+            throw BadParameter(fmt::format("pipeline.run_measure: unknown measure '{}'; the measures are {} and all.{}",
+                                           word, fmt::join(known, ", "), did_you_mean(word, known)));
+        } else {
+            wanted.insert(word);
         }
     }
-    std::set<std::string> wanted(params.what.begin(), params.what.end());
+    bool const names_all = std::ranges::find(params.what, "all") != params.what.end();
     if (wanted.empty()) {
-        wanted = {d8, dinf};
-        if (!source.network.empty()) {
-            wanted.insert(outlines);
-        }
+        wanted = {"d8", "dinf", "catchments"};
     }
-    refuse_if<BadInput>(wanted.contains(outlines) && source.network.empty(),
+    if (source.network.empty() && (params.what.empty() || names_all)) {
+        wanted.erase("catchments");
+    }
+    refuse_if<BadInput>(wanted.contains("catchments") && source.network.empty(),
                         "pipeline.run_measure: catchments need rivers: name a network after the DEM");
     return wanted;
 }
@@ -130,15 +159,11 @@ private:
     static std::vector<std::string> there(std::string const& folder, std::set<std::string> const& wanted,
                                           io::Existing existing) {
         std::vector<std::string> names;
-        for (auto const& [measure, name] : {std::pair{d8, "area_d8.tif"},
-                                            {d8, "area_d8.qml"},
-                                            {dinf, "area_dinf.tif"},
-                                            {dinf, "area_dinf.qml"},
-                                            {directions, "direction_d8.tif"},
-                                            {directions, "direction_dinf.tif"},
-                                            {outlines, "catchments.gpkg"}}) {
-            if (wanted.contains(measure) && fs::exists(fs::symlink_status(fs::path(folder) / name))) {
-                names.emplace_back(name);
+        for (Measure const& measure : measures()) {
+            for (std::string const& name : measure.files) {
+                if (wanted.contains(measure.name) && fs::exists(fs::symlink_status(fs::path(folder) / name))) {
+                    names.push_back(name);
+                }
             }
         }
         if (!names.empty() && existing == io::Existing::refuse) {
@@ -154,33 +179,19 @@ private:
     std::vector<std::string> names_;
 };
 
-MeasuredCatchments write_catchments(NetworkFile const& file, flow::FlowField const& drainage, std::string const& path,
-                                    Run const& run) {
-    FileReaches const rivers = reaches_of_file(file, drainage.direction.grid());
-    flow::Catchments const catchments = flow::catchments(rivers.reaches, drainage, run);
-    auto const rows = catchment_rows(rivers.reaches, rivers.basins, catchments);
-    return {io::write_catchments({catchments.reach, rows}, path, run),
-            static_cast<std::int64_t>(rows.size()),
-            rivers.cut,
-            rivers.outside,
-            rivers.nowhere,
-            catchments.without};
-}
-
 /// QML beside a raster of areas.
 std::string style_of_areas(Grid const& grid, double greatest_m2) {
     double const cell_m2 = grid.cell_m * grid.cell_m;
     return io::qml(io::area_style(cell_m2, std::max(cell_m2, greatest_m2)));
 }
 
-std::vector<Finding> findings_on(NetworkFile const& file, MeasuredCatchments const& c) {
-    std::vector<Finding> findings = file.findings;
+std::vector<Finding> findings_on(MeasuredCatchments const& c) {
+    std::vector<Finding> findings;
     auto const find = [&](FindingKind kind, std::int64_t amount, std::string text) {
         if (amount != 0) {
             findings.push_back({.kind = kind, .amount = static_cast<double>(amount), .text = std::move(text)});
         }
     };
-    find("renumbered", file.id_shift, fmt::format("arc_id is the file's and {}", file.id_shift));
     find("arcs_off_dem", c.arcs_cut + c.arcs_outside,
          fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
     find("left_out", c.arcs_nowhere,
@@ -194,55 +205,162 @@ std::vector<Finding> findings_on(NetworkFile const& file, MeasuredCatchments con
 
 } // namespace
 
+namespace {
+
+/// What the measures of a DEM share.
+struct Ground {
+    Raster<float> const& dem;
+    flow::FlowField const& drainage;
+    NetworkFile const* network; ///< null: none
+    std::set<std::string> const& wanted;
+
+    bool wants(char const* measure) const { return wanted.contains(measure); }
+};
+
+void write_areas(Ground const& g, Raster<double> const& areas, char const* of, std::optional<double>& greatest_m2,
+                 Writer& out, Run const& run) {
+    greatest_m2 = greatest(areas);
+    io::write_field(areas, out.path(fmt::format("area_{}.tif", of)), run);
+    io::write_text(out.beside(fmt::format("area_{}.qml", of)), style_of_areas(g.dem.grid(), *greatest_m2));
+}
+
+void write_flow(Ground const& g, MeasureResult& made, Writer& out, Run const& run) {
+    if (g.wants("d8")) {
+        write_areas(g, areas_m2(g.drainage), "d8", made.d8_m2, out, run);
+    }
+    if (g.wants("directions")) {
+        io::write_codes(d8_codes(g.drainage.direction), out.path("direction_d8.tif"), run);
+    }
+    if (g.wants("dinf") || g.wants("directions") || g.wants("twi")) {
+        flow::DinfFlow const parted = flow::route_dinf(g.dem, g.drainage, run);
+        if (g.wants("dinf")) {
+            write_areas(g, areas_m2(parted.area_cells), "dinf", made.dinf_m2, out, run);
+        }
+        if (g.wants("directions")) {
+            io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);
+        }
+        if (g.wants("twi")) {
+            io::write_field(measure::wetness(g.dem, parted.area_cells, {}, run), out.path("twi.tif"), run);
+        }
+    }
+}
+
+void write_edge(Ground const& g, MeasureResult& made, Writer& out, Run const& run) {
+    Raster<std::uint8_t> cut = flow::cut_by_edge(g.drainage);
+    made.edge_cells = std::ranges::count(cut.values(), 1);
+    for (std::int64_t i = 0; i < cut.cells(); ++i) {
+        cut[i] = g.drainage.direction[i] == flow::Direction::no_data ? io::no_code : cut[i];
+    }
+    io::write_codes(cut, out.path("edge.tif"), run);
+}
+
+template <class T, class Known> Raster<double> field_of(Raster<T> const& raster, Known const& is_known) {
+    Raster<double> field(raster.grid(), std::numeric_limits<double>::quiet_NaN());
+    for (std::int64_t i = 0; i < raster.cells(); ++i) {
+        if (is_known(i)) {
+            field[i] = static_cast<double>(raster[i]);
+        }
+    }
+    return field;
+}
+
+void write_lengths(Ground const& g, Writer& out, Run const& run) {
+    auto const has_data = [&](std::int64_t i) { return g.drainage.direction[i] != flow::Direction::no_data; };
+    io::write_field(field_of(flow::flow_lengths(g.drainage, run), has_data), out.path("length_up.tif"), run);
+    io::write_field(flow::lengths_to_outlet(g.drainage, run), out.path("length_down.tif"), run);
+}
+
+void write_orders(Ground const& g, std::int64_t support_cells, Writer& out, Run const& run) {
+    flow::StreamOrders orders = flow::stream_orders(g.drainage, support_cells, run);
+    auto const is_stream = [&](std::int64_t i) { return orders.shreve[i] > 0; };
+    Raster<double> const shreve = field_of(orders.shreve, is_stream);
+    for (std::uint8_t& order : orders.strahler.values()) {
+        order = order == 0 ? io::no_code : order;
+    }
+    io::write_codes(orders.strahler, out.path("strahler.tif"), run);
+    io::write_field(shreve, out.path("shreve.tif"), run);
+}
+
+void write_rivers(Ground const& g, MeasureParams const& params, MeasureResult& made, Writer& out, Run const& run) {
+    MeasuredRiver const rivers = g.network != nullptr ? rivers_of_file(*g.network, g.dem.grid())
+                                                      : rivers_of_dem(g.dem, g.drainage, params.support_cells, run);
+    if (g.wants("hand")) {
+        auto const cells = g.network != nullptr ? flow::river_cells(rivers.reaches, g.dem.grid(), run)
+                                                : flow::cells_with_area(g.drainage, params.support_cells, run);
+        Raster<float> const hand = flow::heights_above_rivers(g.dem, cells, g.drainage, run);
+        io::write_field(field_of(hand, [](std::int64_t) { return true; }), out.path("hand.tif"), run);
+    }
+    if (g.wants("chi") || g.wants("streams")) {
+        RiverMeasures const found = measure_rivers(rivers, g.dem, g.drainage, params, run);
+        if (g.wants("chi")) {
+            io::write_field(raster_of(found.profiles, found.chi, g.dem.grid()), out.path("chi.tif"), run);
+            io::write_field(raster_of(found.profiles, found.k_sn, g.dem.grid()), out.path("ksn.tif"), run);
+        }
+        if (g.wants("streams")) {
+            write_streams(rivers, found, g.dem.grid(), out.path("streams.gpkg"), run);
+        }
+        made.streams = found.counts;
+    }
+    if (g.wants("catchments")) {
+        made.catchments = write_catchments(rivers, g.dem, g.drainage, out.path("catchments.gpkg"), run);
+        append(made.findings, findings_on(*made.catchments));
+    }
+}
+
+/// The arcs of a network in the DEM's CRS. Lines of which nothing tells how they join are joined as by `check --fix`.
+NetworkFile read_arcs(Measured const& source, io::ReadNetworkParams how, Raster<float> const& dem,
+                      std::vector<Finding>& findings, Run const& run) {
+    how.crs = dem.grid().crs;
+    how.any_lines = true;
+    NetworkFile file = io::read_network(source.network, how, run);
+    refuse_if<BadInput>(!file.crs.empty() && dem.grid().crs.empty(),
+                        "pipeline.run_measure: {} has no CRS, {} is in {:.60}: give the DEM its CRS first "
+                        "(gdal_translate -a_srs)",
+                        source.dem, source.network, file.crs);
+    append(findings, file.findings);
+    if (file.id_shift != 0) {
+        findings.push_back({.kind = "renumbered",
+                            .amount = static_cast<double>(file.id_shift),
+                            .text = fmt::format("arc_id is the file's and {}", file.id_shift)});
+    }
+    return file.says.downstream || file.says.ends ? file : joined_lines(file, dem, findings, run);
+}
+
+} // namespace
+
 MeasureResult run_measure(MeasureParams const& params, Run const& run) {
     Measured const source = source_of(params);
     auto const wanted = wanted_of(params, source);
     Writer out(params.output, wanted, params.existing);
-    io::DemFile const read = io::read_dem_file(source.dem, params.reading, run);
+    constexpr std::int64_t any_side = 1000000;
+    io::Drawable const read = io::read_drawable(source.dem, {.most_side = any_side, .reading = params.reading}, run);
     Raster<float> const& dem = read.dem;
-    require_metres(dem.grid(), source.dem, "pipeline.run_measure");
-    NetworkFile network;
-    if (wanted.contains(outlines)) {
-        io::ReadNetworkParams how = params.read;
-        how.crs = dem.grid().crs;
-        network = io::read_network(source.network, how, run);
-        refuse_if<BadInput>(!network.crs.empty() && dem.grid().crs.empty(),
-                            "pipeline.run_measure: {} has no CRS, {} is in {:.60}: give the DEM its CRS first "
-                            "(gdal_translate -a_srs)",
-                            source.dem, source.network, network.crs);
-    }
-
-    flow::FlowField const drainage = flow::route(dem, run);
+    bool const needs_rivers = std::ranges::any_of(std::array{"hand", "chi", "streams", "catchments"},
+                                                  [&](char const* m) { return wanted.contains(m); });
     MeasureResult made;
     made.findings = read.findings;
+    std::optional<NetworkFile> network;
+    if (needs_rivers && !source.network.empty()) {
+        network = read_arcs(source, params.read, dem, made.findings, run);
+    }
+    flow::FlowField const drainage = flow::route(dem, run);
     made.pits = drainage.pits;
     made.cells = std::count_if(drainage.direction.values().begin(), drainage.direction.values().end(),
                                [](flow::Direction way) { return way != flow::Direction::no_data; });
     made.area_m2 = static_cast<double>(made.cells) * dem.grid().cell_m * dem.grid().cell_m;
-    if (wanted.contains(d8)) {
-        Raster<double> const areas = areas_m2(drainage);
-        made.d8_m2 = greatest(areas);
-        io::write_field(areas, out.path("area_d8.tif"), run);
-        io::write_text(out.beside("area_d8.qml"), style_of_areas(dem.grid(), made.d8_m2.value_or(0.0)));
+    Ground const ground{dem, drainage, network ? &*network : nullptr, wanted};
+    write_flow(ground, made, out, run);
+    if (ground.wants("edge")) {
+        write_edge(ground, made, out, run);
     }
-    if (wanted.contains(directions)) {
-        io::write_codes(d8_codes(drainage.direction), out.path("direction_d8.tif"), run);
+    if (ground.wants("lengths")) {
+        write_lengths(ground, out, run);
     }
-    if (wanted.contains(dinf) || wanted.contains(directions)) {
-        flow::DinfFlow const parted = flow::route_dinf(dem, drainage, run);
-        if (wanted.contains(dinf)) {
-            Raster<double> const areas = areas_m2(parted.area_cells);
-            made.dinf_m2 = greatest(areas);
-            io::write_field(areas, out.path("area_dinf.tif"), run);
-            io::write_text(out.beside("area_dinf.qml"), style_of_areas(dem.grid(), made.dinf_m2.value_or(0.0)));
-        }
-        if (wanted.contains(directions)) {
-            io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);
-        }
+    if (ground.wants("orders")) {
+        write_orders(ground, params.support_cells, out, run);
     }
-    if (wanted.contains(outlines)) {
-        made.catchments = write_catchments(network, drainage, out.path("catchments.gpkg"), run);
-        append(made.findings, findings_on(network, *made.catchments));
+    if (needs_rivers) {
+        write_rivers(ground, params, made, out, run);
     }
     made.files = out.commit();
     run.report(made.findings);

@@ -7,7 +7,7 @@
 #include <limits>
 
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/flow/edge.hpp>
+#include <thalweg/flow/paths.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
