@@ -166,8 +166,10 @@ MemberStore::MemberStore(std::string const& folder, Ensemble ensemble, std::vect
     refuse_if<BadInput>(fs::is_symlink(fs::symlink_status(inner_, error)),
                         "pipeline.member_store: {} is a link: put the folder in its place, or name another folder",
                         inner_);
-    bool const is_known = fs::exists(fs::path(folder) / "ensemble.json", error) || fs::is_directory(inner_, error);
-    refuse_if<BadInput>(!is_known && fs::exists(folder, error) && !fs::is_empty(folder, error),
+    // In this order: another first run may begin between the two, and its folder is the first thing in there.
+    bool const has_content = fs::exists(folder, error) && !fs::is_empty(folder, error);
+    bool const is_known = fs::is_directory(inner_, error) || fs::exists(fs::path(folder) / "ensemble.json", error);
+    refuse_if<BadInput>(has_content && !is_known,
                         "pipeline.member_store: {} already exists and holds no ensemble: name another folder", folder);
     if (role == Role::helper) {
         fs::create_directories(inner_, error);
