@@ -111,6 +111,7 @@ Command add_check(CLI::App& app, Session& session) {
         ->type_name("M")
         ->check(CLI::NonNegativeNumber);
     add_main_option(app, options->params.main);
+    app.get_option("--main")->needs(app.get_option("--fix"));
     add_dem_options(app, options->params.reading);
     add_json_option(app, session);
     add_overwrite_option(app, options->params.existing, "Replace existing --fix and --findings files.");

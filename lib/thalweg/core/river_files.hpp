@@ -142,7 +142,8 @@ struct NetworkFile {
         std::vector<Vec3> line = {};                                  ///< [m] directed downstream
         double us_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< NaN: unknown
         double ds_area_m2 = std::numeric_limits<double>::quiet_NaN();
-        double persistence = std::numeric_limits<double>::infinity(); ///< [cells]
+        double own_area_m2 = std::numeric_limits<double>::quiet_NaN(); ///< of its own catchment
+        double persistence = std::numeric_limits<double>::infinity();  ///< [cells]
         std::int64_t feature = 0;      ///< number in its layer, from 1; schema native: the file's value, 0 for none
         std::int64_t record = 0;       ///< of its attributes, from 1; 0 for none
         std::vector<double> size = {}; ///< as RiverLine

@@ -285,6 +285,20 @@ TEST(Convert, DividedRiversOfNhdPlusKeepTheirHydrography) {
     EXPECT_NE(level_paths(place / "length.gpkg", among), level_paths(given, among));
 }
 
+TEST(Convert, AreasOfCatchmentsStayWhereTotalsAreUnknown) {
+    Workplace const place;
+    fs::path const given = fs::path(samples) / "coastal_nhdplus.gpkg";
+    expect_run(place, "convert " + given.string() + " -o coast.gpkg --schema nhdplus", 0);
+    auto const areas = column_of(place / "coast.gpkg", "AreaSqKM");
+    auto const before = column_of(given, "AreaSqKM");
+    std::int64_t kept = 0;
+    for (auto const& [id, area] : areas) {
+        EXPECT_EQ(area, before.at(id)) << id;
+        kept += area > 0.0 ? 1 : 0;
+    }
+    EXPECT_GT(kept, 100);
+}
+
 TEST(Convert, JsonTellsWhatBecameOfIt) {
     Workplace const place;
     place.write("rivers.geojson", lines);

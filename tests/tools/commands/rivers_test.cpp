@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Rivers by branching rules, along strokes, and with relief pasted over them, as the command line makes them.
 #include <cmath>
+#include <map>
 #include <string>
 
 #include <gtest/gtest.h>
@@ -123,6 +124,28 @@ TEST(Rivers, HeightsByTypeOrGradedGoWithLinesOfAFile) {
         EXPECT_EQ(report["recipe"]["network"]["heights"], heights);
         expect_run(place, "replay out --verify", 0);
     }
+}
+
+TEST(Rivers, TheMainStemIsTheOneOfTheName) {
+    Workplace const place;
+    // The brook is longer than the upper part of the river that it joins.
+    auto const drawn = [&](std::string const& brook) {
+        place.write("rivers.geojson",
+                    geojson(test::line("[503000,4001000],[503000,4000100]", R"("name":"Green River")") + "," +
+                            test::line("[502000,4001800],[503000,4001000]", R"("name":"Green River")") + "," +
+                            test::line("[505500,4004500],[503000,4001000]", "\"name\":\"" + brook + "\"")));
+        expect_run(place, "make rivers.geojson -o out --set grid.cell=50 --overwrite -q", 0);
+        auto const file = opened(place / "out/network.gpkg");
+        std::map<int, int> hack;
+        for (auto const& arc : *file->GetLayerByName("arcs")) {
+            if (arc->GetFieldAsInteger("given") == 1) {
+                hack[arc->GetFieldAsInteger("feature")] = arc->GetFieldAsInteger("hack");
+            }
+        }
+        return hack;
+    };
+    EXPECT_EQ(drawn("Long Brook"), (std::map<int, int>{{1, 1}, {2, 1}, {3, 2}}));
+    EXPECT_EQ(drawn("Green River"), (std::map<int, int>{{1, 1}, {2, 2}, {3, 1}})) << "of two, the longer";
 }
 
 TEST(Rivers, EveryWayOfDiffusion) {

@@ -425,7 +425,7 @@ public:
         case sinuosity: return known(straight_m(a) > 0.0, length_m / straight_m(a));
         case us_area: return known(!(us_m2 < 0.0), us_m2);
         case ds_area: return known(!(ds_m2 < 0.0), ds_m2);
-        case own_area: return known(!(us_m2 < 0.0) && !(ds_m2 < 0.0), ds_m2 - us_m2);
+        case own_area: return own_area_of(a);
         case routed_area:
             return divided_.any() ? known(divided_.routed_m2(a) >= 0.0, divided_.routed_m2(a))
                                   : known(!(ds_m2 < 0.0), ds_m2);
@@ -440,6 +440,14 @@ public:
     }
 
 private:
+    Value own_area_of(ArcId a) const {
+        double const us_m2 = tables_.us_area_m2[a];
+        double const ds_m2 = tables_.ds_area_m2[a];
+        if (tables_.own_area_m2 != nullptr && (us_m2 < 0.0 || ds_m2 < 0.0)) {
+            return known((*tables_.own_area_m2)[a] >= 0.0, (*tables_.own_area_m2)[a]);
+        }
+        return known(!(us_m2 < 0.0) && !(ds_m2 < 0.0), ds_m2 - us_m2);
+    }
     static Value known(bool is_known, double value) { return is_known ? Value(value) : Value(); }
     Value id(ArcId a) const { return a == no_arc ? Value() : static_cast<std::int64_t>(a) + schema_.first_id; }
     Value key_of(ArcId a) const { return a == no_arc ? Value() : key_[a]; }

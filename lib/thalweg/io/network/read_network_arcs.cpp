@@ -287,7 +287,8 @@ private:
                     : has(Q::outlet_path) ? number(Q::outlet_path)
                                           : optional(Q::outlet_arc);
         arc.ds_area_m2 = area(feature, Q::ds_area);
-        arc.us_area_m2 = has(Q::us_area) ? area(feature, Q::us_area) : arc.ds_area_m2 - area(feature, Q::own_area);
+        arc.own_area_m2 = area(feature, Q::own_area);
+        arc.us_area_m2 = has(Q::us_area) ? area(feature, Q::us_area) : arc.ds_area_m2 - arc.own_area_m2;
         arc.path = has(Q::path) ? optional(Q::path) : 0;
         if (double const level = real(feature, Q::hack); level > 0.0) {
             arc.level = level;

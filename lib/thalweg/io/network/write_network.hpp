@@ -41,6 +41,8 @@ struct NetworkTables {
     HeightUnit unit = HeightUnit::metre; ///< of heights in the native schema; feet add the column z_unit
     bool heights = true;                 ///< else unknown: shapes are in plan, columns NULL or the schema's word
     std::vector<NodeId> sinks = {};      ///< outlets where water ends inland, ascending: nodes of the kind sink
+    /// By arc: of its own catchment, where the areas at its ends are not known; NaN: unknown. None when null.
+    std::vector<double> const* own_area_m2 = nullptr;
 };
 
 /// Writes PATH (.gpkg is added where it is missing): layers arcs (LineStringZ) and nodes (PointZ), table run, with the

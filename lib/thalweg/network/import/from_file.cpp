@@ -161,6 +161,7 @@ void add_arc(FileArc const& arc, NetworkFile const& file, Nodes const& nodes, Ne
     made.network.arc_z.push_back(std::move(z));
     made.us_area_m2.push_back(arc.us_area_m2);
     made.ds_area_m2.push_back(arc.ds_area_m2);
+    made.own_area_m2.push_back(arc.own_area_m2);
     made.braided.push_back(arc.braided ? 1 : 0);
     made.arc_ids.push_back(arc.id);
     made.records.push_back(arc.record);

@@ -17,6 +17,7 @@ struct FileNetwork {
     ElevatedNetwork network;                     ///< heights are all NaN if the file has none
     std::vector<double> us_area_m2;              ///< by arc; NaN: unknown
     std::vector<double> ds_area_m2;              ///< by arc; NaN: unknown
+    std::vector<double> own_area_m2;             ///< by arc: of its own catchment; NaN: unknown
     std::vector<std::uint8_t> braided;           ///< by arc: 1 or 0
     std::vector<std::int64_t> arc_ids;           ///< by arc: its id in the file
     std::vector<std::int64_t> records;           ///< by arc: of its attributes

@@ -4,6 +4,7 @@
 
 #include <algorithm>
 #include <filesystem>
+#include <limits>
 #include <optional>
 #include <system_error>
 #include <tuple>
@@ -110,6 +111,8 @@ void split(Ready& ready, ConvertParams const& params, ConvertResult& converted, 
     add_pieces(made.pieces, source.us_area_m2, source.ds_area_m2);
     for (network::SplitPiece const& piece : made.pieces) {
         source.braided.push_back(source.braided[piece.of]);
+        source.own_area_m2[piece.of] = std::numeric_limits<double>::quiet_NaN(); // of both together
+        source.own_area_m2.push_back(source.own_area_m2[piece.of]);
         source.records.push_back(source.records[piece.of]);
         source.clues.arcs.push_back(source.clues.arcs[piece.of]);
     }
@@ -283,6 +286,7 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
                   {"heights_from", converted.heights},
                   {"area_from", converted.areas}};
     tables.braided = &ready.source.braided;
+    tables.own_area_m2 = &ready.source.own_area_m2;
     tables.heights = std::string(converted.heights) != "none";
     tables.sinks = sinks_in(plan, file);
     io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};

@@ -11,9 +11,13 @@
 
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/network/order/main_stems.hpp>
 
 /// Tracks the features of which a network's arcs consist, through changes of the arcs.
 namespace thalweg::pipeline {
+
+/// By feature of a river file, as far as any tells something: what tells the main ones of rivers that meet.
+using RiverClues = std::vector<network::StemClues::OfArc>;
 
 /// Records by the vertices of a network which feature drew them: stages join, cut and shorten arcs, but keep vertices
 /// bit for bit.

@@ -40,6 +40,7 @@ struct NetworkStatistics {
 struct RiverFile {
     std::vector<SecondaryLine> secondary; ///< lines that are not in the network
     AttributeTable attributes;            ///< of all lines
+    RiverClues clues;                     ///< of all lines that tell something
     LineSources sources;                  ///< the lines in the network
     StreamNetwork imported;               ///< the network that was made of them, before outlets are carried
     double taken_m = 0.0;                 ///< [m] of the lines from which it was made, copies among them

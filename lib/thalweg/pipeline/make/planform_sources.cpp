@@ -558,6 +558,13 @@ RiverFile file_of(RiverLines const& lines, network::Imported const& imported) {
     RiverFile file;
     file.secondary = lines.secondary;
     file.attributes = lines.attributes;
+    for (RiverLine const& line : lines.lines) {
+        if (!line.name.empty() || !line.size.empty()) {
+            auto const feature = static_cast<std::size_t>(line.feature);
+            file.clues.resize(std::max(file.clues.size(), feature + 1));
+            file.clues[feature] = {.name = line.name, .area_m2 = line.area_m2, .size = line.size};
+        }
+    }
     file.sources = LineSources(imported.network, imported.stretches);
     file.secondary.insert(file.secondary.end(), imported.secondary.begin(), imported.secondary.end());
     file.imported = imported.network;

@@ -52,10 +52,19 @@ Elevated elevated(Plan const& plan, Planform const& planform, Run const& run) {
 
 } // namespace
 
-Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types) {
-    NetworkOrders orders = network::order(network.planform);
+NetworkOrders order_rivers(StreamNetwork const& network, RiverClues const& clues) {
+    network::StemClues of_arcs;
+    for (Arc const& arc : network.arcs()) {
+        auto const feature = static_cast<std::size_t>(arc.feature);
+        of_arcs.arcs.push_back(feature < clues.size() ? clues[feature] : network::StemClues::OfArc{});
+    }
+    return network::order(network, network::main_inflows(network, of_arcs));
+}
+
+Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types, RiverClues clues) {
+    NetworkOrders orders = order_rivers(network.planform, clues);
     network::StreamCounts streams = network::count_streams(network.planform);
-    return {std::move(network), std::move(types), std::move(orders), std::move(streams)};
+    return {std::move(network), std::move(types), std::move(orders), std::move(streams), std::move(clues)};
 }
 
 namespace {

@@ -8,6 +8,7 @@
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/network/elevation/set_heights.hpp>
 #include <thalweg/network/order/order.hpp>
+#include <thalweg/pipeline/make/line_sources.hpp>
 
 namespace thalweg::pipeline {
 
@@ -17,12 +18,17 @@ struct Rivers {
     network::RiverTypes types; ///< by arc; empty where the recipe asks for none
     NetworkOrders orders;
     network::StreamCounts streams;
+    RiverClues clues = {}; ///< of their file
 };
 
 /// \param network rivers with heights
 /// \param types by arc, or empty
+/// \param clues of the file of the rivers; those of main stems: name, class or area, else the longest flow path
 /// \return the rivers with their orders and streams
-Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types);
+Rivers rivers_of(ElevatedNetwork network, network::RiverTypes types, RiverClues clues);
+
+/// Orders rivers whose arcs may come from a file, by its clues.
+NetworkOrders order_rivers(StreamNetwork const& network, RiverClues const& clues);
 
 /// How heights were assigned to rivers.
 struct HeightsStatistics {

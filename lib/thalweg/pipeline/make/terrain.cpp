@@ -341,7 +341,8 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     bool const balanced = in_equilibrium(recipe);
     EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, stage_log, run) : EquilibriumResult{};
     RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, stage_log, run);
-    Rivers rivers = balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types);
+    Rivers rivers =
+        balanced ? std::move(solved.rivers) : rivers_of(std::move(raised.network), planform.types, planform.file.clues);
     Valley valley = balanced ? std::move(solved.valley) : std::move(raised.valley);
     std::vector<Check> checks = std::move(solved.checks);
     stage_log.find(raised.findings);
@@ -505,7 +506,7 @@ Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run)
     Terrain terrain;
     terrain.grid = planform.grid;
     terrain.land = planform.land;
-    terrain.rivers = rivers_of(std::move(raised.network), planform.types);
+    terrain.rivers = rivers_of(std::move(raised.network), planform.types, planform.file.clues);
     terrain.valley = std::move(raised.valley);
     terrain.areas = raised.areas ? std::move(*raised.areas) : flow::areas_nearest(planform.network, planform.grid, run);
     terrain.heights = raised.statistics;

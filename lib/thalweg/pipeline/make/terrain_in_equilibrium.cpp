@@ -548,8 +548,8 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     }
     stage_log.say(fmt::format("{}x{}, in equilibrium with {} cells of rivers", planform.grid.width,
                               planform.grid.height, rivers.channels.cell.size()));
-    result.rivers =
-        rivers_of(network::elevate_from_dem(typed.network, rivers.channels, surface.dem), std::move(typed.types));
+    result.rivers = rivers_of(network::elevate_from_dem(typed.network, rivers.channels, surface.dem),
+                              std::move(typed.types), planform.file.clues);
     result.valley = valley_of(rivers.channels, surface.dem);
     result.channels = std::move(rivers.channels);
     result.dem = std::move(surface.dem);
@@ -584,7 +584,9 @@ WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley
             cells.z[cell] = dem[cell];
         }
     }
-    return {rivers_of(std::move(network), std::move(typed.types)), std::move(cells), {made.grown, made.left_out}};
+    return {rivers_of(std::move(network), std::move(typed.types), std::move(rivers.clues)),
+            std::move(cells),
+            {made.grown, made.left_out}};
 }
 
 } // namespace thalweg::pipeline

@@ -74,7 +74,7 @@ Made rivers_to_be(Plan const& plan, Planform const& planform) {
     for (ArcId a = 0; a < network.arc_count(); ++a) {
         level.arc_z.emplace_back(network.arc(a).line.size(), 0.0);
     }
-    made.terrain.rivers = rivers_of(std::move(level), planform.types);
+    made.terrain.rivers = rivers_of(std::move(level), planform.types, planform.file.clues);
     made.terrain.areas.us_area_m2.assign(network.arc_count(), 0.0);
     made.terrain.areas.ds_area_m2.assign(network.arc_count(), 0.0);
     made.terrain.areas.node_m2.assign(network.node_count(), 0.0);

@@ -29,6 +29,7 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
@@ -94,7 +95,7 @@ void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run)
     std::vector<double> us_area_m2 = t.terrain.areas.us_area_m2;
     std::vector<double> ds_area_m2 = t.terrain.areas.ds_area_m2;
     add_pieces(split.pieces, us_area_m2, ds_area_m2);
-    NetworkOrders const orders = network::order(split.network.planform);
+    NetworkOrders const orders = order_rivers(split.network.planform, t.terrain.rivers.clues);
     std::vector<double> const node_area_m2 = node_areas(split.network.planform, us_area_m2, ds_area_m2);
     auto const user = user_data(t, split.network.planform);
     io::NetworkTables tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.terrain.grid.crs, {}};
