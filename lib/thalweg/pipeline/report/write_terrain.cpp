@@ -29,8 +29,8 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
 #include <thalweg/pipeline/make/internal/file_values.hpp>
-#include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/page.hpp>
