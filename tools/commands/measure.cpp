@@ -48,7 +48,7 @@ ordered_json json_of(pipeline::MeasureResult const& made) {
     if (made.streams) {
         pipeline::MeasuredStreams const& s = *made.streams;
         json["streams"] = {
-            {"arcs", s.arcs}, {"arcs_cut", s.arcs_cut}, {"knickpoints", s.knickpoints}, {"theta", s.theta}};
+            {"arcs", s.arcs}, {"arcs_edge", s.arcs_edge}, {"knickpoints", s.knickpoints}, {"theta", s.theta}};
         if (s.theta_r2) {
             json["streams"]["theta_r2"] = *s.theta_r2;
         }
@@ -101,7 +101,8 @@ Command add_measure(CLI::App& app, Session& session) {
                    "on one line of height against chi.")
         ->type_name("X|fit")
         ->capture_default_str();
-    app.add_option("--window", options->params.steepness.window_m, "Fit ksn by cell over this length [m] of river.")
+    app.add_option("--window", options->params.steepness.window_m,
+                   "Fit ksn by cell over this length [m] of river, at least three cells.")
         ->type_name("X")
         ->capture_default_str();
     app.add_option("--knick-drop", options->params.knickpoint.drop_m,

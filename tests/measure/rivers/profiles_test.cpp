@@ -172,6 +172,48 @@ TEST(RiverProfiles, RiversThatShareAnOutletKeepTheirOwnAreas) {
     EXPECT_EQ(reach[1].chi_down, 0.0);
 }
 
+TEST(RiverProfiles, AReachWithinACellCarriesWhatFlowsIn) {
+    Grid const grid = test::frame(6, 3);
+    Raster<float> dem(grid);
+    for (std::int64_t i = 0; i < grid.cells(); ++i) {
+        dem[i] = static_cast<float>(10 - grid.at(i).col + std::abs(grid.at(i).row - 1));
+    }
+    Vec2 const node = grid.centre({3, 1});
+    Vec2 const below{node.x + 0.1 * grid.cell_m, node.y};
+    flow::Reaches const reaches{
+        {{{grid.centre({0, 1}), node}}, 1, 1}, {{{node, below}}, 2, 2}, {{{below, grid.centre({5, 1})}}, -1, 3}};
+    RiverProfiles const rivers = measure::river_profiles(reaches, dem, flow::route(dem));
+    auto const reach = measure::reach_profiles(rivers, measure::chi_along(rivers, 0.45));
+    EXPECT_EQ(reach[1].cells, 0);
+    EXPECT_EQ(reach[1].area_m2, reach[0].area_m2);
+    EXPECT_EQ(reach[1].z_up_m, reach[0].z_down_m);
+    EXPECT_EQ(reach[1].chi_up, reach[0].chi_down);
+    EXPECT_EQ(reach[1].is_cut, reach[0].is_cut);
+    EXPECT_GT(reach[2].area_m2, reach[1].area_m2);
+}
+
+TEST(RiverProfiles, WhatIsNoTreeIsRefused) {
+    Scene const scene = graded(3, 0.45, 8.0);
+    auto const chi = measure::chi_along(scene.rivers, 0.45);
+    auto const refuses = [&](auto&& spoil) {
+        RiverProfiles spoilt = scene.rivers;
+        spoil(spoilt);
+        EXPECT_THROW(measure::chi_along(spoilt, 0.45), BadInput);
+        EXPECT_THROW(measure::fit_theta(spoilt), BadInput);
+        EXPECT_THROW(measure::steepness_along(spoilt, chi), BadInput);
+        EXPECT_THROW(measure::reach_profiles(spoilt, chi), BadInput);
+        EXPECT_THROW(measure::knickpoints(spoilt, chi), BadInput);
+    };
+    refuses([](RiverProfiles& r) { r.area_m2.resize(3); });
+    refuses([](RiverProfiles& r) { r.receiver[5] = 1000000000; });
+    refuses([](RiverProfiles& r) { r.main_in[5] = 1000000000; });
+    refuses([](RiverProfiles& r) { r.reach[5] = 1000000000; });
+    refuses([](RiverProfiles& r) { r.ds[0] = 1000000000; });
+    std::vector<double> unknown = chi;
+    unknown[3] = std::nan("");
+    EXPECT_THROW(measure::knickpoints(scene.rivers, unknown), BadInput);
+}
+
 TEST(RiverProfiles, AnyDrawnRiversFormATree) {
     ASSERT_TRUE(rc::check("receivers first, all water at the outlets, no rise", [] {
         Grid const grid = test::frame(12, 12);

@@ -195,6 +195,33 @@ TEST(Measure, CatchmentsOfLinesThatNothingJoins) {
     EXPECT_GT(codes.size(), 10U);
 }
 
+TEST(Measure, StreamsAreANetworkThatOthersRead) {
+    Workplace const place;
+    std::string const samples = std::string(THALWEG_SOURCE_DIR) + "/samples/";
+    // Of the DEM; of lines over cells that warping left without data; and of lines that leave the DEM and come back.
+    expect_run(place, "measure " + samples + "jacksboro_utm16.tif --what streams -o dem", 0);
+    std::string const rivers = samples + "jacksboro_rivers.fgb --what streams";
+    expect_run(place, "measure " + samples + "jacksboro_srtm3.tif " + rivers + " -o degrees", 0);
+    place.shell("gdal_translate -q -srcwin 60 60 150 150 " + samples + "jacksboro_utm16.tif part.tif");
+    expect_run(place, "measure part.tif " + rivers + " -o part", 0, "lie outside it");
+    for (std::string const name : {"dem", "degrees", "part"}) {
+        std::string const file = name + "/streams.gpkg";
+        EXPECT_NE(thalweg_run("check " + file, place.path()).code, 2) << name;
+        expect_run(place, "convert " + file + " -o " + name + ".gpkg", 0);
+        auto const made = opened(place / file);
+        for (auto const& arc : *made->GetLayerByName("arcs")) {
+            EXPECT_TRUE(arc->IsFieldNull(arc->GetFieldIndex("sinuosity")) ||
+                        arc->GetFieldAsDouble("sinuosity") >= 1.0 - 1e-9);
+            OGRLineString const& line = *arc->GetGeometryRef()->toLineString();
+            for (auto const& vertex : line) {
+                EXPECT_TRUE(std::isfinite(vertex.getZ()));
+            }
+        }
+    }
+    auto const json = expect_run(place, "measure part.tif --what streams --support 1000000 -o none --json", 0).json();
+    EXPECT_EQ(json["findings"].back()["kind"], "no_rivers");
+}
+
 TEST(Measure, ADemInDegreesIsWarpedAndSaysSo) {
     Workplace const place;
     std::string const samples = std::string(THALWEG_SOURCE_DIR) + "/samples/";
@@ -211,9 +238,9 @@ TEST(Measure, RefusesWhatItCannotMeasure) {
     write_plane(place);
     expect_refused(place, "measure -o out",
                    {"dem.asc --what d9", "dem.asc --what chi --theta 3", "dem.asc --what chi --theta x",
-                    "dem.asc --what orders --support 0", "dem.asc --what chi --window 0",
-                    "dem.asc --what chi --knick-drop -1", "dem.asc --what catchments", "none.tif",
-                    "dem.asc rivers.geojson", "dem.asc rivers.geojson --field arc_id",
+                    "dem.asc --what orders --support 0", "dem.asc --what chi --knick-drop -1",
+                    "dem.asc --what catchments", "none.tif", "dem.asc rivers.geojson",
+                    "dem.asc rivers.geojson --field arc_id",
                     "dem.asc rivers.geojson --field arc_id=line --field ds_arc=next"}); // has no CRS
     expect_run(place, "measure dem.asc -o out --what d8", 0);
     place.write("out/mine.txt", "mine");

@@ -33,7 +33,11 @@ struct Stop {
 std::vector<Stop> walk(flow::Reach const& reach, Grid const& grid) {
     std::vector<Stop> stops;
     double begun_m = 0.0;
-    for (auto const& line : reach.lines) {
+    for (std::size_t part = 0; part < reach.lines.size(); ++part) {
+        std::vector<Vec2> const& line = reach.lines[part];
+        if (part > 0) { // straight on to where it comes back
+            begun_m += distance(reach.lines[part - 1].back(), line.front());
+        }
         std::vector<Cell> const cells = cells_along(line, grid, fmt::format("arc {}", reach.id));
         std::vector<double> way{0.0};
         for (std::size_t i = 1; i < cells.size(); ++i) {
@@ -195,9 +199,34 @@ private:
     RiverProfiles profiles_;
 };
 
+void require_profiles(RiverProfiles const& rivers, char const* who) {
+    std::size_t const cells = rivers.size();
+    bool const is_whole = rivers.receiver.size() == cells && rivers.reach.size() == cells &&
+                          rivers.step_m.size() == cells && rivers.area_m2.size() == cells &&
+                          rivers.z_m.size() == cells && rivers.main_in.size() == cells && rivers.is_cut.size() == cells;
+    refuse_if<BadInput>(!is_whole, "{}: the profiles have values for different numbers of cells; give all of {}", who,
+                        cells);
+    for (std::size_t i = 0; i < cells; ++i) {
+        auto const here = static_cast<std::int64_t>(i);
+        bool const is_tree = rivers.receiver[i] >= no_place && rivers.receiver[i] < here &&
+                             (rivers.main_in[i] == no_place || rivers.main_in[i] > here) &&
+                             rivers.main_in[i] < static_cast<std::int64_t>(cells) && rivers.reach[i] < rivers.ds.size();
+        refuse_if<BadInput>(!is_tree,
+                            "{}: cell {} of the profiles does not belong to their tree; give them as "
+                            "river_profiles returns them",
+                            who, i);
+    }
+    for (flow::ReachId const ds : rivers.ds) {
+        refuse_if<BadInput>(ds < no_place || ds >= std::ssize(rivers.ds), "{}: reach {} does not exist", who, ds);
+    }
+}
+
 void require_chi(RiverProfiles const& rivers, std::vector<double> const& chi, char const* who) {
-    refuse_if<BadInput>(chi.size() != rivers.size(), "{}: {} values of chi for {} cells; give those of these profiles",
-                        who, chi.size(), rivers.size());
+    require_profiles(rivers, who);
+    bool const are_known = std::ranges::all_of(chi, [](double x) { return std::isfinite(x); });
+    refuse_if<BadInput>(chi.size() != rivers.size() || !are_known,
+                        "{}: {} values of chi for {} cells; give one number a cell, as chi_along does", who, chi.size(),
+                        rivers.size());
 }
 
 } // namespace
@@ -211,6 +240,7 @@ RiverProfiles river_profiles(flow::Reaches const& reaches, Raster<float> const& 
 
 std::vector<double> chi_along(RiverProfiles const& rivers, double theta) {
     require_in("measure.chi_along", "theta", theta, Range::between(0.0, 2.0));
+    require_profiles(rivers, "measure.chi_along");
     std::vector<double> chi(rivers.size(), 0.0);
     for (std::size_t i = 0; i < rivers.size(); ++i) {
         if (rivers.receiver[i] >= 0) {
@@ -330,6 +360,37 @@ std::vector<double> steepness_along(RiverProfiles const& rivers, std::vector<dou
     return steepness;
 }
 
+namespace {
+
+/// Reaches without cells of their own, in those of their neighbours, carry what flows into them.
+void pass_through(std::vector<flow::ReachId> const& ds, std::vector<ReachProfile>& profiles) {
+    std::vector<std::int64_t> missing(ds.size(), 0); // inflows that have not been seen
+    for (flow::ReachId const below : ds) {
+        missing[static_cast<std::size_t>(below < 0 ? 0 : below)] += below < 0 ? 0 : 1;
+    }
+    for (std::size_t source = 0; source < ds.size(); ++source) {
+        for (auto a = static_cast<flow::ReachId>(source); a >= 0 && missing[static_cast<std::size_t>(a)] == 0;) {
+            auto const here = static_cast<std::size_t>(a);
+            missing[here] = -1; // done
+            a = ds[here];
+            if (a < 0) {
+                break;
+            }
+            ReachProfile const& from = profiles[here];
+            ReachProfile& to = profiles[static_cast<std::size_t>(a)];
+            if (to.cells == 0) {
+                to.area_m2 += from.area_m2;
+                to.is_cut = to.is_cut || from.is_cut;
+                to.z_up_m = to.z_down_m = from.z_down_m;
+                to.chi_up = to.chi_down = from.chi_down;
+            }
+            --missing[static_cast<std::size_t>(a)];
+        }
+    }
+}
+
+} // namespace
+
 std::vector<ReachProfile> reach_profiles(RiverProfiles const& rivers, std::vector<double> const& chi) {
     require_chi(rivers, chi, "measure.reach_profiles");
     std::vector<ReachProfile> profiles(rivers.ds.size(), ReachProfile{0, 0.0, nan, nan, nan, nan});
@@ -357,6 +418,7 @@ std::vector<ReachProfile> reach_profiles(RiverProfiles const& rivers, std::vecto
     for (std::size_t a = 0; a < profiles.size(); ++a) {
         profiles[a].k_sn = fit_line(points[a]);
     }
+    pass_through(rivers.ds, profiles);
     return profiles;
 }
 

@@ -45,6 +45,7 @@ RiverProfiles river_profiles(flow::Reaches const& reaches, Raster<float> const& 
 /// \param theta [0, 2] concavity index
 /// \return [m] by cell of the profiles; 0 at outlets; each step counts with the area at its upper end
 /// \throws BadParameter when theta is outside its range
+/// \throws BadInput when the profiles are not as river_profiles returns them; likewise the functions below
 ///
 /// Source: \cite perron2013.
 std::vector<double> chi_along(RiverProfiles const& rivers, double theta);
@@ -82,9 +83,9 @@ std::vector<double> steepness_along(RiverProfiles const& rivers, std::vector<dou
 
 /// What the profile of one reach tells.
 struct ReachProfile {
-    std::int64_t cells = 0;        ///< that it owns
-    double area_m2 = 0.0;          ///< [m2] at its last cell, without what other rivers bring to a shared outlet
-    double z_up_m = 0.0;           ///< [m] of its first cell; NaN: it owns none; likewise the others
+    std::int64_t cells = 0; ///< that it owns
+    double area_m2 = 0.0;   ///< [m2] at its last cell, without what other rivers bring to a shared outlet
+    double z_up_m = 0.0; ///< [m] of its first cell, without cells that of its inflow; NaN: neither; likewise the others
     double z_down_m = 0.0;         ///< [m] of the cell into which it flows, or of its last
     double chi_up = 0.0;           ///< [m] at its first cell
     double chi_down = 0.0;         ///< [m] where it ends

@@ -185,21 +185,32 @@ std::string style_of_areas(Grid const& grid, double greatest_m2) {
     return io::qml(io::area_style(cell_m2, std::max(cell_m2, greatest_m2)));
 }
 
+/// Adds a finding of an amount, unless it is 0.
+void add_amount(std::vector<Finding>& findings, FindingKind kind, std::int64_t amount, std::string text) {
+    if (amount != 0) {
+        findings.push_back({.kind = kind, .amount = static_cast<double>(amount), .text = std::move(text)});
+    }
+}
+
+std::vector<Finding> findings_on(MeasuredRiver const& rivers) {
+    std::vector<Finding> findings;
+    add_amount(findings, "arcs_off_dem", rivers.cut + rivers.outside,
+               fmt::format("{} of {} arcs leave the DEM and {} lie outside it", rivers.cut, rivers.reaches.size(),
+                           rivers.outside));
+    add_amount(findings, "left_out", rivers.nowhere,
+               fmt::format("{} arcs have a vertex that is not a number and were left out", rivers.nowhere));
+    add_amount(findings, "cut_below", rivers.unknown,
+               fmt::format("{} arcs name one downstream that the file does not hold, and end there", rivers.unknown));
+    return findings;
+}
+
 std::vector<Finding> findings_on(MeasuredCatchments const& c) {
     std::vector<Finding> findings;
-    auto const find = [&](FindingKind kind, std::int64_t amount, std::string text) {
-        if (amount != 0) {
-            findings.push_back({.kind = kind, .amount = static_cast<double>(amount), .text = std::move(text)});
-        }
-    };
-    find("arcs_off_dem", c.arcs_cut + c.arcs_outside,
-         fmt::format("{} of {} arcs leave the DEM and {} lie outside it", c.arcs_cut, c.arcs, c.arcs_outside));
-    find("left_out", c.arcs_nowhere,
-         fmt::format("{} arcs have a vertex that is not a number and were left out", c.arcs_nowhere));
     std::int64_t const idle = std::max<std::int64_t>(0, c.arcs - c.arcs_outside - c.count.catchments);
-    find("no_catchment", idle, fmt::format("{} arcs have no catchment: other arcs own their cells", idle));
-    find("water_without_river", c.cells_without,
-         fmt::format("water of {} cells leaves the DEM before it meets a river", c.cells_without));
+    add_amount(findings, "no_catchment", idle,
+               fmt::format("{} arcs have no catchment: other arcs own their cells, or these have no data", idle));
+    add_amount(findings, "water_without_river", c.cells_without,
+               fmt::format("water of {} cells leaves the DEM before it meets a river", c.cells_without));
     return findings;
 }
 
@@ -284,6 +295,12 @@ void write_orders(Ground const& g, std::int64_t support_cells, Writer& out, Run 
 void write_rivers(Ground const& g, MeasureParams const& params, MeasureResult& made, Writer& out, Run const& run) {
     MeasuredRiver const rivers = g.network != nullptr ? rivers_of_file(*g.network, g.dem.grid())
                                                       : rivers_of_dem(g.dem, g.drainage, params.support_cells, run);
+    append(made.findings, findings_on(rivers));
+    if (rivers.reaches.empty()) {
+        add_amount(made.findings, "no_rivers", 1,
+                   fmt::format("there are no streams: no two cells drain {} cells or more; choose a smaller support",
+                               params.support_cells));
+    }
     if (g.wants("hand")) {
         auto const cells = g.network != nullptr ? flow::river_cells(rivers.reaches, g.dem.grid(), run)
                                                 : flow::cells_with_area(g.drainage, params.support_cells, run);

@@ -28,7 +28,7 @@ struct MeasureParams {
     io::ReadDemParams reading = {};     ///< how the DEM is read
     std::int64_t support_cells = 200;   ///< [1, ...] contributing area at which streams begin
     std::optional<double> theta = 0.45; ///< [0, 2] concavity index of chi; nothing: fitted
-    measure::SteepnessParams steepness = {};
+    measure::SteepnessParams steepness = {}; ///< of less than three cells: three cells
     measure::KnickpointParams knickpoint = {};
 };
 
@@ -44,8 +44,8 @@ struct MeasuredCatchments {
 
 /// The rivers whose profiles were measured.
 struct MeasuredStreams {
-    std::int64_t arcs = 0;
-    std::int64_t arcs_cut = 0; ///< whose contributing area may reach beyond the data
+    std::int64_t arcs = 0;      ///< that have a part on the DEM
+    std::int64_t arcs_edge = 0; ///< whose contributing area may reach beyond the data
     std::int64_t knickpoints = 0;
     double theta = 0.0;
     std::optional<double> theta_r2; ///< of a fitted theta

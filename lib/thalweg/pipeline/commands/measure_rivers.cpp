@@ -109,20 +109,68 @@ std::vector<Column> relief_columns(std::vector<measure::ZoneRelief> const& relie
     return columns;
 }
 
+/// The line of a reach; a straight line joins parts between which it leaves the grid.
+std::vector<Vec2> line_of(flow::Reach const& reach) {
+    std::vector<Vec2> line;
+    for (std::vector<Vec2> const& part : reach.lines) {
+        for (Vec2 const p : part) {
+            if (line.empty() || !(line.back() == p)) {
+                line.push_back(p);
+            }
+        }
+    }
+    return line;
+}
+
 /// Length over the distance between the ends; NaN for a closed line.
-double sinuosity_of(std::vector<std::vector<Vec2>> const& lines, double length_m) {
-    double const chord_m = lines.empty() ? 0.0 : distance(lines.front().front(), lines.back().back());
-    return chord_m > 0.0 ? length_m / chord_m : std::numeric_limits<double>::quiet_NaN();
+double sinuosity_of(std::vector<Vec2> const& line) {
+    double const chord_m = line.empty() ? 0.0 : distance(line.front(), line.back());
+    return chord_m > 0.0 ? length_of(line) / chord_m : std::numeric_limits<double>::quiet_NaN();
+}
+
+/// A line with the heights of the cells of its vertices; where these have none, on straight lines between the others.
+/// \return nothing where no vertex has a height
+std::vector<Vec3> with_heights(std::vector<Vec2> const& line, Raster<double> const& heights) {
+    std::vector<double> way{0.0};
+    std::vector<std::size_t> known;
+    std::vector<Vec3> raised;
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        way.push_back(way.back() + (i + 1 < line.size() ? distance(line[i], line[i + 1]) : 0.0));
+        raised.push_back({line[i].x, line[i].y, heights[heights.grid().cell_of(line[i])]});
+        if (!std::isnan(raised[i].z)) {
+            known.push_back(i);
+        }
+    }
+    if (known.empty()) {
+        return {};
+    }
+    for (std::size_t i = 0; i < line.size(); ++i) {
+        auto const after = std::ranges::lower_bound(known, i);
+        if (after != known.end() && *after == i) {
+            continue;
+        }
+        std::size_t const right = after == known.end() ? known.back() : *after;
+        std::size_t const left = after == known.begin() ? known.front() : *(after - 1);
+        double const share = way[right] > way[left] ? (way[i] - way[left]) / (way[right] - way[left]) : 0.0;
+        raised[i].z = raised[left].z + std::clamp(share, 0.0, 1.0) * (raised[right].z - raised[left].z);
+    }
+    return raised;
 }
 
 } // namespace
 
 NetworkFile joined_lines(NetworkFile const& file, Raster<float> const& dem, std::vector<Finding>& findings,
                          Run const& run) {
+    refuse_if<BadInput>(file.arcs.empty(), "pipeline.run_measure: the network holds no lines");
     RepairedNetwork const mended = repair_network(file, measure::check_topology(file, {}, run), {.dem = &dem}, run);
     refuse_if<BadInput>(!mended.done, "pipeline.run_measure: the lines make no tree of rivers: {}",
                         mended.mended.empty() ? std::string("thalweg check tells why") : mended.mended.back().text);
     append(findings, mended.doubts);
+    for (Finding const& change : mended.mended) {
+        if (change.kind == FindingKind("secondary") || change.kind == FindingKind("left_out")) {
+            findings.push_back(change);
+        }
+    }
     std::unordered_map<std::int64_t, std::string> names;
     for (NetworkFile::FileArc const& arc : file.arcs) {
         names.try_emplace(arc.feature, arc.name);
@@ -153,8 +201,12 @@ MeasuredRiver rivers_of_file(NetworkFile const& file, Grid const& grid) {
     for (NetworkFile::FileArc const& arc : file.arcs) {
         names.try_emplace(arc.id, arc.name);
     }
+    std::int64_t unknown = 0;
+    for (NetworkFile::FileArc const& arc : file.arcs) {
+        unknown += arc.ds_arc != 0 && !names.contains(arc.ds_arc) ? 1 : 0;
+    }
     MeasuredRiver rivers{
-        std::move(found.reaches), std::move(found.basins), {}, found.cut, found.outside, found.nowhere};
+        std::move(found.reaches), std::move(found.basins), {}, found.cut, found.outside, found.nowhere, unknown};
     for (flow::Reach const& reach : rivers.reaches) {
         rivers.names.push_back(names[reach.id]);
     }
@@ -186,12 +238,14 @@ RiverMeasures measure_rivers(MeasuredRiver const& rivers, Raster<float> const& d
         found.counts.theta_r2 = fitted->r2;
     }
     found.chi = measure::chi_along(found.profiles, found.counts.theta);
-    found.k_sn = measure::steepness_along(found.profiles, found.chi, params.steepness, run);
+    constexpr double least_cells = 3.0; // so that the next cell is within half of it, also a diagonal one
+    measure::SteepnessParams const steepness{std::max(params.steepness.window_m, least_cells * dem.grid().cell_m)};
+    found.k_sn = measure::steepness_along(found.profiles, found.chi, steepness, run);
     found.knickpoints = measure::knickpoints(found.profiles, found.chi, params.knickpoint, run);
     found.counts.knickpoints = std::ssize(found.knickpoints);
-    found.counts.arcs = std::ssize(rivers.reaches);
+    found.counts.arcs = std::ranges::count_if(rivers.reaches, [](flow::Reach const& r) { return !r.lines.empty(); });
     for (measure::ReachProfile const& reach : measure::reach_profiles(found.profiles, found.chi)) {
-        found.counts.arcs_cut += reach.is_cut ? 1 : 0;
+        found.counts.arcs_edge += reach.is_cut ? 1 : 0;
     }
     return found;
 }
@@ -208,29 +262,26 @@ void write_streams(MeasuredRiver const& rivers, RiverMeasures const& measures, G
                    std::string const& path, Run const& run) {
     auto const reaches = measure::reach_profiles(measures.profiles, measures.chi);
     std::vector<double> areas_m2;
-    std::vector<double> lengths_m;
+    std::vector<std::vector<Vec2>> lines;
     for (std::size_t a = 0; a < reaches.size(); ++a) {
         areas_m2.push_back(reaches[a].area_m2);
-        double length_m = 0.0;
-        for (std::vector<Vec2> const& line : rivers.reaches[a].lines) {
-            length_m += length_of(line);
-        }
-        lengths_m.push_back(length_m);
+        lines.push_back(line_of(rivers.reaches[a]));
     }
     network::LinkOrders const orders = network::order_links(down_of(rivers.reaches));
     std::vector<std::string> const codes = codes_of(rivers.reaches, areas_m2);
-    std::vector<std::pair<std::size_t, std::size_t>> rows; // reach and part
-    for (std::size_t a = 0; a < rivers.reaches.size(); ++a) {
-        for (std::size_t part = 0; part < rivers.reaches[a].lines.size(); ++part) {
-            rows.emplace_back(a, part);
-        }
-    }
+    Raster<double> const heights = raster_of(measures.profiles, measures.profiles.z_m, grid);
+    std::vector<std::size_t> rows; // reaches
+    std::vector<std::vector<Vec3>> shapes;
     Ends ends;
-    std::vector<std::pair<std::int64_t, std::int64_t>> nodes; // by row
-    for (auto const& [a, part] : rows) {
-        std::vector<Vec2> const& line = rivers.reaches[a].lines[part];
-        std::int64_t const from = ends.number(line.front());
-        nodes.emplace_back(from, ends.number(line.back()));
+    std::vector<std::int64_t> from(lines.size(), 0); // nodes; 0: left out
+    std::vector<std::int64_t> to(lines.size(), 0);
+    for (std::size_t a = 0; a < lines.size(); ++a) {
+        if (std::vector<Vec3> shape = with_heights(lines[a], heights); !shape.empty()) {
+            rows.push_back(a);
+            shapes.push_back(std::move(shape));
+            from[a] = ends.number(lines[a].front());
+            to[a] = ends.number(lines[a].back());
+        }
     }
     std::vector<std::int64_t> breaks(reaches.size(), 0);
     for (measure::Knickpoint const& k : measures.knickpoints) {
@@ -238,19 +289,22 @@ void write_streams(MeasuredRiver const& rivers, RiverMeasures const& measures, G
     }
     std::vector<Column> columns = {
         whole("arc_id", [&](std::size_t a) { return rivers.reaches[a].id; }),
+        whole("from_node", [&](std::size_t a) { return from[a]; }),
+        whole("to_node", [&](std::size_t a) { return to[a]; }),
         whole("ds_arc",
               [&](std::size_t a) {
                   flow::ReachId const ds = rivers.reaches[a].ds;
-                  return ds < 0 ? 0 : rivers.reaches[static_cast<std::size_t>(ds)].id;
+                  auto const below = static_cast<std::size_t>(ds);
+                  return ds < 0 || from[below] != to[a] ? 0 : rivers.reaches[below].id; // it may lie outside the DEM
               }),
         whole("basin_id", [&](std::size_t a) { return rivers.basins[a]; }),
         whole("strahler", [&](std::size_t a) { return orders.strahler[a]; }),
         whole("shreve", [&](std::size_t a) { return orders.shreve[a]; }),
         text("pfafstetter", codes),
-        real("ds_area", [&](std::size_t a) { return reaches[a].cells > 0 ? reaches[a].area_m2 : std::nan(""); }),
+        real("ds_area", [&](std::size_t a) { return reaches[a].area_m2 > 0.0 ? reaches[a].area_m2 : std::nan(""); }),
         whole("edge", [&](std::size_t a) { return reaches[a].is_cut ? 1 : 0; }),
-        real("length", [&](std::size_t a) { return lengths_m[a]; }),
-        real("sinuosity", [&](std::size_t a) { return sinuosity_of(rivers.reaches[a].lines, lengths_m[a]); }),
+        real("length", [&](std::size_t a) { return length_of(lines[a]); }),
+        real("sinuosity", [&](std::size_t a) { return sinuosity_of(lines[a]); }),
         real("z_up", [&](std::size_t a) { return reaches[a].z_up_m; }),
         real("z_down", [&](std::size_t a) { return reaches[a].z_down_m; }),
         real("chi_up", [&](std::size_t a) { return reaches[a].chi_up; }),
@@ -262,21 +316,11 @@ void write_streams(MeasuredRiver const& rivers, RiverMeasures const& measures, G
     if (std::ranges::any_of(rivers.names, [](std::string const& name) { return !name.empty(); })) {
         columns.push_back(text("name", rivers.names));
     }
-    Raster<double> const heights = raster_of(measures.profiles, measures.profiles.z_m, grid);
-    io::Table arcs{"arcs", io::Table::Shape::partly_line, rows.size(), {}, [&](std::size_t row) {
-                       std::vector<Vec3> line;
-                       for (Vec2 const p : rivers.reaches[rows[row].first].lines[rows[row].second]) {
-                           line.push_back({p.x, p.y, heights[grid.cell_of(p)]});
-                       }
-                       return line;
-                   }};
+    io::Table arcs{"arcs", io::Table::Shape::line, rows.size(), {}, [&](std::size_t row) { return shapes[row]; }};
     for (Column& column : columns) {
-        column.at = [at = column.at, &rows](std::size_t row) { return at(rows[row].first); };
+        column.at = [at = column.at, &rows](std::size_t row) { return at(rows[row]); };
         arcs.columns.push_back(std::move(column));
     }
-    arcs.columns.insert(arcs.columns.begin() + 1,
-                        {whole("from_node", [&](std::size_t row) { return nodes[row].first; }),
-                         whole("to_node", [&](std::size_t row) { return nodes[row].second; })});
     double const widest = areas_m2.empty() ? 0.0 : *std::ranges::max_element(areas_m2);
     int const highest = orders.strahler.empty() ? 1 : *std::ranges::max_element(orders.strahler);
     arcs.style = io::river_style("strahler", highest, {"ds_area", widest});

@@ -25,6 +25,7 @@ struct MeasuredRiver {
     std::int64_t cut = 0;             ///< reaches that leave the grid
     std::int64_t outside = 0;
     std::int64_t nowhere = 0;
+    std::int64_t unknown = 0; ///< arcs that name one downstream which the file does not hold
 };
 
 /// Joins lines to trees and directs them, as `check --fix`: first by the DEM where nothing else tells.
@@ -57,7 +58,7 @@ RiverMeasures measure_rivers(MeasuredRiver const& rivers, Raster<float> const& d
 /// Values of river cells as a raster; NaN elsewhere.
 Raster<double> raster_of(measure::RiverProfiles const& profiles, std::vector<double> const& values, Grid const& grid);
 
-/// Layers arcs (at the heights of the profiles, one row for each part of an arc in the grid) and knickpoints.
+/// Layers arcs (at the heights of the profiles; those without any are left out) and knickpoints.
 void write_streams(MeasuredRiver const& rivers, RiverMeasures const& measures, Grid const& grid,
                    std::string const& path, Run const& run);
 
