@@ -930,7 +930,7 @@ namespace thalweg::python {{
 
 # What the package adds to networks.
 AS_TABLES = [
-    "def to_geodataframe(self, layer: str = 'arcs', *, crs: str | None = None) -> geopandas.GeoDataFrame: ...",
+    "def to_geodataframe(self, layer: str = 'arcs', *, crs: object = None) -> geopandas.GeoDataFrame: ...",
     "def to_networkx(self) -> networkx.DiGraph: ...",
 ]
 STUB_HEAD = """# Written by python/bind/bind.py.

@@ -49,7 +49,7 @@ class Member:
         return f"<Member {self.number} seed={self.seed}{words} {self.status}>"
 
 
-def ensemble(recipe: object = None, members: int | None = None, /, *, seeds: Sequence[int] | None = None,
+def ensemble(recipe: object = None, /, members: int | None = None, *, seeds: Sequence[int] | None = None,
              vary: Mapping[str, object] | None = None, threads: int = 0, progress: _show.Progress = None,
              **keys: Any) -> Iterator[Member]:
     """Make terrains that differ in the seed and in what varies, and yield them as they finish.

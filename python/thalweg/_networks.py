@@ -14,7 +14,7 @@ import numpy as np
 
 from thalweg import _core, flow, io, pipeline
 from thalweg import network as networks
-from thalweg._raster import Raster, to_core
+from thalweg._raster import Raster, crs_text, say, to_core
 from thalweg._show import bad_input, need
 
 if TYPE_CHECKING:
@@ -39,7 +39,7 @@ class Parts(NamedTuple):
 
 
 def parts_of(network: object) -> Parts:
-    """Return the parts of a StreamNetwork, an ElevatedNetwork or a Terrain.
+    """Return the parts of a StreamNetwork, an ElevatedNetwork, ExtractedStreams or a Terrain.
 
     Raises
     ------
@@ -52,33 +52,36 @@ def parts_of(network: object) -> Parts:
         return Parts(network, None, None, None, "")
     if isinstance(network, _core.ElevatedNetwork):
         return Parts(network.planform, network, None, None, "")
+    if isinstance(network, flow.ExtractedStreams):
+        return Parts(network.network.planform, network.network, None, network.areas, "")
     made = getattr(network, "made", None)
     if made is None:
-        raise TypeError(f"takes a StreamNetwork, an ElevatedNetwork or a Terrain, not {type(network).__name__}")
+        raise TypeError(f"takes a StreamNetwork, an ElevatedNetwork, ExtractedStreams or a Terrain, not {type(network).__name__}")
     rivers = made.terrain.rivers
     if not rivers.network.planform.arc_count:
         raise bad_input("Terrain", "the terrain has no rivers: its recipe has no [network]")
     return Parts(rivers.network.planform, rivers.network, rivers.orders, made.terrain.areas, made.terrain.grid.crs)
 
 
-def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain, layer: str = "arcs", *,
-                    crs: str | None = None) -> geopandas.GeoDataFrame:
+def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.ExtractedStreams | Terrain, layer: str = "arcs", *,
+                    crs: object = None) -> geopandas.GeoDataFrame:
     """Return the arcs or nodes of a network as a table.
 
     Parameters
     ----------
-    network : StreamNetwork, ElevatedNetwork or Terrain
+    network : StreamNetwork, ElevatedNetwork, ExtractedStreams or Terrain
         A forest, as all stages return.
     layer : {"arcs", "nodes"}, default "arcs"
         Which of both.
-    crs : str, optional
-        "EPSG:n" or WKT. Left out: that of a terrain, else none.
+    crs : str, int or CRS of pyproj, rasterio, geopandas or GDAL, optional
+        As of a Raster. Left out: that of a terrain, else none.
 
     Returns
     -------
     geopandas.GeoDataFrame
         The columns of this layer of network.gpkg, which `thalweg make` writes (docs/interchange.md), of a terrain also those
-        of the user's river file. Contributing areas are known of a terrain, and else -1. A StreamNetwork has no heights: geometries are in plan, columns of heights missing.
+        of the user's river file. Contributing areas are known of a terrain and of extracted streams, and else -1. A
+        StreamNetwork has no heights: geometries are in plan, columns of heights missing.
 
     Raises
     ------
@@ -94,7 +97,7 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terra
         raise _core.BadParameter(f"layer = {layer!r}: write arcs or nodes")
     parts = parts_of(network)
     net = parts.planform
-    named = parts.crs if crs is None else crs
+    named = parts.crs if crs is None else crs_text(crs)
     flat_z = [np.zeros(len(line)) for line in net.lines]
     elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
     with tempfile.TemporaryDirectory() as folder:
@@ -116,12 +119,12 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | Terra
     return table
 
 
-def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | Terrain) -> networkx.DiGraph:
+def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.ExtractedStreams | Terrain) -> networkx.DiGraph:
     """Return a network as a graph, directed downstream.
 
     Parameters
     ----------
-    network : StreamNetwork, ElevatedNetwork or Terrain
+    network : StreamNetwork, ElevatedNetwork, ExtractedStreams or Terrain
         A forest, as all stages return.
 
     Returns
@@ -196,8 +199,46 @@ def table_file(frame: geopandas.GeoDataFrame | geopandas.GeoSeries, name: str) -
     """Write a table as a GeoPackage of this name, which is deleted with its path."""
     path = temporary_path(f"{name.replace('.', '_')}.gpkg")
     table: Any = frame.to_frame("geometry") if not hasattr(frame, "columns") else frame
-    table.to_file(str(path), driver="GPKG", layer=name.replace(".", "_"))
+    # Names for what GeoPackage adds that no table has: one with columns fid and geom keeps them.
+    _plain(table, name).to_file(str(path), driver="GPKG", layer=name.replace(".", "_"), index=False, FID="thalweg_fid",
+                                GEOMETRY_NAME="thalweg_geometry")
     return path
+
+
+def _plain(table: Any, what: str) -> Any:
+    """The table as a file can hold it: one geometry, names that differ in more than their case, numbers, times and texts."""
+    shape = table.geometry.name
+    columns: dict[str, Any] = {}
+    taken: set[str] = set()
+    for column, values in table.drop(columns=shape).items():
+        if hasattr(values, "geom_type"):
+            say(f"{what}: the second geometry {column} is left out")
+            continue
+        name = str(column)
+        while name.lower() in taken:
+            name += "_2"
+        if name != str(column):
+            say(f"{what}: column {column!r} is read as {name}")
+        taken.add(name.lower())
+        columns[name] = _plain_column(values)
+    plain = table[[shape]].copy()
+    for name, values in columns.items():
+        plain[name] = values
+    return plain
+
+
+def _plain_column(values: Any) -> Any:
+    kind = values.dtype.kind if isinstance(values.dtype, np.dtype) else "V"
+    if kind == "m":
+        return values.dt.total_seconds()
+    if kind in "biufM" or str(values.dtype).startswith(("Int", "UInt", "Float", "boolean", "string", "datetime64")):
+        return values
+    values = values.astype(object)
+    known = values[values.notna()]
+    kinds = {type(one) for one in known}
+    if kinds <= {int} or kinds <= {int, float}:
+        return values.astype(float) if values.isna().any() or float in kinds else values.astype(int)
+    return values.where(values.isna(), values.map(str)) if kinds - {str} else values
 
 
 def is_raster(thing: object) -> bool:

@@ -54,13 +54,13 @@ class Raster(NDArrayOperatorsMixin):
         [m] Outer edge of column 0.
     north : float, optional
         [m] Outer edge of row 0; left out: the southern edge is at 0.
-    crs : str, default ""
-        "EPSG:n" or WKT; "" for none.
+    crs : str, int or CRS of pyproj, rasterio, geopandas or GDAL, optional
+        "EPSG:n", n, WKT, or any object that gives WKT; "" or None for none.
 
     Raises
     ------
     BadInput
-        When values are not a table of real numbers, or the grid has another size.
+        When values are not a table of real numbers, the grid has another size, or crs is no coordinate system.
 
     Examples
     --------
@@ -73,7 +73,7 @@ class Raster(NDArrayOperatorsMixin):
     grid: _core.Grid
 
     def __init__(self, values: npt.ArrayLike, grid: _core.Grid | dict[str, Any] | None = None, *, cell_m: float = 1.0, west: float = 0.0,
-                 north: float | None = None, crs: str = "") -> None:
+                 north: float | None = None, crs: object = "") -> None:
         shown = _unmasked(values, "values").view()
         _require_table(shown, "values")
         shown.flags.writeable = False
@@ -83,7 +83,7 @@ class Raster(NDArrayOperatorsMixin):
         if grid is None:
             if not cell_m > 0.0:
                 raise bad_input("Raster", f"cell_m = {cell_m} is not above 0")
-            grid = _core.Grid(width, height, cell_m, west, height * cell_m if north is None else north, crs)
+            grid = _core.Grid(width, height, cell_m, west, height * cell_m if north is None else north, crs_text(crs))
         elif (grid.width, grid.height) != (width, height):
             raise bad_input("Raster", f"values of {height} rows and {width} columns do not fit a grid of {grid.height} rows "
                                       f"and {grid.width} columns")
@@ -282,11 +282,52 @@ def to_core(thing: object, dtype: npt.DTypeLike, what: str) -> Raster:
     return raster if values is raster.values else Raster(values, raster.grid)
 
 
+def crs_text(crs: object, what: str = "crs") -> str:
+    """Return a coordinate system as the library names it.
+
+    Parameters
+    ----------
+    crs : str, int or CRS of pyproj, rasterio, geopandas or GDAL, optional
+        "EPSG:n", n, WKT, or any object with to_wkt() or ExportToWkt(); "" or None for none.
+    what : str
+        Its name in messages.
+
+    Returns
+    -------
+    str
+        "EPSG:n" where it is one, else WKT; "" for none.
+
+    Raises
+    ------
+    BadInput
+        When a text or number is no coordinate system.
+    TypeError
+        For anything else.
+    """
+    if crs is None:
+        return ""
+    if isinstance(crs, str):
+        return _known_crs(crs)
+    if isinstance(crs, (int, np.integer)) and not isinstance(crs, bool):
+        return _known_crs(f"EPSG:{crs}")
+    for method in ("to_wkt", "ExportToWkt"):
+        if hasattr(crs, method):
+            return _code_of(str(getattr(crs, method)()))
+    raise TypeError(f"{what} is {crs!r}; it must be a text, a number or a CRS of pyproj, rasterio, geopandas or GDAL")
+
+
+@functools.lru_cache(maxsize=64)
+def _known_crs(crs: str) -> str:
+    if crs:
+        io.crs_in_words(crs)
+    return crs
+
+
 def say_unit(crs: str, what: str) -> None:
     """Warn where a raster's coordinates are no metres on the ground: stages take them for metres."""
     unit = _unit_of(crs)
     if unit in ("degrees", "other"):
-        _say(f"{what}: its coordinates are {'degrees' if unit == 'degrees' else 'no metres'}, and stages take them for metres: warp it "
+        say(f"{what}: its coordinates are {'degrees' if unit == 'degrees' else 'no metres'}, and stages take them for metres: warp it "
              "to a projected CRS first", UnitWarning)
 
 
@@ -322,13 +363,13 @@ def _converted(values: Array, target: np.dtype[Any], what: str) -> Array:
     if values.dtype == target and flags.c_contiguous and flags.aligned:
         return values
     if values.dtype.newbyteorder("=") != target:
-        _say(f"{what}: {values.dtype.name} converted to {target.name}")
+        say(f"{what}: {values.dtype.name} converted to {target.name}")
         if target.kind != "f":
             _require_integers(values, target, what)
     elif not values.dtype.isnative:
-        _say(f"{what}: copied, not in native byte order")
+        say(f"{what}: copied, not in native byte order")
     else:
-        _say(f"{what}: copied, not in C order" if not flags.c_contiguous else f"{what}: copied, not aligned")
+        say(f"{what}: copied, not in C order" if not flags.c_contiguous else f"{what}: copied, not aligned")
     with np.errstate(over="ignore"):
         out = values.astype(target, order="C")
     if target.kind == "f" and values.dtype.itemsize > target.itemsize and np.isinf(out).any():
@@ -368,7 +409,7 @@ def _require_table(values: Array, what: str) -> None:
 def _unmasked(values: Any, what: str) -> Array:
     array: Array = np.asarray(values)
     if _is_masked(values):
-        _say(f"{what}: copied, masked cells become NaN")
+        say(f"{what}: copied, masked cells become NaN")
         array = _with_nan(array, values.mask)
     return array
 
@@ -392,7 +433,7 @@ def _restored(values: Array, cell_m: float, west: float, north: float, crs: str)
     return Raster(values, cell_m=cell_m, west=west, north=north, crs=crs)
 
 
-def _say(text: str, kind: type[UserWarning] = ConversionWarning) -> None:
+def say(text: str, kind: type[UserWarning] = ConversionWarning) -> None:
     """Warn at the line outside this package that led here."""
     frame, level = sys._getframe(1), 2
     while frame.f_back is not None and frame.f_globals.get("__name__", "").split(".")[0] == "thalweg":
@@ -438,10 +479,10 @@ def _known(array: xarray.DataArray, target: np.dtype[Any], what: str) -> Array:
     if unknown.any():
         if target.kind != "f":
             raise bad_input(what, f"{what}: cells without data, and {target.name} has no value for them")
-        _say(f"{what}: copied, cells without data become NaN")
+        say(f"{what}: copied, cells without data become NaN")
         values = _with_nan(values, unknown)
     if (scale, offset) != (1.0, 0.0):
-        _say(f"{what}: copied, scale and offset applied")
+        say(f"{what}: copied, scale and offset applied")
         values = (values.astype(np.float64) * scale + offset).astype(target if target.kind == "f" else np.float64)
     return values
 

@@ -332,7 +332,7 @@ class Ensembles(unittest.TestCase):
     SMALL = {"grid": {"width": 64, "height": 48}}
 
     def test_members_are_those_of_make(self):
-        members = {m.number: m for m in thalweg.ensemble(self.SMALL, 3, vary={"surface.mean_slope": (10, 30)}, threads=2)}
+        members = {m.number: m for m in thalweg.ensemble(self.SMALL, members=3, vary={"surface.mean_slope": (10, 30)}, threads=2)}
         self.assertEqual(sorted(members), [0, 1, 2])
         one = members[2]
         self.assertEqual((one.seed, one.status, list(one.keys)), (9, "ok", ["surface.mean_slope"]))

@@ -7,10 +7,12 @@ import subprocess
 import sys
 import tempfile
 import unittest
+import warnings
 
 import geopandas
 import networkx
 import numpy as np
+import pandas
 import shapely.geometry
 
 import thalweg
@@ -66,7 +68,7 @@ class Confluence(unittest.TestCase):
     def test_what_is_no_layer_or_network_is_refused_in_words(self):
         with self.assertRaisesRegex(BadParameter, "layer = 'lakes': write arcs or nodes"):
             planform().to_geodataframe("lakes")
-        with self.assertRaisesRegex(TypeError, "takes a StreamNetwork, an ElevatedNetwork or a Terrain, not dict"):
+        with self.assertRaisesRegex(TypeError, "takes a StreamNetwork, an ElevatedNetwork, ExtractedStreams or a Terrain, not dict"):
             thalweg.to_networkx({})
         two_out = StreamNetwork(NODES, [3, 3], [0, 1], None)
         for take in (two_out.to_networkx, two_out.to_geodataframe):
@@ -111,6 +113,38 @@ class Files(unittest.TestCase):
         self.assertEqual((len(written), list(written.columns)), (len(table), list(table.columns)))
         del path
         self.assertFalse(os.path.exists(name))
+
+    def test_ordinary_tables_are_river_files(self):
+        table = geopandas.GeoDataFrame(geometry=[shapely.geometry.LineString(line) for line in LINES], crs=32631)
+        for columns, read, said in [
+                ({"COMID": [1, 2, 3], "comid": [4, 5, 6]}, {"COMID": [1, 2, 3], "comid_2": [4, 5, 6]}, "'comid' is read as comid_2"),
+                ({"fid": [1, 1, 1]}, {"fid": [1, 1, 1]}, None),
+                ({"fid": ["a", "b", "c"], "geom": ["x", "y", "z"]}, {"fid": ["a", "b", "c"], "geom": ["x", "y", "z"]}, None),
+                ({"kind": pandas.Categorical(["a", "b", "a"]), "order": pandas.Categorical([1, 2, 1])},
+                 {"kind": ["a", "b", "a"], "order": [1, 2, 1]}, None),
+                ({"middle": table.centroid}, {}, "the second geometry middle is left out"),
+                ({"ids": [[1, 2], [3], []]}, {"ids": ["[1, 2]", "[3]", "[]"]}, None),
+                ({"mixed": [1, "a", None]}, {"mixed": ["1", "a", None]}, None),
+                ({"age": pandas.to_timedelta([1, 2, 3], unit="h")}, {"age": [3600.0, 7200.0, 10800.0]}, None),
+                ({"order": pandas.array([1, None, 3], dtype="Int64")}, {"order": [1, None, 3]}, None),
+                ({5: [1, 2, 3]}, {"5": [1, 2, 3]}, None)]:
+            with warnings.catch_warnings(record=True) as caught:
+                warnings.simplefilter("always")
+                path = lines_from(table.assign(**columns) if 5 not in columns else table.join(pandas.DataFrame(columns)))
+            self.assertEqual([str(one.message) for one in caught if issubclass(one.category, thalweg.ConversionWarning)],
+                             [f"rivers: {'column ' if 'read as' in said else ''}{said}"] if said else [])
+            rivers = thalweg.io.read_rivers(path=path)
+            self.assertEqual(len(rivers.lines), 3)
+            self.assertEqual([column.name for column in rivers.attributes.columns], list(read))
+            for number, name in enumerate(read):
+                self.assertEqual([row[number] for row in rivers.attributes.rows], read[name])
+
+    def test_extracted_streams_keep_their_areas(self):
+        dem = thalweg.io.read_dem(pathlib.Path(__file__).parents[2] / "samples/jacksboro_utm16.tif")
+        streams = thalweg.flow.extract_streams(thalweg.flow.route(dem), dem)
+        table = thalweg.to_geodataframe(streams, crs=dem.crs)
+        self.assertEqual(table.ds_area.tolist(), streams.areas.ds_area_m2.tolist())
+        self.assertEqual(len(thalweg.to_networkx(streams).edges), len(table))
 
     def test_values_stand_for_files(self):
         table = geopandas.GeoDataFrame(geometry=[shapely.geometry.LineString(line) for line in LINES], crs=32631)

@@ -12,8 +12,11 @@ import warnings
 import matplotlib
 import matplotlib.pyplot
 import numpy as np
+import pyproj
+import rasterio.crs
 import rioxarray
 import xarray
+from osgeo import osr
 
 import thalweg
 from thalweg import BadInput, ConversionWarning, Grid, Raster
@@ -27,6 +30,26 @@ DEM = SAMPLES / "jacksboro_utm16.tif"
 def slope(width=5, height=4):
     """Heights that differ everywhere."""
     return np.arange(width * height, dtype=np.float32).reshape(height, width)
+
+
+class Systems(unittest.TestCase):
+    def test_any_library_names_a_coordinate_system(self):
+        reference = osr.SpatialReference()
+        reference.ImportFromEPSG(32616)
+        for crs in ("EPSG:32616", 32616, np.int64(32616), pyproj.CRS(32616), rasterio.crs.CRS.from_epsg(32616), reference):
+            self.assertEqual(Raster(slope(), cell_m=30, crs=crs).crs, "EPSG:32616", type(crs))
+        for crs in ("", None):
+            self.assertEqual(Raster(slope(), crs=crs).crs, "")
+        albers = pyproj.CRS("+proj=aea +lat_1=29.5 +lat_2=45.5 +lat_0=37.5 +lon_0=-96 +datum=NAD83 +units=m")
+        self.assertEqual(pyproj.CRS(Raster(slope(), crs=albers).crs), albers)
+
+    def test_what_is_none_is_refused(self):
+        for crs in ("nonsense", 1):
+            with self.assertRaisesRegex(BadInput, "is not a coordinate system"):
+                Raster(slope(), crs=crs)
+        for crs in (3.5, True, ["EPSG:32616"]):
+            with self.assertRaisesRegex(TypeError, "it must be a text, a number or a CRS"):
+                Raster(slope(), crs=crs)
 
 
 class Quiet(unittest.TestCase):
