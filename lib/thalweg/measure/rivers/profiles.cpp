@@ -499,8 +499,8 @@ std::vector<Knickpoint> knickpoints(RiverProfiles const& rivers, std::vector<dou
             Highest const highest = highest_above_hull(line, begin, end);
             if (highest.above_m >= params.drop_m) {
                 breaks.push_back(highest);
-                open.push_back({begin, highest.at});
-                open.push_back({highest.at, end});
+                open.emplace_back(begin, highest.at);
+                open.emplace_back(highest.at, end);
             }
         }
         std::ranges::sort(breaks, {}, &Highest::at);

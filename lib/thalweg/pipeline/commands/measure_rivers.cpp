@@ -97,15 +97,19 @@ Column text(char const* name, std::vector<std::string> const& values) {
 }
 
 std::vector<Column> relief_columns(std::vector<measure::ZoneRelief> const& relief) {
-    std::vector<Column> columns;
     using Relief = measure::ZoneRelief;
-    for (auto const& [name, member] :
-         {std::pair{"z_min", &Relief::z_min_m}, std::pair{"z_mean", &Relief::z_mean_m},
-          std::pair{"z_max", &Relief::z_max_m}, std::pair{"hypsometric", &Relief::hypsometric},
-          std::pair{"melton", &Relief::melton}, std::pair{"slope_deg", &Relief::slope_deg},
-          std::pair{"flow_length", &Relief::flow_length_m}, std::pair{"form_factor", &Relief::form_factor}}) {
+    std::vector<Column> columns;
+    auto const add = [&](char const* name, double Relief::*member) {
         columns.push_back(real(name, [&relief, member](std::size_t i) { return relief[i].*member; }));
-    }
+    };
+    add("z_min", &Relief::z_min_m);
+    add("z_mean", &Relief::z_mean_m);
+    add("z_max", &Relief::z_max_m);
+    add("hypsometric", &Relief::hypsometric);
+    add("melton", &Relief::melton);
+    add("slope_deg", &Relief::slope_deg);
+    add("flow_length", &Relief::flow_length_m);
+    add("form_factor", &Relief::form_factor);
     return columns;
 }
 
