@@ -214,10 +214,6 @@ std::vector<Finding> findings_on(MeasuredCatchments const& c) {
     return findings;
 }
 
-} // namespace
-
-namespace {
-
 /// What the measures of a DEM share.
 struct Ground {
     Raster<float> const& dem;

@@ -248,9 +248,8 @@ RiverMeasures measure_rivers(MeasuredRiver const& rivers, Raster<float> const& d
     found.knickpoints = measure::knickpoints(found.profiles, found.chi, params.knickpoint, run);
     found.counts.knickpoints = std::ssize(found.knickpoints);
     found.counts.arcs = std::ranges::count_if(rivers.reaches, [](flow::Reach const& r) { return !r.lines.empty(); });
-    for (measure::ReachProfile const& reach : measure::reach_profiles(found.profiles, found.chi)) {
-        found.counts.arcs_edge += reach.is_cut ? 1 : 0;
-    }
+    found.reaches = measure::reach_profiles(found.profiles, found.chi);
+    found.counts.arcs_edge = std::ranges::count_if(found.reaches, &measure::ReachProfile::is_cut);
     return found;
 }
 
@@ -264,7 +263,7 @@ Raster<double> raster_of(measure::RiverProfiles const& profiles, std::vector<dou
 
 void write_streams(MeasuredRiver const& rivers, RiverMeasures const& measures, Grid const& grid,
                    std::string const& path, Run const& run) {
-    auto const reaches = measure::reach_profiles(measures.profiles, measures.chi);
+    std::vector<measure::ReachProfile> const& reaches = measures.reaches;
     std::vector<double> areas_m2;
     std::vector<std::vector<Vec2>> lines;
     for (std::size_t a = 0; a < reaches.size(); ++a) {

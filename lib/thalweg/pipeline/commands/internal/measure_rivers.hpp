@@ -45,7 +45,8 @@ MeasuredRiver rivers_of_dem(Raster<float> const& dem, flow::FlowField const& dra
 struct RiverMeasures {
     measure::RiverProfiles profiles;
     std::vector<double> chi;
-    std::vector<double> k_sn; ///< by cell of the profiles
+    std::vector<double> k_sn;                   ///< by cell of the profiles
+    std::vector<measure::ReachProfile> reaches; ///< by reach
     std::vector<measure::Knickpoint> knickpoints;
     MeasuredStreams counts;
 };
