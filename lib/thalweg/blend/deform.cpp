@@ -10,6 +10,7 @@
 #include <thalweg/blend/internal/region.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -19,9 +20,7 @@ using solver::outside_cell;
 
 void check(Raster<float> const& target, Mask const& region, DeformParams const& params) {
     require_in("blend.deform", "scale", params.scale, Range::finite());
-    refuse_if<BadInput>(region.grid() != target.grid(),
-                        "blend.deform: a region of {} x {} cells for a target of {} x {}: they share a grid",
-                        region.width(), region.height(), target.width(), target.height());
+    require_same_grid(region.grid(), target.grid(), "blend.deform: the region and the target", "they share a grid");
 }
 
 // Cells with data in the region; infinite ones are rejected.

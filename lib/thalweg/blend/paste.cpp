@@ -15,6 +15,7 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 
 namespace thalweg::blend {
 namespace {
@@ -224,9 +225,10 @@ Patch place_patch(Raster<float> const& source, Grid const& target, PlacePatchPar
     check(params);
     SourceWindow const window = window_of(source, params);
     bool const has_part = params.part.cells() > 0;
-    refuse_if<BadInput>(has_part && params.part.grid() != target,
-                        "blend.place_patch: a mask of {} x {} cells for a target of {} x {}: they share a grid",
-                        params.part.width(), params.part.height(), target.width, target.height);
+    if (has_part) {
+        require_same_grid(params.part.grid(), target, "blend.place_patch: the mask and the target",
+                          "they share a grid");
+    }
     std::int64_t const wanted = has_part ? count(params.part, run) : 0;
     refuse_if<BadInput>(has_part && wanted == 0, "blend.place_patch: the mask holds no cell of the target");
     Placement const placement(source, window, params);

@@ -14,6 +14,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/internal/condition.hpp>
@@ -383,9 +384,7 @@ Raster<float> carve_depressions(Raster<float> const& dem, Valley const& valley, 
 
 Raster<float> carve(Raster<float> const& dem, Valley const& valley, Raster<float> const& least, Run const& run) {
     check_drainable(dem, valley, run);
-    refuse_if<BadInput>(least.grid() != dem.grid(),
-                        "flow.carve: the least heights have {} x {} cells, the land {} x {}; make both on one grid",
-                        least.width(), least.height(), dem.width(), dem.height());
+    require_same_grid(least.grid(), dem.grid(), "flow.carve: the least heights and the land", "make both on one grid");
     return undrained_cells(dem, valley.z, run).empty() ? dem : carve_depressions(dem, valley, least, run);
 }
 

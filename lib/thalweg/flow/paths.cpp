@@ -8,6 +8,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/flow/internal/each_downstream.hpp>
 
 namespace thalweg::flow {
@@ -41,8 +42,8 @@ Raster<double> lengths_to_outlet(FlowField const& drainage, Run const& run) {
 
 Raster<float> heights_above_rivers(Raster<float> const& dem, std::vector<RiverCell> const& rivers,
                                    FlowField const& drainage, Run const& run) {
-    refuse_if<BadInput>(!(dem.grid() == drainage.grid()),
-                        "flow.heights_above_rivers: the DEM and its drainage have different grids; drain this DEM");
+    require_same_grid(dem.grid(), drainage.grid(), "flow.heights_above_rivers: the DEM and its drainage",
+                      "drain this DEM");
     Raster<std::int32_t> const met = first_met(rivers, drainage, run);
     Raster<float> heights(dem.grid(), std::numeric_limits<float>::quiet_NaN());
     for (std::int64_t i = 0; i < dem.cells(); ++i) {

@@ -12,6 +12,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/flow/route.hpp>
 
 namespace thalweg::flow {
@@ -189,9 +190,7 @@ Raster<double> accumulate(Raster<float> const& bearing, Run const& run) {
 
 DinfFlow route_dinf(Raster<float> const& dem, FlowField const& d8, Run const& run) {
     Grid const& grid = dem.grid();
-    if (d8.direction.grid() != grid) {
-        refuse("the directions are of another grid");
-    }
+    require_same_grid(grid, d8.direction.grid(), "flow.route_dinf: the DEM and its directions", "route this DEM");
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         Direction const way = d8.direction[i];
         bool const any = way == Direction::leaves || goes_on(way);

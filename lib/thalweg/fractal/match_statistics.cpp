@@ -15,6 +15,7 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/fractal/internal/limiter.hpp>
 #include <thalweg/solver/linear/linear.hpp>
 #include <thalweg/solver/spectral/fft.hpp>
@@ -694,12 +695,11 @@ Raster<double> difference_of_means(Raster<float> const& land, Raster<float> cons
 Raster<float> with_fine_forms(Raster<float> const& land, Raster<float> const& fine, double cells, Run const& run) {
     require_in("fractal.with_fine_forms", "window", cells, {0.0, 1000.0, false, true}, "cells");
     auto const finite = [](float z) { return std::isfinite(z); };
-    refuse_if<BadInput>(land.grid() != fine.grid() ||
-                            !std::all_of(land.values().begin(), land.values().end(), finite) ||
+    require_same_grid(land.grid(), fine.grid(), "fractal.with_fine_forms: the DEM and its fine forms",
+                      "give two complete DEMs on one grid");
+    refuse_if<BadInput>(!std::all_of(land.values().begin(), land.values().end(), finite) ||
                             !std::all_of(fine.values().begin(), fine.values().end(), finite),
-                        "fractal.with_fine_forms: DEMs of {} x {} and {} x {} cells, or heights that are not finite: "
-                        "give two complete DEMs on one grid",
-                        land.width(), land.height(), fine.width(), fine.height());
+                        "fractal.with_fine_forms: heights that are not finite; give two complete DEMs");
     Raster<double> const means = difference_of_means(land, fine, cells, run);
     Raster<float> out(land.grid());
     for (std::int64_t i = 0; i < out.cells(); ++i) {

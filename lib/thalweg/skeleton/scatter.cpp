@@ -18,6 +18,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 
 namespace thalweg::skeleton {
 
@@ -401,8 +402,10 @@ void require(Valley const& valley, Mask const& inside, ScatterBetweenParams cons
     require_in(stage, "spacing", p.spacing_cells, Range::at_least(0.0), "cells");
     require_in(stage, "gain", p.gain, Range::at_least(0.0));
     require_in(stage, "farthest", p.farthest_m, Range::at_least(0.0), "m");
-    refuse_if<BadInput>(inside.cells() > 0 && inside.grid() != valley.z.grid(),
-                        "skeleton.scatter_between: the mask has another grid than the valley");
+    if (inside.cells() > 0) {
+        require_same_grid(inside.grid(), valley.z.grid(), "skeleton.scatter_between: the mask and the valley",
+                          "make both on one grid");
+    }
 }
 
 Mask rivers_of(Valley const& valley) {

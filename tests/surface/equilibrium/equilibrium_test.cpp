@@ -634,7 +634,7 @@ TEST(Equilibrium, RefusesWhatCannotBe) {
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.cell[1] = s.rivers.cell[0]; }), "column 4, row 7"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[1] = 2; }), "downstream first"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.rivers.receiver[3] = 0; }), "not a neighbour"));
-    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(test::frame(7, 8, 10.0), 1); }), "another frame"));
+    EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(test::frame(7, 8, 10.0), 1); }), "different grids"));
     EXPECT_TRUE(has(bad_input([](Scene& s) { s.fields.land = Mask(test::frame(8, 8, 10.0), 0); }), "no land"));
     EXPECT_TRUE(has(bad_input([](Scene& s) {
                         s.fields.land = Mask(test::frame(8, 8, 10.0), 1);

@@ -8,6 +8,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/io/files/internal/files.hpp>
 #include <thalweg/io/mesh/internal/las_ply.hpp>
 #include <thalweg/io/mesh/points.hpp>
@@ -150,11 +151,7 @@ std::uint64_t write_points(Skeleton const& skeleton, Mask const& rivers, std::st
                            WritePointsParams const& params, Run const& run) {
     require(params);
     Grid const& grid = skeleton.z.grid();
-    refuse_if<BadInput>(rivers.grid() != grid,
-                        "io.write_points: rivers of {} x {} cells of {} m from ({}, {}), a skeleton of {} x {} cells "
-                        "of {} m from ({}, {}): they must have one frame",
-                        rivers.width(), rivers.height(), rivers.grid().cell_m, rivers.grid().west, rivers.grid().north,
-                        grid.width, grid.height, grid.cell_m, grid.west, grid.north);
+    require_same_grid(rivers.grid(), grid, "io.write_points: the rivers and the skeleton", "make both on one grid");
     return write(Cells{skeleton.z, &rivers, grid.crs, params.every}, path, params.format, run);
 }
 

@@ -13,6 +13,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/measure/drainage/internal/agreement.hpp>
 
 namespace thalweg::measure {
@@ -498,13 +499,16 @@ std::vector<Check> Certificate::checks() const {
 
 Certificate certify(Raster<float> const& dem, flow::FlowField const& drainage, flow::Reaches const& reaches,
                     Claims const& claims, Run const& run) {
-    refuse_if<BadInput>(drainage.direction.grid() != dem.grid(),
-                        "measure.certify: the drainage is not that of this DEM; drain it first");
+    require_same_grid(dem.grid(), drainage.direction.grid(), "measure.certify: the DEM and its drainage",
+                      "drain this DEM");
     refuse_if<BadInput>(!claims.ds_area_m2.empty() && claims.ds_area_m2.size() != reaches.size(),
                         "measure.certify: {} areas for {} reaches", claims.ds_area_m2.size(), reaches.size());
     for (Mask const* const mask : {&claims.still, &claims.drawn, &claims.honoured}) {
-        refuse_if<BadInput>(mask->cells() > 0 && mask->grid() != dem.grid(),
-                            "measure.certify: what stands, is drawn or honoured is not on the DEM's grid");
+        if (mask->cells() > 0) {
+            require_same_grid(mask->grid(), dem.grid(),
+                              "measure.certify: what stands, is drawn or honoured and the DEM",
+                              "make both on one grid");
+        }
     }
     refuse_if<BadInput>(std::cmp_greater(reaches.size(), std::numeric_limits<std::int32_t>::max()),
                         "measure.certify: more than 2^31 reaches");

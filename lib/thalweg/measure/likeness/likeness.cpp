@@ -9,6 +9,7 @@
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {
@@ -254,10 +255,8 @@ Mask compared_cells(Raster<float> const& dem) {
 ComparedTerrains compare_terrains(Raster<float> const& dem, std::vector<Raster<float>> const& terrains,
                                   flow::Reaches const& rivers, Run const& run) {
     for (Raster<float> const& terrain : terrains) {
-        refuse_if<BadInput>(terrain.grid() != dem.grid(),
-                            "measure.compare_terrains: a terrain has {}x{} cells on another grid than the DEM, which "
-                            "has {}x{}",
-                            terrain.width(), terrain.height(), dem.width(), dem.height());
+        require_same_grid(terrain.grid(), dem.grid(), "measure.compare_terrains: a terrain and the DEM",
+                          "make both on one grid");
     }
     Mask const compared = compared_cells(dem);
     RiverCells const near = near_rivers(rivers, dem.grid(), run);

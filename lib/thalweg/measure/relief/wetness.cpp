@@ -10,6 +10,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {
@@ -17,8 +18,7 @@ namespace thalweg::measure {
 Raster<double> wetness(Raster<float> const& dem, Raster<double> const& area_cells, WetnessParams const& params,
                        Run const& run) {
     require_in("measure.wetness", "least_slope", params.least_slope, Range::above(0.0));
-    refuse_if<BadInput>(!(dem.grid() == area_cells.grid()),
-                        "measure.wetness: the DEM and its areas have different grids; route this DEM");
+    require_same_grid(dem.grid(), area_cells.grid(), "measure.wetness: the DEM and its areas", "route this DEM");
     Raster<double> index(dem.grid(), std::numeric_limits<double>::quiet_NaN());
     auto const offsets = d8_offsets(dem.grid());
     parallel_ranges(run, std::max<std::int64_t>(dem.height() - 2, 0), 64, [&](std::int64_t begin, std::int64_t end) {

@@ -9,6 +9,7 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
 
 namespace thalweg::measure {
@@ -47,9 +48,10 @@ void close(ZoneRelief& zone, Sums const& sums, double cell_m) {
 
 std::vector<ZoneRelief> zone_relief(Raster<float> const& dem, Raster<std::int32_t> const& zone, std::int64_t zones,
                                     Raster<double> const& outlet_m, Run const& run) {
-    refuse_if<BadInput>(!(dem.grid() == zone.grid()) || !(dem.grid() == outlet_m.grid()),
-                        "measure.zone_relief: the DEM, its catchments and lengths have different grids; give those of "
-                        "this DEM");
+    for (Grid const& other : {zone.grid(), outlet_m.grid()}) {
+        require_same_grid(dem.grid(), other, "measure.zone_relief: the DEM and its zones or lengths",
+                          "give those of this DEM");
+    }
     auto const values = zone.values();
     refuse_if<BadInput>(std::ranges::any_of(values, [&](std::int32_t z) { return z >= zones; }),
                         "measure.zone_relief: a cell has a number that is not below {}", zones);

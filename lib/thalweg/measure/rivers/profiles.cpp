@@ -15,6 +15,7 @@
 #include <thalweg/core/numbers/sums.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/vec.hpp>
 
@@ -233,8 +234,8 @@ void require_chi(RiverProfiles const& rivers, std::vector<double> const& chi, ch
 
 RiverProfiles river_profiles(flow::Reaches const& reaches, Raster<float> const& dem, flow::FlowField const& drainage,
                              Run const& run) {
-    refuse_if<BadInput>(!(dem.grid() == drainage.grid()),
-                        "measure.river_profiles: the DEM and its drainage have different grids; drain this DEM");
+    require_same_grid(dem.grid(), drainage.grid(), "measure.river_profiles: the DEM and its drainage",
+                      "drain this DEM");
     return Builder(reaches, dem, drainage, run).take();
 }
 

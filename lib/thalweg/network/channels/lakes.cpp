@@ -21,6 +21,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 
 namespace thalweg::network {
 namespace {
@@ -553,8 +554,8 @@ Flooded with_lakes(ChannelsOfArcs const& drawn, Lakes lakes, std::vector<std::in
 } // namespace
 
 Flooded flood_lakes(ChannelsOfArcs const& drawn, Raster<std::int32_t> const& labels, Run const& run) {
-    refuse_if<BadInput>(labels.grid() != drawn.channels.grid,
-                        "network.flood_lakes: the lakes are not on the grid of the channels; draw them on it");
+    require_same_grid(labels.grid(), drawn.channels.grid, "network.flood_lakes: the lakes and the channels",
+                      "draw both on one grid");
     Raster<std::int32_t> kept = kept_apart(labels);
     for (;;) {
         Lakes lakes(drawn, run);

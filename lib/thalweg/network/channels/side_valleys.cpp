@@ -13,6 +13,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
 #include <thalweg/geometry/nearby.hpp>
@@ -387,10 +388,9 @@ std::vector<std::size_t> with_upstream(std::vector<Grown> const& grown, std::vec
 
 void require_one_grid(Channels const& channels, DemFlow const& water) {
     Grid const& grid = water.dem.grid();
-    refuse_if<BadInput>(water.flow.grid() != grid || water.flow.area_cells.grid() != grid || channels.grid != grid,
-                        "network.side_valleys: channels, land and water lie on several grids, the land's of {} x {} "
-                        "cells; drain this land",
-                        grid.width, grid.height);
+    for (Grid const& other : {water.flow.grid(), water.flow.area_cells.grid(), channels.grid}) {
+        require_same_grid(grid, other, "network.side_valleys: the land and its channels or water", "drain this land");
+    }
 }
 
 } // namespace

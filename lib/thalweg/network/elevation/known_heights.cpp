@@ -16,6 +16,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/network/order/internal/require_trees.hpp>
 
 namespace thalweg::network {
@@ -259,8 +260,8 @@ private:
 
 ElevatedNetwork elevate_from_dem(StreamNetwork const& network, Channels const& channels, Raster<float> const& land) {
     require_trees(network, "network.elevate_from_dem");
-    refuse_if<BadInput>(land.grid() != channels.grid, "network.elevate_from_dem: the land is not on the grid of the "
-                                                      "channels; give the land that was made around them");
+    require_same_grid(land.grid(), channels.grid, "network.elevate_from_dem: the land and the channels",
+                      "give the land that was made around them");
     return lower_rises(network, Heights(network, channels, land).filled()).network;
 }
 

@@ -15,6 +15,7 @@
 #include <thalweg/core/numbers/random.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 
 namespace thalweg::surface {
@@ -33,11 +34,10 @@ CellKind kind_of(float z, bool inside) {
 
 solver::GridProblem problem_through(Raster<float> const& z, Mask const& inside, char const* stage, Run const& run) {
     Grid const& grid = z.grid();
-    refuse_if<BadInput>(inside.cells() > 0 && inside.grid() != grid,
-                        "{}: the mask ({} x {} cells of {} m) has another frame than the heights ({} x {} cells of {} "
-                        "m); make both on one grid",
-                        stage, inside.width(), inside.height(), inside.grid().cell_m, grid.width, grid.height,
-                        grid.cell_m);
+    if (inside.cells() > 0) {
+        require_same_grid(inside.grid(), grid, std::string(stage) + ": the mask and the heights",
+                          "make both on one grid");
+    }
     run.check();
     solver::GridProblem problem{Raster<std::uint8_t>(grid), Raster<double>(grid), {}};
     bool any = false;

@@ -12,6 +12,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/surface/dilation/separable.hpp>
 
 namespace thalweg::surface {
@@ -361,8 +362,8 @@ namespace {
 
 /// The same valley at height 0: dilating it gives H(d) alone.
 Valley levelled(Valley const& valley, Raster<float> const& base) {
-    refuse_if<BadInput>(base.grid() != valley.z.grid(),
-                        "surface.dilate_over: the base has another frame than the valley; lay it on the valley's grid");
+    require_same_grid(base.grid(), valley.z.grid(), "surface.dilate_over: the base and the valley",
+                      "lay the base on the valley's grid");
     Valley level = valley;
     for (float& z : level.z.values()) {
         z = std::isnan(z) ? z : 0.0F;

@@ -10,6 +10,7 @@
 
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/surface/equilibrium/internal/steps.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
@@ -97,9 +98,8 @@ void check_land(Channels const& rivers, Mask const& land) {
     if (land.cells() == 0) {
         return;
     }
-    refuse_if<BadInput>(
-        land.grid() != rivers.grid,
-        "surface.equilibrium: the land's mask has another frame than the rivers; make both on one grid");
+    require_same_grid(land.grid(), rivers.grid, "surface.equilibrium: the land's mask and the rivers",
+                      "make both on one grid");
     auto const values = land.values();
     if (std::none_of(values.begin(), values.end(), [](std::uint8_t v) { return v != 0; })) {
         throw BadInput("surface.equilibrium: the mask leaves no land; mark at least the rivers' cells as land");
@@ -117,8 +117,8 @@ void check_field(Grid const& grid, Raster<float> const& field, Mask const& land,
     if (field.cells() == 0) {
         return;
     }
-    refuse_if<BadInput>(field.grid() != grid,
-                        "surface.equilibrium: {} has another frame than the rivers; make both on one grid", name);
+    require_same_grid(field.grid(), grid, fmt::format("surface.equilibrium: {} and the rivers", name),
+                      "make both on one grid");
     for (std::int64_t i = 0; i < field.cells(); ++i) {
         bool const dry = land.cells() == 0 || land[i] != 0;
         if (dry && !(field[i] > 0.0F && std::isfinite(field[i]))) {
