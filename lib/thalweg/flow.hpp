@@ -7,5 +7,6 @@
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/flow/direction.hpp>
 #include <thalweg/flow/extract_streams.hpp>
+#include <thalweg/flow/given_directions.hpp>
 #include <thalweg/flow/paths.hpp>
 #include <thalweg/flow/route.hpp>

@@ -12,8 +12,10 @@
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/slope_area.hpp>
+#include <thalweg/measure/relief/slope_aspect.hpp>
 #include <thalweg/measure/relief/slopes.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/measure/relief/swath.hpp>
 #include <thalweg/measure/relief/wetness.hpp>
 #include <thalweg/measure/relief/zones.hpp>
 #include <thalweg/measure/rivers/profiles.hpp>

@@ -25,6 +25,7 @@
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/order/pfafstetter.hpp>
+#include <thalweg/network/order/select.hpp>
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/planform/rotate.hpp>

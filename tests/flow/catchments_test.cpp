@@ -262,7 +262,7 @@ TEST(AreasNearest, SmallRivers) {
     EXPECT_EQ(areas.us_area_m2, (Numbers{5, 4, 18}));
     EXPECT_EQ(areas.ds_area_m2, (Numbers{9, 6, 25}));
     EXPECT_EQ(areas.node_m2, (Numbers{5, 4, 18, 25}));
-    EXPECT_STREQ(areas.source, "nearest");
+    EXPECT_EQ(areas.source, "nearest");
     grid.cell_m = 10.0;
     grid.north = 50.0;
     NetworkDraft wide = small_network().draft();
@@ -316,7 +316,7 @@ TEST(AreasD8, SmallRiversInTheirValley) {
     EXPECT_EQ(areas.ds_area_m2, (Numbers{at(2, 1), at(1, 2), at(2, 4)}));
     EXPECT_EQ(areas.node_m2, (Numbers{at(2, 0), at(0, 2), 16.0, at(2, 4)}));
     EXPECT_EQ(areas.node_m2.back(), 25.0);
-    EXPECT_STREQ(areas.source, "d8");
+    EXPECT_EQ(areas.source, "d8");
 }
 
 TEST(AreasD8, ArcInsideOneCellAndNodesOffTheGrid) {

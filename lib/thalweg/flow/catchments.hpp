@@ -4,6 +4,7 @@
 
 #include <cstddef>
 #include <cstdint>
+#include <string>
 #include <vector>
 
 #include <thalweg/core/raster.hpp>
@@ -57,7 +58,7 @@ struct ContributingAreas {
     std::vector<double> us_area_m2; ///< by arc, at its upstream end
     std::vector<double> ds_area_m2; ///< by arc, at its downstream end (just above a confluence)
     std::vector<double> node_m2;    ///< by node
-    char const* source = "nearest"; ///< method: "nearest" or "d8"
+    std::string source = "nearest"; ///< method: "nearest" or "d8"
 };
 
 /// Estimates contributing areas without a DEM: each cell drains to the network cell nearest by city-block distance

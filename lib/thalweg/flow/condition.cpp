@@ -13,6 +13,7 @@
 
 #include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/flow/internal/condition.hpp>
 
 namespace thalweg::flow {
@@ -20,9 +21,7 @@ namespace thalweg::flow {
 void check_drainable(Raster<float> const& dem, Valley const& valley, Run const& run) {
     Grid const& grid = dem.grid();
     refuse_if<BadInput>(grid.cells() == 0, "flow.condition: the land has no cells");
-    refuse_if<BadInput>(valley.z.grid() != grid,
-                        "flow.condition: the valley has {} x {} cells, the land {} x {}; make both on one grid",
-                        valley.z.width(), valley.z.height(), grid.width, grid.height);
+    require_same_grid(valley.z.grid(), grid, "flow.condition: the valley and the land", "make both on one grid");
     std::atomic<bool> all_fit = true;
     parallel_ranges(run, grid.cells(), cells_between_checks, [&](std::int64_t begin, std::int64_t end) {
         float const* const land = dem.values().data();
@@ -134,9 +133,7 @@ Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBank
     refuse_if<BadParameter>(!(params.margin_m >= 0.0 && params.margin_m < 1e6),
                             "flow.confine_channels: margin {} m; give one from 0", params.margin_m);
     Grid const& grid = dem.grid();
-    refuse_if<BadInput>(valley.z.grid() != grid,
-                        "flow.confine_channels: the valley has {} x {} cells, the land {} x {}; make both on one grid",
-                        valley.z.width(), valley.z.height(), grid.width, grid.height);
+    require_same_grid(valley.z.grid(), grid, "flow.confine_channels: the valley and the land", "make both on one grid");
     Banks banks{dem, Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
     each_bank(Banked::all, dem, valley.z, params.margin_m, run, [&](CellIndex i, float least) {
         if (!(banks.least[i] >= least)) {
@@ -148,6 +145,8 @@ Banks confine_channels(Raster<float> const& dem, Valley const& valley, RaiseBank
 }
 
 DemChange change_between(Raster<float> const& before, Raster<float> const& after) {
+    require_same_grid(before.grid(), after.grid(), "flow.change_between: the DEMs before and after",
+                      "resample one to the cells of the other");
     DemChange change;
     double const cell_m2 = before.grid().cell_m * before.grid().cell_m;
     for (std::int64_t r = 0; r < before.height(); ++r) {
@@ -236,6 +235,25 @@ ConditionedDem condition(Raster<float> dem, Valley const& valley, ConditionParam
     }
     out.depressions = change_between(dem, out.dem);
     return out;
+}
+
+namespace {
+
+Valley no_rivers(Grid const& grid) {
+    return {Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
+}
+
+} // namespace
+
+Raster<float> fill_depressions(Raster<float> const& dem, FillDepressionsParams const& params, Run const& run) {
+    Valley const none = no_rivers(dem.grid());
+    check_drainable(dem, none, run);
+    return flooded(dem, none.z, params.level ? Lakes::level : Lakes::slope, run);
+}
+
+Raster<float> breach_depressions(Raster<float> const& dem, Run const& run) {
+    Valley const none = no_rivers(dem.grid());
+    return carve(dem, none, none.z, run);
 }
 
 } // namespace thalweg::flow

@@ -10,7 +10,9 @@
 #include <numeric>
 #include <utility>
 
+#include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/refuse.hpp>
+#include <thalweg/core/same_grid.hpp>
 
 namespace thalweg::flow {
 namespace {
@@ -62,23 +64,30 @@ void add_outlet_areas(StreamNetwork const& plan, ContributingAreas& areas) {
 
 } // namespace
 
+std::int64_t support_for_area(FlowField const& drainage, double area_km2) {
+    require_in("flow.support_for_area", "area_km2", area_km2, Range::above(0.0), "km2");
+    double const cell_km2 = drainage.grid().cell_m * drainage.grid().cell_m * 1e-6;
+    double const cells = std::ceil(area_km2 / cell_km2 * (1.0 - 1e-12)); // 1 km2 of cells of 10 m is 10000, not 10001
+    return std::max<std::int64_t>(static_cast<std::int64_t>(std::min(cells, 0x1p62)), 1);
+}
+
 ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const& dem,
                                  ExtractStreamsParams const& params, Run const& run) {
     Grid const& grid = drainage.area_cells.grid();
+    std::int64_t const support =
+        params.support_km2 ? support_for_area(drainage, *params.support_km2) : params.support_cells;
     refuse_if<BadParameter>(params.support_cells < 1,
                             "flow.extract_streams: the support is {} cells; it must be at least 1",
                             params.support_cells);
-    refuse_if<BadInput>(
-        grid.width != dem.width() || grid.height != dem.height(),
-        "flow.extract_streams: a DEM of {} x {} cells and the drainage of {} x {}; drain the DEM itself", dem.width(),
-        dem.height(), grid.width, grid.height);
+    require_same_grid(dem.grid(), grid, "flow.extract_streams: the DEM and its drainage", "drain this DEM");
     ExtractedStreams streams;
     NetworkDraft plan;
     streams.areas.source = "d8";
+    streams.crs = grid.crs;
     double const cell_m2 = grid.cell_m * grid.cell_m;
     auto const area_m2 = [&](std::int64_t cell) { return static_cast<double>(drainage.area_cells[cell]) * cell_m2; };
 
-    auto const cells = node_cells(drainage, params.support_cells, run);
+    auto const cells = node_cells(drainage, support, run);
     for (std::int64_t const cell : cells) {
         plan.add_node(grid.centre(grid.at(cell)));
         streams.network.node_z.push_back(dem[cell]);

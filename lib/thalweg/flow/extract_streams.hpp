@@ -3,6 +3,8 @@
 #pragma once
 
 #include <cstdint>
+#include <optional>
+#include <string>
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
@@ -15,20 +17,29 @@ namespace thalweg::flow {
 struct ExtractedStreams {
     ElevatedNetwork network; ///< along cell centres, at the DEM's heights: they may rise in a pit
     ContributingAreas areas;
+    std::string crs; ///< of the DEM; "" for none
 };
 
 /// Options of extract_streams().
 struct ExtractStreamsParams {
-    std::int64_t support_cells = 200; ///< [1, ...] contributing area at which streams begin
+    std::int64_t support_cells = 200;       ///< [1, ...] contributing area at which streams begin
+    std::optional<double> support_km2 = {}; ///< [km2] > 0, the same area, in place of support_cells
 };
 
-/// Extracts the network of cells whose D8 contributing area is at least support_cells.
+/// Finds the support for an area.
+/// \param drainage flow field of the DEM
+/// \param area_km2 [km2] > 0
+/// \return [cells] the smallest support that is at least this large
+/// \throws BadParameter when area_km2 is not a number above 0
+std::int64_t support_for_area(FlowField const& drainage, double area_km2);
+
+/// Extracts the network of cells whose D8 contributing area is at least the support.
 /// \param drainage flow field of the DEM
 /// \param dem [m] by cell; NaN: no data
 /// \return nodes where streams begin, meet or leave the DEM, numbered by cell; arcs, numbered by the node they leave;
 /// areas as areas_d8. A stream of one cell is omitted. Arcs meet only at nodes, except in flats, where two may cross at
 /// a corner of cells.
-/// \throws BadParameter when support_cells is below 1
+/// \throws BadParameter when support_cells is below 1 or support_km2 not above 0
 /// \throws BadInput when DEM and flow field differ in grid
 ///
 /// Source: \cite ocallaghan1984.

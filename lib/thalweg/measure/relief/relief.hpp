@@ -102,7 +102,7 @@ struct ReferenceDem {
     std::string_view file; ///< in samples/, with its source in PROVENANCE.md
     std::string_view source;
     double cell_m = 0.0;
-    std::array<double, relief_metric_count> figures{}; ///< in the order of relief_metrics
+    std::array<double, relief_metric_count> figures{}; ///< [unit of each] in the order of relief_metrics
     std::array<double, slope_share_count> slopes{};    ///< [0, 1] shares of classes of 2 degrees
     std::array<double, form_count> forms{};            ///< [0, 1] shares of geomorphons
     std::span<AreaBin const> slope_area;
@@ -118,8 +118,8 @@ std::array<double, form_count> mean_forms();
 
 /// The plausible range of a metric, around the reference DEMs.
 struct ReliefRange {
-    double low = 0.0;
-    double high = 0.0;
+    double low = 0.0;  ///< [unit of the metric]
+    double high = 0.0; ///< [unit of the metric]
 };
 
 /// Computes the plausible range of a metric.
@@ -130,9 +130,9 @@ ReliefRange relief_range(std::size_t figure);
 
 /// The published natural range of a law's metric.
 struct NaturalRange {
-    std::string_view law; ///< its key in report.json
-    double low = 0.0;
-    double high = 0.0;
+    std::string_view law;    ///< its key in report.json
+    double low = 0.0;        ///< [unit of the law]
+    double high = 0.0;       ///< [unit of the law]
     std::string_view source; ///< author, year, what was measured
 };
 
