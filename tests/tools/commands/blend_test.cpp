@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <cmath>
+#include <filesystem>
 #include <limits>
 #include <string>
 
@@ -62,6 +63,17 @@ nlohmann::json blend(Workplace const& place, std::string const& arguments) {
 }
 
 } // namespace
+
+TEST(Blend, WritesGeoTiffsOfNoOtherName) {
+    Workplace const place;
+    write_lands(place);
+    for (char const* const name : {"out.png", "out.asc", "out.npy"}) {
+        Outcome const run = expect_run(place, std::string("blend target.tif source.tif -o ") + name, 2);
+        EXPECT_TRUE(test::has(run.err, "a GeoTIFF is written, whose name ends in .tif")) << run.err;
+        EXPECT_FALSE(std::filesystem::exists(place / std::string(name)));
+    }
+    expect_run(place, "blend target.tif source.tif -o OUT.TIF", 0);
+}
 
 TEST(Blend, LiesWhereItsOwnCoordinatesSay) {
     Workplace const place;

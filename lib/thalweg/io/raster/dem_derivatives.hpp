@@ -49,7 +49,7 @@ void write_contours(std::vector<ContourLine> const& lines, double interval_m, st
 
 /// Writes contours with heights in a unit; for feet there is an additional column z_unit.
 /// \param lines contours
-/// \param interval > 0, interval between contours, in the unit
+/// \param interval [unit] > 0, interval between contours
 /// \param crs "EPSG:n" or WKT; "": none
 /// \param path of the file
 /// \param unit of heights

@@ -32,8 +32,8 @@ enum class HeightEncoding : std::uint8_t {
 
 /// Options of read_dem().
 struct ReadDemParams {
-    /// A stored value that is no-data, besides those that the file declares; NaN: none. If set, undeclared no-data is
-    /// not searched.
+    /// [as stored] A value that is no-data, besides those that the file declares; NaN: none. If set, undeclared no-data
+    /// is not searched.
     std::optional<double> nodata = {};
     CellValues values = CellValues::heights;
     /// The band or variable with the heights, by number from 1 or by name; "": the only one, or the only one whose name
@@ -119,11 +119,17 @@ Grid grid_around(Raster<float> const& dem, Grid const& lattice, std::string cons
 /// \throws BadInput naming both when only one of them has a CRS; when the DEM cannot be warped
 Raster<float> resample(Raster<float> const& dem, Grid const& grid, std::string const& what, Run const& run = {});
 
+/// Checks the name of a GeoTIFF that is to be written.
+/// \param path ends in .tif or .tiff, or has no ending
+/// \throws BadParameter for another ending
+void require_geotiff_name(std::string const& path);
+
 /// Writes heights as a new cloud-optimised GeoTIFF: Float32, tiles of 512, DEFLATE with the floating-point predictor,
 /// nodata -9999 for NaN, overviews by mean. The same bytes for the same raster and any number of threads.
 /// \param dem [m] by cell; NaN: no data
 /// \param path of the file
 /// \throws BadInput for an infinite height or one of -9999 m, or when grid.crs is not a CRS
+/// \throws BadParameter as require_geotiff_name
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run = {});
 
 /// Writes heights that are already in a unit, which the band names: "m" or "ft".

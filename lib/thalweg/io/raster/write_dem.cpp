@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <algorithm>
+#include <cctype>
 #include <cmath>
 #include <filesystem>
 #include <optional>
@@ -10,6 +11,7 @@
 #include <gdal_priv.h>
 
 #include <thalweg/core/run/error.hpp>
+#include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/gdal/driver.hpp>
 #include <thalweg/io/gdal/internal/dataset.hpp>
@@ -20,6 +22,7 @@ namespace thalweg::io {
 namespace {
 
 void require_new(std::string const& path, std::string const& what) {
+    require_geotiff_name(path);
     if (std::error_code ignored; std::filesystem::exists(path, ignored)) {
         throw IoError(what + " exists already");
     }
@@ -77,6 +80,16 @@ void write_tiled(Raster<T> const& raster, GDALDataType type, std::optional<doubl
 }
 
 } // namespace
+
+void require_geotiff_name(std::string const& path) {
+    std::string ending = std::filesystem::path(path).extension().string();
+    std::ranges::transform(ending, ending.begin(), [](unsigned char c) { return std::tolower(c); });
+    refuse_if<BadParameter>(
+        !ending.empty() && ending != ".tif" && ending != ".tiff",
+        "io.write_dem: {}: a GeoTIFF is written, whose name ends in .tif, not {}; other formats come "
+        "from gdal_translate, heightmaps of 16 bits from thalweg export",
+        path, ending);
+}
 
 void write_dem(Raster<float> const& dem, std::string const& path, Run const& run) {
     write_dem(dem, path, HeightUnit::metre, run);

@@ -52,6 +52,7 @@ BlendedDem blend_dems(BlendParams const& params, Run const& run) {
         "pipeline.run_blend: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
         "by gdal_edit.py -a_srs");
     BlendIntoParams const& patch = params.patch;
+    io::require_geotiff_name(params.output);
     io::OutputFile file(params.output, params.existing);
     io::DemFile const read = io::read_dem_file(patch.target, patch.reading, run);
     Raster<float> const& target = read.dem;

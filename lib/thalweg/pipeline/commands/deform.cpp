@@ -30,6 +30,7 @@ DeformedDem deform_dem(DeformParams const& params, Run const& run) {
         !params.source_crs.empty(),
         "pipeline.run_deform: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
         "by gdal_edit.py -a_srs");
+    io::require_geotiff_name(params.output);
     io::OutputFile file(params.output, params.existing);
     refuse_if<BadParameter>(params.scale == 1.0 && params.handles.empty(),
                             "pipeline.run_deform: nothing to do: give a scale or heights to pull to");
