@@ -3,8 +3,10 @@
 #include <thalweg/pipeline/make/given.hpp>
 
 #include <algorithm>
+#include <iterator>
 #include <numeric>
 #include <string>
+#include <string_view>
 #include <utility>
 #include <vector>
 
@@ -173,6 +175,26 @@ TEST(GivenAreas, OfWalkerCreekAreTheTerrains) {
     EXPECT_GE(t.assessment.given_areas->arcs, 50);
     EXPECT_GE(t.assessment.given_areas->within_factor_2, 0.9);
     EXPECT_NEAR(t.assessment.given_areas->median, 1.0, 0.15);
+}
+
+// 123 km of rivers on 5 x 5 or 7 x 7 cells passed every check in silence.
+TEST(GivenLength, CellsTooLargeForTheRiversAreSaid) {
+    auto const said = [](std::string const& grid) {
+        Made const t = test::made(grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"walker_nhdplus.gpkg\"\n[surface]\n",
+                                  THALWEG_SOURCE_DIR "/samples");
+        std::vector<Finding> found;
+        std::ranges::copy_if(t.assessment.findings, std::back_inserter(found),
+                             [](Finding const& f) { return f.kind.row().kind == std::string_view("crowded_rivers"); });
+        return found;
+    };
+    for (std::string const grid : {"[grid]\ncell = 10000\n", "[grid]\nwidth = 5\nheight = 5\n"}) {
+        std::vector<Finding> const found = said(grid);
+        ASSERT_EQ(found.size(), 1U) << grid;
+        EXPECT_GT(found[0].amount, 0.6);
+        EXPECT_TRUE(test::has(found[0].text, "of the 51 arcs have no cell of their own: cells of ", "000 m are too large"));
+        EXPECT_TRUE(test::has(found[0].remedy, "--set grid.cell="));
+    }
+    EXPECT_TRUE(said("[grid]\ncell = 300\n").empty());
 }
 
 TEST(GivenLength, BendsAreNoLength) {

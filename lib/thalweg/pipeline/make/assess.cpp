@@ -6,6 +6,8 @@
 #include <functional>
 #include <iterator>
 #include <limits>
+#include <numeric>
+#include <vector>
 
 #include <fmt/format.h>
 
@@ -142,6 +144,43 @@ measure::TopologyReport topology_of(Terrain const& terrain, StageLog& stage_log,
     });
 }
 
+/// A number rounded down to one digit.
+double one_digit(double number) {
+    double const power = std::pow(10.0, std::floor(std::log10(number)));
+    return std::floor(number / power) * power;
+}
+
+/// Warns where the cells are so large that many arcs have none of their own: such terrain is a few blocks, whatever its
+/// checks say.
+void warn_of_coarse_cells(Terrain const& terrain, StageLog& stage_log, Run const& run) {
+    constexpr double worth_a_word = 0.2;
+    constexpr double cells_an_arc = 8.0;
+    StreamNetwork const& network = terrain.rivers.network.planform;
+    if (network.arc_count() == 0 || !terrain.surface) {
+        return;
+    }
+    std::vector<bool> has_cell(network.arc_count());
+    for (flow::RiverCell const& cell : flow::river_cells(flow::reaches_of(network), terrain.grid, run)) {
+        has_cell[cell.reach] = true;
+    }
+    auto const without = std::ranges::count(has_cell, false);
+    double const share = static_cast<double>(without) / static_cast<double>(network.arc_count());
+    if (share > worth_a_word) {
+        double const length_m = std::accumulate(network.length_m().begin(), network.length_m().end(), 0.0);
+        double const fine_m = length_m / static_cast<double>(network.arc_count()) / cells_an_arc;
+        stage_log.find(
+            {.kind = "crowded_rivers",
+             .amount = share,
+             .text = fmt::format("{} of the {} arcs have no cell of their own: cells of {:g} m are too large "
+                                 "for these {:.1f} km of rivers",
+                                 without, network.arc_count(), terrain.grid.cell_m, length_m / 1000.0),
+             .remedy = fine_m > 0.0 ? fmt::format("Smaller cells show them: --set grid.cell={:g}",
+                                                  one_digit(std::min(fine_m, terrain.grid.cell_m / 2.0)))
+                                    : "",
+             .key = "grid.cell"});
+    }
+}
+
 /// The check given_length; notes the account of the input's length, and warns where more than 1 % of it is missing.
 Check length_check(Plan const& plan, GivenLength const& given, Grid const& grid, StageLog& stage_log) {
     constexpr double worth_a_word = 0.99;
@@ -268,6 +307,7 @@ Assessment assess(Plan const& plan, Planform const& planform, Terrain const& ter
             stage_log.find(findings_of(found.certificate));
         }
     }
+    warn_of_coarse_cells(terrain, stage_log, run);
     found.given = given_length(plan, planform, terrain);
     if (found.given) {
         found.checks.push_back(length_check(plan, *found.given, terrain.grid, stage_log));
