@@ -545,8 +545,35 @@ class Binder:
         if scope in self.enumerations:
             told = [f"'{v}': {self.prose(c)}" for v, c in self.enumerations[scope].values if c]
             says = ". ".join(filter(None, [says.rstrip("."), "; ".join(told)]))
+        says = self.with_unit(says, argument["type"], argument["name"])
+        says = ". ".join(filter(None, [says.rstrip("."), self.codes(argument["type"])]))
         lines = [f"{argument['name']} : {type_}" + (f", default {default}" if default not in ("", "...") else "")]
         return lines + ([self.wrapped(says, "    ")] if says else [])
+
+    @staticmethod
+    def with_unit(says: str, whole: str, name: str) -> str:
+        """What is said of a value, with its unit: positions are metres, other numbers of which no unit is said have none."""
+        if "[" in says or re.search(r"_(m|m2|m3|km2|deg|rad|cells|px|s)$", name):
+            return says
+        numbers = re.sub(r"std::(vector|optional|span)<(.*?)(, \d+)?>$", r"\2", whole)
+        for _ in range(2):
+            numbers = re.sub(r"std::(vector|optional|span)<(.*?)(, \d+)?>$", r"\2", numbers).removesuffix(" const")
+        if numbers in ("Vec2", "Vec3"):
+            return f"[m] {says}".strip()
+        return f"[-] {says}".strip() if numbers in ("double", "float") else says
+
+    def codes(self, whole: str) -> str:
+        """What the numbers of a raster of an enumeration mean; "" of any other type."""
+        name, arguments = arguments_of(whole)
+        if name != "Raster" or self.scope_of(arguments[0]) not in self.enumerations:
+            return ""
+        enumeration = self.enumerations[self.scope_of(arguments[0])]
+        told, number = [], 0
+        for word, comment in enumeration.values:
+            number = enumeration.numbers.get(word, number)
+            told.append(f"{number} {word.replace('_', ' ')}" + (f" ({self.prose(comment)})" if comment else ""))
+            number += 1
+        return f"Codes, uint8: {', '.join(told)}"
 
     @staticmethod
     def wrapped(text: str, indent: str = "") -> str:
@@ -562,9 +589,11 @@ class Binder:
         function = max(overloads, key=lambda f: len(f.comment))
         said = self.parsed(function.comment)
         signatures = [self.signature(f, False) for f in overloads]
-        text = f"{signatures[0]}\n--\n\n" if len(overloads) == 1 else "\n".join(signatures) + "\n\n"
+        text = f"{signatures[0] if len(overloads) == 1 else self.common_signature(overloads)}\n--\n\n"
         summary = str(said["said"])
         text += self.wrapped(summary or f"Gives {function.name.replace('_', ' ')}.") + "\n"
+        if len(overloads) > 1:
+            text += "\nCalls\n-----\n" + "\n".join(signatures) + "\n"
         every: dict[str, dict[str, str]] = {}
         for one in [function, *overloads]:
             for argument in self.arguments(one):
@@ -597,6 +626,24 @@ class Binder:
                 "\nReferences\n----------\n" + "\n\n".join(self.wrapped(t) for t in [str(said["source"]), *cited] if t) + "\n"
             )
         return text
+
+    def common_signature(self, overloads: list[Function]) -> str:
+        """One signature for all forms, as inspect reads it: what only some take has the default None."""
+        forms = [self.arguments(f) for f in overloads]
+        positional = [[a["name"] for a in form if a["kind"] == "positional"] for form in forms]
+        longest = max(positional, key=len)
+        parts: list[str] = []
+        for number, name in enumerate(longest):
+            if any(form[number : number + 1] not in ([name], []) for form in positional):
+                parts.append("*others")  # they differ from here on
+                break
+            parts.append(name if all(len(form) > number for form in positional) else f"{name}=None")
+        keywords = dict.fromkeys(a["name"] for form in forms for a in form if a["kind"] == "keyword")
+        if any(self.is_run(p) for f in overloads for p in f.parameters):
+            keywords.update(dict.fromkeys(RUN))
+        if keywords:
+            parts += ([] if parts and parts[-1] == "*others" else ["*"]) + [f"{name}=None" for name in keywords]
+        return f"{safe(overloads[0].name)}({', '.join(parts)})"
 
     # -- C++ ----------------------------------------------------------------------------------------------------------
 
@@ -804,7 +851,8 @@ class Binder:
                 continue
             names.append(f'"{safe(field.name)}"')
             owner = "::".join(filter(None, of))
-            says = self.prose(field.comment).replace('"', '\\"').replace("\\u", "\\\\u")
+            says = self.with_unit(self.prose(field.comment), type_, field.name)
+            says = ". ".join(filter(None, [says.rstrip("."), self.codes(type_)])).replace('"', '\\"').replace("\\u", "\\\\u")
             text += f'    add_getter({variable}, "{safe(field.name)}", R"words({says})words", &get<{whole}, &{owner}::{field.name}>);\n'
         return text + f"    finish_record({variable}, {{{', '.join(names)}}});\n"
 
@@ -894,6 +942,7 @@ namespace thalweg::python {{
             name = scope[1].rpartition("::")[2]
             lines.append(f"{indent}class {name}:")
             inner = indent + "    "
+            lines.extend(stub_words(self.record_words(scope), inner))
             for nested in records:
                 if nested[1].rpartition("::")[0] == scope[1]:
                     write_record(nested, inner)
@@ -921,11 +970,22 @@ namespace thalweg::python {{
             if "::" not in scope[1] or (scope[0], scope[1].rpartition("::")[0]) not in self.records:
                 write_record(scope, "")
         for overloads in self.grouped(space):
-            for function in overloads:
+            for number, function in enumerate(overloads):
                 if len(overloads) > 1:
                     lines.append("@overload")
-                lines.append(f"def {self.signature(function, True)}: ...")
+                lines.append(f"def {self.signature(function, True)}:" + (" ..." if number else ""))
+                if not number:
+                    lines.extend(stub_words(self.docstring(overloads).split("\n--\n\n", 1)[1], "    "))
         return "\n".join(lines) + "\n"
+
+
+def stub_words(text: str, indent: str) -> list[str]:
+    """A docstring in a stub."""
+    words = text.strip().replace("\\", "\\\\")
+    if words.endswith('"'):
+        words += " "
+    lines = f'"""{words}"""'.split("\n")
+    return [f"{indent}{line}".rstrip() for line in lines]
 
 
 # What the package adds to networks.
@@ -955,15 +1015,19 @@ def main() -> None:
     binder = Binder(source)
     written: dict[pathlib.Path, str] = {out / "records.hpp": binder.write_records_header()}
     by_hand = pathlib.Path(__file__).parent
+    words = dict(re.findall(r'"(\w+)",\s*R"words\((.*?)\)words"', (by_hand / "by_hand.cpp").read_text(encoding="utf-8"), re.S))
     for space in ["", *MODULES]:
         called = space or "core"
         written[out / f"{called}.cpp"] = binder.write_module(space)
         stub = binder.write_stub(space)
         extra = by_hand / f"by_hand_{called}.pyi"
         if extra.exists():
-            stub += "".join(
-                f"{line}\n" for line in extra.read_text(encoding="utf-8").splitlines() if not line.startswith("# SPDX")
-            )
+            for line in extra.read_text(encoding="utf-8").splitlines():
+                named = re.match(r"(?:class|def) (\w+)", line)
+                said = words.get(named[1], "").split("\n--\n\n")[-1] if named else ""
+                if not line.startswith("# SPDX"):
+                    stub += (line.removesuffix(" ...") if said else line) + "\n"
+                    stub += "".join(f"{one}\n" for one in stub_words(said, "    ")) if said else ""
         others = sorted(m for m in MODULES if m != space and re.search(rf"\b_{m}\.", stub))
         values = sorted({s[1] for s in [*binder.records, *BY_HAND] if s[0] == "" and "::" not in s[1]}) if space else []
         head = STUB_HEAD + "".join(f"from thalweg import {m} as _{m}\n" for m in others)

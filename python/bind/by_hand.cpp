@@ -24,7 +24,8 @@ py::handle error_type(py::module_& module, char const* name, py::object const& b
 }
 
 void set_error(py::handle type, Error const& error) {
-    py::object const raised = type(text_of(error.what()));
+    py::object const words = py::module_::import("thalweg._show").attr("in_python")(text_of(error.what()));
+    py::object const raised = type(words);
     raised.attr("where") = text_of(error.where());
     PyErr_SetObject(type.ptr(), raised.ptr());
 }

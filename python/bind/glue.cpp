@@ -82,6 +82,33 @@ py::object from_package(char const* module, char const* name) {
     return py::module_::import(module).attr(name);
 }
 
+/// Calls a function of the package; what it refuses names the function that was called.
+template <class Call> py::object in_package(Place const& place, Call const& call) {
+    try {
+        return call();
+    } catch (py::error_already_set& fault) {
+        if (py::hasattr(fault.value(), "where")) {
+            fault.value().attr("where") = place.function;
+        }
+        throw;
+    }
+}
+
+/// The grid of a raster, or of a record whose first field is one; None: it is neither.
+py::object grid_of(py::handle value) {
+    py::object const raster = from_package("thalweg._raster", "Raster");
+    if (py::isinstance(value, raster)) {
+        return value.attr("grid");
+    }
+    if (py::hasattr(py::type::of(value), "_fields") && py::len(py::type::of(value).attr("_fields")) > 0) {
+        py::object const first = value.attr(py::object(py::type::of(value).attr("_fields")[py::int_(0)]));
+        if (py::isinstance(first, raster)) {
+            return first.attr("grid");
+        }
+    }
+    return py::none();
+}
+
 } // namespace
 
 Place Place::of(std::size_t element) const {
@@ -225,7 +252,9 @@ std::uint64_t take_seed(py::handle value, Place const& place) {
 
 std::string take_text(py::handle value, Place const& place) {
     py::object text = py::reinterpret_borrow<py::object>(value);
-    if (!py::isinstance<py::str>(text)) {
+    if (place.name == "crs" && place.function != "io.crs_in_words") { // which crs_text calls
+        text = in_package(place, [&] { return from_package("thalweg._raster", "crs_text")(value); });
+    } else if (!py::isinstance<py::str>(text)) {
         if (py::hasattr(text, "__fspath__")) {
             text = py::module_::import("os").attr("fsdecode")(text);
         } else if (std::find(of_files.begin(), of_files.end(), place.name) != of_files.end() && current != nullptr &&
@@ -297,15 +326,12 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
 }
 
 std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py::dtype const& type) {
-    py::object raster;
-    try {
-        raster = from_package("thalweg._raster", "to_core")(value, type, place.name);
-    } catch (py::error_already_set& fault) {
-        if (py::hasattr(fault.value(), "where")) {
-            fault.value().attr("where") = place.function;
-        }
-        throw;
-    }
+    // A plain array has the frame of the other rasters of the call.
+    bool const has_place =
+        !py::hasattr(value, "__array__") || py::hasattr(value, "grid") || py::hasattr(value, "coords");
+    py::object const frame = has_place || current == nullptr ? py::none() : current->frame();
+    py::object const raster =
+        in_package(place, [&] { return from_package("thalweg._raster", "to_core")(value, type, place.name, frame); });
     auto values = py::cast<py::array>(raster.attr("values"));
     Grid grid = raster.attr("grid").cast<Grid>();
     if (values.ndim() != 2 || !values.dtype().equal(type) || (values.flags() & py::array::c_style) == 0) {
@@ -350,8 +376,10 @@ std::shared_ptr<void const> kept_alive(py::object object) {
 }
 
 std::vector<py::object> take_list(py::handle value, Place const& place) {
-    if (py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value) || py::isinstance<py::dict>(value) ||
-        !py::isinstance<py::iterable>(value)) {
+    if (py::isinstance<py::dict>(value)) { // as lists of a name and a value are shown
+        return take_list(py::list(value.attr("items")()), place);
+    }
+    if (py::isinstance<py::str>(value) || py::isinstance<py::bytes>(value) || !py::isinstance<py::iterable>(value)) {
         refuse_type(place, value, "a list");
     }
     std::vector<py::object> list;
@@ -423,6 +451,23 @@ std::size_t Args::choose(std::vector<Form> const& forms) {
         }
     }
     return 0;
+}
+
+py::object Args::frame() const {
+    if (outer_ != nullptr) {
+        return outer_->frame();
+    }
+    for (py::handle const one : positional_) {
+        if (py::object grid = grid_of(one); !grid.is_none()) {
+            return grid;
+        }
+    }
+    for (auto const& [name, one] : named_) {
+        if (py::object grid = grid_of(one); !grid.is_none()) {
+            return grid;
+        }
+    }
+    return py::none();
 }
 
 py::handle Args::next(char const* name) {
@@ -581,6 +626,7 @@ void Args::work(std::function<void(Run const&)> const& stage) {
         callbacks.log = py::reinterpret_borrow<py::object>(log);
         run.log = [&callbacks](std::string_view line) { callbacks.calls([&] { callbacks.log(text_of(line)); }); };
     }
+    py::handle const is_stopped = named("_is_stopped"); // of the package itself: signals reach the main thread alone
     done();
     run.stop = callbacks.stop.get_token();
 
@@ -611,6 +657,9 @@ void Args::work(std::function<void(Run const&)> const& stage) {
                 py::gil_scoped_acquire const held;
                 if (PyErr_CheckSignals() != 0 && !interrupted) {
                     interrupted = std::make_exception_ptr(py::error_already_set());
+                    callbacks.stop.request_stop();
+                }
+                if (is_stopped && py::bool_(is_stopped())) {
                     callbacks.stop.request_stop();
                 }
             }
@@ -717,6 +766,9 @@ void finish_record(py::handle type, std::initializer_list<char const*> fields) {
         names[number++] = py::str(field);
     }
     type.attr("_fields") = names;
+    type.attr("__reduce__") = py::cpp_function(
+        [](py::object const& self) { return from_package("thalweg._records", "reduced")(self); },
+        py::name("__reduce__"), py::is_method(type), py::scope(type), py::doc("Gives what pickle needs."));
     type.attr("__repr__") = py::cpp_function(repr_of, py::name("__repr__"), py::is_method(type), py::scope(type));
     type.attr("as_dict") = py::cpp_function(dict_of_fields, py::name("as_dict"), py::is_method(type), py::scope(type),
                                             py::doc("as_dict(self)\n--\n\nGives the fields as a dictionary, records in "

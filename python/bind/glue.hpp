@@ -335,6 +335,9 @@ public:
     /// An argument without taking it; null: not given.
     py::handle peek(std::size_t position, char const* name) const;
 
+    /// The grid of the call's first raster; None: it has none.
+    py::object frame() const;
+
     /// The next argument, by position or name; null: not given.
     py::handle next(char const* name);
     /// \throws TypeError when it is not given

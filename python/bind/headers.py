@@ -49,6 +49,7 @@ class Enumeration:
     space: str
     name: str
     values: list[tuple[str, str]]  # name, comment
+    numbers: dict[str, int]  # of names that are given one
     comment: str
     header: str
 
@@ -195,6 +196,7 @@ class Reader:
     def enumeration(self, space: str, name: str, comment: str, first: str) -> None:
         text = first
         values: list[tuple[str, str]] = []
+        numbers: dict[str, int] = {}
         if "}" not in text:
             above: list[str] = []
             while not (line := self.lines[self.at].strip()).startswith("}"):
@@ -208,12 +210,15 @@ class Reader:
                 code, _, behind = line.partition("///<")
                 for word in code.split("//")[0].split(","):
                     if word.strip():
-                        values.append((word.split("=")[0].strip(), behind.strip() or " ".join(above)))
+                        name_, _, number = (part.strip() for part in word.partition("="))
+                        values.append((name_, behind.strip() or " ".join(above)))
+                        if number.isdigit():
+                            numbers[name_] = int(number)
                 above = []
             self.at += 1
         else:
             values = [(w.split("=")[0].strip(), "") for w in text.split("}")[0].split(",") if w.strip()]
-        self.headers.enumerations.append(Enumeration(space, name, values, comment, self.name))
+        self.headers.enumerations.append(Enumeration(space, name, values, numbers, comment, self.name))
 
     def function(self, space: str, above: str, text: str) -> None:
         depth = 0

@@ -36,11 +36,10 @@ for _name in _core.VALUES:
     globals()[_name] = getattr(_core, _name)
 
 from thalweg._ensemble import Member, ensemble
-from thalweg._networks import to_geodataframe, to_networkx
+from thalweg._networks import from_geodataframe, from_networkx, to_geodataframe, to_networkx
 from thalweg._raster import ConversionWarning, Raster, UnitWarning
 from thalweg._terrain import Terrain, TerrainWarning, forecast, make, rebuild
 
-setattr(_core.Grid, "__reduce__", lambda grid: (_core.Grid, tuple(grid.as_dict().values())))
 for _kind in (_core.StreamNetwork, _core.ElevatedNetwork):
     setattr(_kind, "to_geodataframe", to_geodataframe)
     setattr(_kind, "to_networkx", to_networkx)
@@ -48,6 +47,6 @@ del _kind, _name
 
 __version__ = _core.version()
 __all__ = ["BadInput", "BadParameter", "Cancelled", "ConversionWarning", "Error", "IoError", "Member", "NotConverged", "Raster",
-           "Terrain", "TerrainWarning", "UnitWarning", "__version__", "blend", "draw", "ensemble", "flow", "forecast", "fractal", "geometry", "io", "make", "measure",
+           "Terrain", "TerrainWarning", "UnitWarning", "__version__", "blend", "draw", "ensemble", "flow", "forecast", "fractal", "from_geodataframe", "from_networkx", "geometry", "io", "make", "measure",
            "network", "pipeline", "rebuild", "skeleton", "solver", "surface", "to_geodataframe", "to_networkx"]
 __all__ += [name for name in _core.VALUES if name not in __all__]

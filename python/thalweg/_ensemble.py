@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import threading
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from concurrent.futures import FIRST_COMPLETED, Future, ThreadPoolExecutor, wait
 from typing import Any
@@ -118,11 +119,13 @@ def _members(asked: pipeline.Ensemble, files: list[_networks.TemporaryPath], thr
     left = iter(range(asked.members))
     with ThreadPoolExecutor(threads) as pool:
         running: set[Future[pipeline.MadeMember]] = set()
+        stop = threading.Event()
+        make: Callable[..., pipeline.MadeMember] = pipeline.make_member
 
         def begin() -> None:
             number = next(left, None)
             if number is not None:
-                running.add(pool.submit(pipeline.make_member, asked, number, threads=1))
+                running.add(pool.submit(make, asked, number, threads=1, _is_stopped=stop.is_set))
 
         for _ in range(threads):
             begin()
@@ -138,5 +141,6 @@ def _members(asked: pipeline.Ensemble, files: list[_networks.TemporaryPath], thr
                         report(done / asked.members, "members")
                     yield Member(one.result(), files)
         finally:
+            stop.set()  # the pool waits for the members that are being made
             for one in running:
                 one.cancel()

@@ -53,7 +53,7 @@ def parts_of(network: object) -> Parts:
     if isinstance(network, _core.ElevatedNetwork):
         return Parts(network.planform, network, None, None, "")
     if isinstance(network, flow.ExtractedStreams):
-        return Parts(network.network.planform, network.network, None, network.areas, "")
+        return Parts(network.network.planform, network.network, None, network.areas, network.crs)
     made = getattr(network, "made", None)
     if made is None:
         raise TypeError(f"takes a StreamNetwork, an ElevatedNetwork, ExtractedStreams or a Terrain, not {type(network).__name__}")
@@ -74,7 +74,7 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.
     layer : {"arcs", "nodes"}, default "arcs"
         Which of both.
     crs : str, int or CRS of pyproj, rasterio, geopandas or GDAL, optional
-        As of a Raster. Left out: that of a terrain, else none.
+        As of a Raster. Left out: that of a terrain, or of the DEM of extracted streams, else none.
 
     Returns
     -------
@@ -155,6 +155,99 @@ def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.Extr
     for arc, ((up, down), length, order) in enumerate(zip(ends, net.length_m.tolist(), np.asarray(orders.strahler).tolist())):
         graph.add_edge(up, down, arc=arc, length_m=length, strahler=order, line=lines[arc])
     return graph
+
+
+def from_networkx(graph: networkx.Graph) -> _core.StreamNetwork | _core.ElevatedNetwork:
+    """Return the network of a graph, as to_networkx writes it or of any graph of rivers.
+
+    Parameters
+    ----------
+    graph : networkx.DiGraph
+        Edges lead downstream. Nodes have x and y [m], and z [m] where the network has heights. Edges may have line: their
+        vertices downstream [m], shape (k, 2), or (k, 3) with heights; without it they are straight. Edges with arc keep that
+        order, others come as the graph has them; nodes are numbered as the graph has them.
+
+    Returns
+    -------
+    StreamNetwork, or ElevatedNetwork where every node has z
+
+    Raises
+    ------
+    BadInput
+        When edges have no direction, a node has no x or y, or a line does not begin and end at its nodes.
+    """
+    if not graph.is_directed():
+        raise bad_input("from_networkx", "from_networkx: edges have no direction: give a DiGraph, whose edges lead downstream")
+    numbers = {node: number for number, node in enumerate(graph)}
+    for node, known in graph.nodes(data=True):
+        if "x" not in known or "y" not in known:
+            raise bad_input("from_networkx", f"from_networkx: node {node!r} has no x and y: set them, in metres")
+    nodes = np.array([(known["x"], known["y"]) for _, known in graph.nodes(data=True)], float).reshape(-1, 2)
+    has_heights = len(numbers) > 0 and all("z" in known for _, known in graph.nodes(data=True))
+    edges = sorted(graph.edges(data=True), key=lambda edge: int(edge[2].get("arc", 0)))
+    lines = []
+    for up, down, known in edges:
+        ends = nodes[[numbers[up], numbers[down]]]
+        line = np.asarray(known.get("line", ends), float)
+        if line.ndim != 2 or line.shape[0] < 2 or line.shape[1] not in (2, 3) or not np.array_equal(line[[0, -1], :2], ends):
+            raise bad_input("from_networkx", f"from_networkx: the line of the edge from {up!r} to {down!r} does not begin and end "
+                                             "at its nodes: it has the shape (k, 2) or (k, 3), downstream")
+        lines.append(line)
+    network = _core.StreamNetwork(nodes, [numbers[up] for up, _, _ in edges], [numbers[down] for _, down, _ in edges],
+                                  [line[:, :2] for line in lines])
+    if not has_heights:
+        return network
+    node_z = np.array([known["z"] for _, known in graph.nodes(data=True)], float)
+    heights = []
+    for (up, down, _), line in zip(edges, lines):
+        ends_z = node_z[[numbers[up], numbers[down]]]
+        if line.shape[1] == 3:
+            heights.append(np.concatenate([ends_z[:1], line[1:-1, 2], ends_z[1:]]))
+        else:  # along the line
+            steps = np.concatenate([[0.0], np.cumsum(np.hypot(*np.diff(line, axis=0).T))])
+            heights.append(np.interp(steps, [0.0, steps[-1]], ends_z))
+    return _core.ElevatedNetwork(network, node_z, heights)
+
+
+def from_geodataframe(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> _core.StreamNetwork | _core.ElevatedNetwork:
+    """Return the network of a table of lines, as to_geodataframe writes it or of any river file.
+
+    Parameters
+    ----------
+    frame : GeoDataFrame or GeoSeries
+        Lines in a projected CRS in metres, or without CRS: metres. Columns of a schema that thalweg knows, or that link the
+        lines (docs/river_files.md), tell how they join; else lines join where they meet, and are directed as by
+        network.import_lines.
+
+    Returns
+    -------
+    StreamNetwork, or ElevatedNetwork where the lines have heights
+        A forest: where a river divides, it follows the main arm.
+
+    Raises
+    ------
+    BadInput
+        When there are no lines, the CRS is not in metres, or what the columns tell is no network.
+    """
+    if len(frame) == 0:
+        raise bad_input("from_geodataframe", "from_geodataframe: the table is empty")
+    crs = "" if frame.crs is None else crs_text(frame.crs)
+    if crs and io.ground_cell(_core.Grid(1, 1, 1e-3, 0.0, 1e-3, crs)).unit in ("degrees", "other"):
+        raise bad_input("from_geodataframe", "from_geodataframe: the table's CRS is not in metres: reproject it first, as "
+                                             ".to_crs(frame.estimate_utm_crs()) does")
+    path = table_file(frame, "rivers")
+    file = io.read_network(str(path), any_lines=True, crs=crs)
+    if file.says.downstream or file.says.ends:
+        elevated = networks.from_file(networks.divide(file)[0]).network
+    else:
+        lines = io.read_rivers(path=str(path))
+        imported = networks.import_lines(lines)
+        if imported.repairs:
+            say(f"rivers: joined as lines, with {len(imported.repairs)} repairs; network.import_lines lists them")
+        if not lines.has_z:
+            return imported.network
+        elevated = networks.take_file_heights(imported, lines)
+    return elevated if np.isfinite(elevated.node_z).all() else elevated.planform
 
 
 class TemporaryPath(str):

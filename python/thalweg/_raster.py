@@ -6,9 +6,10 @@ from __future__ import annotations
 import functools
 import os
 import sys
+import tempfile
 import warnings
 from collections.abc import Iterator
-from typing import TYPE_CHECKING, Any, TypeAlias
+from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
 import numpy.typing as npt
@@ -26,6 +27,9 @@ RasterLike: TypeAlias = "Raster | Array | xarray.DataArray | str | os.PathLike[s
 
 ROWS = {"y", "lat", "latitude", "northing", "row"}
 COLUMNS = {"x", "lon", "longitude", "easting", "col", "column"}
+NO_DATA = (-9999.0, -32767.0, -32768.0, -99999.0)  # what no height is, and often stands for none
+LARGEST = 1e30  # beyond it no number is a height
+DEEPEST_SEA = -12000.0  # [m]
 FEET = {"ft", "foot", "feet", "us survey foot", "us_survey_foot", "us-ft", "ftus"}
 
 
@@ -40,7 +44,9 @@ class UnitWarning(UserWarning):
 class Raster(NDArrayOperatorsMixin):
     """One value per cell of a grid, as a numpy array that cannot be written.
 
-    numpy's functions and operators take a raster as its array and return plain arrays.
+    Operators and numpy's functions of each cell (dem + 1, a - b, dem > 100, np.sqrt(dem)) return rasters of the same grid, and
+    refuse rasters of another one. Every other function of numpy takes a raster as its array: np.where(dem > 0, dem, np.nan) is
+    an array, which Raster(array, dem.grid) places again. A stage gives a plain array the grid of the other rasters of the call.
 
     Parameters
     ----------
@@ -150,12 +156,200 @@ class Raster(NDArrayOperatorsMixin):
         return self.values.astype(dtype)
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
-        if "out" in options:
-            options["out"] = tuple(_plain(one) for one in options["out"])
-        return getattr(ufunc, method)(*(_plain(one) for one in inputs), **options)
+        placed = "out" not in options and method == "__call__"
+        options = {name: tuple(map(_plain, one)) if name == "out" else _plain(one) for name, one in options.items()}
+        grids = [one.grid for one in inputs if isinstance(one, Raster)]
+        for grid in grids[1:]:
+            _require_same_grid(grids[0], grid, ufunc.__name__)
+        made = getattr(ufunc, method)(*map(_plain, inputs), **options)
+        return tuple(self._placed(one) for one in made) if placed and isinstance(made, tuple) else (
+            self._placed(made) if placed else made)
+
+    def _placed(self, values: Any) -> Any:
+        return Raster(values, self.grid) if isinstance(values, np.ndarray) and values.shape == self.shape else values
+
+    def min(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's min of the values: NaN where a cell is NaN; np.nanmin leaves those out."""
+        return self.values.min(*args, **options)
+
+    def max(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's max of the values: NaN where a cell is NaN; np.nanmax leaves those out."""
+        return self.values.max(*args, **options)
+
+    def mean(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's mean of the values: NaN where a cell is NaN; np.nanmean leaves those out."""
+        return self.values.mean(*args, **options)
+
+    def std(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's std of the values: NaN where a cell is NaN; np.nanstd leaves those out."""
+        return self.values.std(*args, **options)
+
+    def sum(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's sum of the values: NaN where a cell is NaN; np.nansum leaves those out."""
+        return self.values.sum(*args, **options)
+
+    def any(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's any of the values."""
+        return self.values.any(*args, **options)
+
+    def all(self, *args: Any, **options: Any) -> Any:
+        """Return numpy's all of the values."""
+        return self.values.all(*args, **options)
+
+    def astype(self, dtype: npt.DTypeLike) -> Raster:
+        """Return the raster with values of another type."""
+        return Raster(self.values.astype(dtype), self.grid)
 
     def __getitem__(self, key: Any) -> Any:
-        return self.values[key]
+        return self.values[tuple(map(_plain, key)) if isinstance(key, tuple) else _plain(key)]
+
+    @classmethod
+    def open(cls, path: str | os.PathLike[str], *, values: Literal["heights", "numbers", "codes"] = "heights",
+             nodata: float | None = None) -> Raster:
+        """Read a raster file.
+
+        Parameters
+        ----------
+        path : str or path
+            Any raster that GDAL reads.
+        values : {"heights", "numbers", "codes"}, default "heights"
+            Heights become metres, and what no terrain has is refused; numbers and codes stay as they are. See io.read_dem.
+        nodata : float, optional
+            The value of cells without data; left out: what the file declares. NaN: none has.
+
+        Returns
+        -------
+        Raster
+            float32, NaN where there is no data.
+
+        Raises
+        ------
+        BadInput
+            As io.read_dem.
+        """
+        read: Raster = io.read_dem(os.fspath(path), values=values, nodata=nodata)
+        return read
+
+    def save(self, path: str | os.PathLike[str], overwrite: bool = False) -> None:
+        """Write the raster as a GeoTIFF.
+
+        Parameters
+        ----------
+        path : str or path
+            Ends in .tif or .tiff.
+        overwrite : bool, default False
+            Whether to replace the file.
+
+        Raises
+        ------
+        BadParameter
+            For another ending.
+        BadInput
+            For a value that is infinite or -9999, which stands for no data there.
+        IoError
+            When the file exists and overwrite is not set, or cannot be written.
+
+        Notes
+        -----
+        float16 and float32 become Float32 (as io.write_dem), bool and uint8 Byte with 255 for no data (as io.write_codes), all
+        other types Float64 (as io.write_field).
+        """
+        name = os.fspath(path)
+        kind = self.dtype
+        write: Any = io.write_codes if kind in (np.dtype(np.bool_), np.dtype(np.uint8)) else (
+            io.write_dem if kind in (np.dtype(np.float16), np.dtype(np.float32)) else io.write_field)
+        if not (overwrite and os.path.exists(name)):
+            write(self, name)
+            return
+        folder, file = os.path.split(os.path.abspath(name))
+        with tempfile.TemporaryDirectory(dir=folder, prefix=".thalweg-") as new:
+            write(self, os.path.join(new, file))
+            os.replace(os.path.join(new, file), name)
+
+    @property
+    def transform(self) -> tuple[float, float, float, float, float, float]:
+        """[m] Coefficients (a, b, c, d, e, f) of affine.Affine and rasterio: x = a col + c, y = e row + f at a cell's corner."""
+        grid = self.grid
+        return (grid.cell_m, 0.0, grid.west, 0.0, -grid.cell_m, grid.north)
+
+    def xy(self, rows: npt.ArrayLike, columns: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return the centres of cells.
+
+        Parameters
+        ----------
+        rows, columns : array_like of int
+            From 0, in the north-west.
+
+        Returns
+        -------
+        x, y : ndarray
+            [m] Coordinates.
+        """
+        grid = self.grid
+        return (grid.west + (np.asarray(columns, float) + 0.5) * grid.cell_m,
+                grid.north - (np.asarray(rows, float) + 0.5) * grid.cell_m)
+
+    def index(self, x: npt.ArrayLike, y: npt.ArrayLike) -> tuple[Array, Array]:
+        """Return the cells of positions.
+
+        Parameters
+        ----------
+        x, y : array_like
+            [m] Coordinates.
+
+        Returns
+        -------
+        rows, columns : ndarray of int64
+            May lie outside the grid.
+        """
+        grid = self.grid
+        columns = np.floor((np.asarray(x, float) - grid.west) / grid.cell_m)
+        rows = np.floor((grid.north - np.asarray(y, float)) / grid.cell_m)
+        return rows.astype(np.int64), columns.astype(np.int64)
+
+    def sample(self, x: npt.ArrayLike, y: npt.ArrayLike, *, method: Literal["nearest", "bilinear"] = "nearest") -> Array:
+        """Return the values at positions.
+
+        Parameters
+        ----------
+        x, y : array_like
+            [m] Coordinates in the raster's CRS, of equal shapes.
+        method : {"nearest", "bilinear"}, default "nearest"
+            The value of the cell, or interpolated between the centres of four.
+
+        Returns
+        -------
+        ndarray
+            Of the shape of x and y, floating point; NaN outside the grid, and where a cell that counts has no data.
+
+        Raises
+        ------
+        BadParameter
+            For another method.
+        """
+        if method not in ("nearest", "bilinear"):
+            raise _core.BadParameter(f"sample: method = {method!r}; it must be nearest or bilinear")
+        x, y = np.broadcast_arrays(np.asarray(x, float), np.asarray(y, float))
+        values = self.values if self.dtype.kind == "f" else self.values.astype(np.float64)
+        height, width = self.shape
+        if method == "nearest":
+            rows, columns = self.index(np.nan_to_num(x, nan=-np.inf, neginf=-1e300, posinf=1e300),
+                                       np.nan_to_num(y, nan=-np.inf, neginf=-1e300, posinf=1e300))
+            inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
+            found: Array = np.where(inside, values[np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)], np.nan)
+            return found
+        west, south, east, north = self.bounds
+        inside = (x >= west) & (x <= east) & (y >= south) & (y <= north)
+        across = np.clip(np.where(inside, (x - west) / self.cell_m - 0.5, 0.0), 0.0, width - 1.0)
+        down = np.clip(np.where(inside, (north - y) / self.cell_m - 0.5, 0.0), 0.0, height - 1.0)
+        left, top = np.floor(across).astype(np.int64), np.floor(down).astype(np.int64)
+        right, bottom = np.minimum(left + 1, width - 1), np.minimum(top + 1, height - 1)
+        dx, dy = across - left, down - top
+        total: Array = np.zeros(x.shape)
+        for row, column, weight in ((top, left, (1 - dx) * (1 - dy)), (top, right, dx * (1 - dy)), (bottom, left, (1 - dx) * dy),
+                                    (bottom, right, dx * dy)):
+            total = total + np.where(weight > 0.0, weight * values[row, column], 0.0)
+        return np.where(inside, total, np.nan)
 
     def __len__(self) -> int:
         return len(self.values)
@@ -246,18 +440,20 @@ def from_core(values: Array, grid: _core.Grid) -> Raster:
     return Raster(values, grid)
 
 
-def to_core(thing: object, dtype: npt.DTypeLike, what: str) -> Raster:
+def to_core(thing: object, dtype: npt.DTypeLike, what: str, frame: _core.Grid | None = None) -> Raster:
     """Return anything that is accepted as a raster as the library reads it.
 
     Parameters
     ----------
     thing : Raster, ndarray, xarray.DataArray, str or path
-        Also a masked array, and anything else that numpy takes as an array. Arrays have the grid of a raster without
-        place: cells of 1, the south-western corner at 0. A path is read as by io.read_dem.
+        Also a masked array, and anything else that numpy takes as an array. A path is read as by io.read_dem.
     dtype : dtype
         float32, float64, uint8, int32 or int64.
     what : str
         Its name in messages.
+    frame : Grid, optional
+        Of a plain array of its shape. Else that has the grid of a raster without place: cells of 1, the south-western
+        corner at 0.
 
     Returns
     -------
@@ -267,7 +463,8 @@ def to_core(thing: object, dtype: npt.DTypeLike, what: str) -> Raster:
     Raises
     ------
     BadInput
-        When it is not a table of real numbers, its cells are not square, or a value is none of the dtype; names its place.
+        When it is not a table of real numbers, its cells are not square, a value is none of the dtype, or heights hold a
+        number that stands for no data, such as -9999; names its place.
     TypeError
         When it is nothing of the kind.
 
@@ -278,7 +475,11 @@ def to_core(thing: object, dtype: npt.DTypeLike, what: str) -> Raster:
     """
     target = np.dtype(dtype)
     raster = _raster_of(thing, target, what)
+    if frame is not None and (frame.height, frame.width) == raster.shape:
+        raster = Raster(raster.values, frame)
     values = _converted(raster.values, target, what)
+    if target == np.float32:
+        _refuse_no_data(values, what)
     return raster if values is raster.values else Raster(values, raster.grid)
 
 
@@ -375,6 +576,34 @@ def _converted(values: Array, target: np.dtype[Any], what: str) -> Array:
     if target.kind == "f" and values.dtype.itemsize > target.itemsize and np.isinf(out).any():
         _refuse_at(np.isinf(out) & np.isfinite(values), values, what, f"is beyond the range of {target.name}")
     return out
+
+
+def _refuse_no_data(values: Array, what: str) -> None:
+    """Refuse numbers that files write where there is no data, as io.read_dem does of a file that does not declare them."""
+    low, high = float(np.fmin.reduce(values, axis=None)), float(np.fmax.reduce(values, axis=None))
+    if low > max(NO_DATA) and high < LARGEST:
+        return
+    for number in NO_DATA:
+        is_number = values == np.float32(number)
+        # The sea is so deep where other cells are a little deeper.
+        if is_number.any() and not ((values < number) & (values > DEEPEST_SEA) & ~np.isin(values, NO_DATA)).any():
+            _refuse_no_data_at(is_number, number, values, what)
+    if low <= -LARGEST or high >= LARGEST:
+        is_large = np.isfinite(values) & (np.abs(values) >= LARGEST)
+        if is_large.any():
+            _refuse_no_data_at(is_large, float(values[is_large][0]), values, what)
+
+
+def _refuse_no_data_at(cells: npt.NDArray[np.bool_], number: float, values: Array, what: str) -> None:
+    row, column = np.unravel_index(int(cells.argmax()), cells.shape)
+    raise bad_input(what, f"{what}: {int(cells.sum())} cells are {number:g}, the first in row {row}, column {column} (from 0): no "
+                          f"terrain has this height. If it stands for no data: np.where({what} == {number:g}, np.nan, {what})")
+
+
+def _require_same_grid(one: _core.Grid, other: _core.Grid, where: str) -> None:
+    if one != other:
+        raise bad_input(where, f"{where}: rasters of different grids: {one} and {other}; resample one to the cells of the other, "
+                               "or take its values")
 
 
 def _require_integers(values: Array, target: np.dtype[Any], what: str) -> None:

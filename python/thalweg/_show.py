@@ -4,8 +4,10 @@
 from __future__ import annotations
 
 import base64
+import contextlib
 import html
 import importlib
+import re
 import sys
 import warnings
 from collections.abc import Callable, Sequence
@@ -51,6 +53,32 @@ def bad_input(where: str, text: str) -> _core.BadInput:
     error = _core.BadInput(text)
     error.where = where
     return error
+
+
+# What the program advises in a shell, and how Python says it; the first that fits holds.
+IN_PYTHON = [
+    (re.compile(r"\S*/thalweg-\w+/(\w+)\.(?:gpkg|tif)\b"), r"\1"),  # a table or raster that was given in place of a file
+    (re.compile(r"--set ([\w.]+)=(\S*)"), r"\1 = \2"),
+    (re.compile(r"--overwrite\b"), "overwrite=True"),
+    (re.compile(r"--device opencl\b"), 'device="opencl"'),
+    (re.compile(r"(?<![\w-])--([a-z][a-z-]*)[ =](EPSG:\w+|[A-Z]{2,}\w*|-?\d[\w.]*|nan\b)(?![.\w])"), None),
+    (re.compile(r"(?<![\w-])--([a-z][a-z-]*)(?![.\w-])"), None),
+]
+
+
+def in_python(words: str) -> str:
+    """Return a message with the options of the program as arguments of Python."""
+    for known, there in IN_PYTHON:
+        words = known.sub(there or _argument, words)
+    return words
+
+
+def _argument(option: re.Match[str]) -> str:
+    name = option[1].replace("-", "_")
+    if option.re.groups < 2:
+        return name
+    value = option[2]
+    return f'{name}="{value}"' if value.startswith("EPSG") else f"{name}={value}"
 
 
 def progress_of(progress: Progress) -> Callable[[float, str], object] | None:
@@ -112,12 +140,20 @@ def _name_of(stage: str) -> str:
 
 
 def html_of(png: bytes | None, words: str) -> str:
-    """Return a picture and a line of text as HTML; without a picture the line alone."""
+    """Return a picture and a line of text as HTML; without a picture the line alone. As JPEG where Pillow is installed: a
+    notebook keeps every picture that it shows."""
     line = f"<div>{html.escape(words)}</div>"
     if png is None:
         return line
-    data = base64.b64encode(png).decode("ascii")
-    return f'<img alt="{html.escape(words)}" style="max-width: 100%" src="data:image/png;base64,{data}">{line}'
+    kind, picture = "png", png
+    with contextlib.suppress(ImportError):
+        image = importlib.import_module("PIL.Image")
+        out = BytesIO()
+        image.open(BytesIO(png)).convert("RGB").save(out, "jpeg", quality=85)
+        if len(out.getvalue()) < len(png):
+            kind, picture = "jpeg", out.getvalue()
+    data = base64.b64encode(picture).decode("ascii")
+    return f'<img alt="{html.escape(words)}" style="max-width: 100%" src="data:image/{kind};base64,{data}">{line}'
 
 
 def axes_of(ax: Axes | None) -> Axes:

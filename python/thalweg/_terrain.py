@@ -43,7 +43,7 @@ class TerrainWarning(UserWarning):
 
     def __init__(self, finding: dict[str, Any]) -> None:
         self.finding = finding
-        super().__init__(". ".join(filter(None, (finding["text"], finding["remedy"]))))
+        super().__init__(_show.in_python(". ".join(filter(None, (finding["text"], finding["remedy"])))))
 
 
 def _warn_of(findings: list[dict[str, Any]], stacklevel: int) -> None:
@@ -65,11 +65,34 @@ class Terrain:
         self.made = made
         self._files = files  # write() copies them
 
+    @property
+    def has_dem(self) -> bool:
+        """False where the recipe asks for rivers alone."""
+        return self.made.terrain.surface is not None
+
     @functools.cached_property
-    def dem(self) -> Raster | None:
-        """[m] Heights by cell, float32, NaN: no data. None where the recipe asks for rivers alone."""
+    def has_network(self) -> bool:
+        """False where the recipe has no [network]."""
+        return bool(self.made.terrain.rivers.network.planform.arc_count)
+
+    @functools.cached_property
+    def dem(self) -> Raster:
+        """[m] Heights by cell, float32, NaN: no data.
+
+        Raises
+        ------
+        BadInput
+            Where there is none: has_dem tells.
+        """
         surface = self.made.terrain.surface
-        return None if surface is None else surface.dem
+        if surface is None:
+            raise bad_input("Terrain", "the terrain has no DEM: its recipe asks for rivers alone")
+        return surface.dem
+
+    def _rivers(self) -> pipeline.Rivers:
+        if not self.has_network:
+            raise bad_input("Terrain", "the terrain has no rivers: its recipe has no [network]")
+        return self.made.terrain.rivers
 
     @property
     def grid(self) -> _core.Grid:
@@ -82,25 +105,34 @@ class Terrain:
         return self.grid.crs
 
     @functools.cached_property
-    def network(self) -> _core.ElevatedNetwork | None:
-        """Rivers with heights. None where the recipe has no [network]."""
-        network = self.made.terrain.rivers.network
-        return network if network.planform.arc_count else None
+    def network(self) -> _core.ElevatedNetwork:
+        """Rivers with heights.
+
+        Raises
+        ------
+        BadInput
+            Where there are none: has_network tells.
+        """
+        return self._rivers().network
 
     @functools.cached_property
-    def orders(self) -> _core.NetworkOrders | None:
-        """Stream orders and basins of the network."""
-        return None if self.network is None else self.made.terrain.rivers.orders
+    def orders(self) -> _core.NetworkOrders:
+        """Stream orders and basins of the network; raises as network."""
+        return self._rivers().orders
 
     @functools.cached_property
-    def areas(self) -> flows.ContributingAreas | None:
-        """[m²] Contributing areas by arc and node of the network."""
-        return None if self.network is None else self.made.terrain.areas
+    def areas(self) -> flows.ContributingAreas:
+        """[m²] Contributing areas by arc and node of the network; raises as network."""
+        self._rivers()
+        return self.made.terrain.areas
 
     @functools.cached_property
-    def flow(self) -> flows.FlowField | None:
-        """Flow over the DEM."""
-        return self.made.terrain.drainage
+    def flow(self) -> flows.FlowField:
+        """Flow over the DEM; raises as dem."""
+        drainage = self.made.terrain.drainage
+        if drainage is None:
+            raise bad_input("Terrain", "the terrain has no DEM that water flows over: its recipe asks for rivers alone")
+        return drainage
 
     @functools.cached_property
     def catchments(self) -> flows.Catchments | None:
@@ -192,8 +224,6 @@ class Terrain:
         ImportError
             Without xarray.
         """
-        if self.dem is None:
-            raise bad_input("Terrain", "the terrain has no DEM: its recipe asks for rivers alone")
         return self.dem.to_xarray("dem")
 
     def to_geodataframe(self, layer: str = "arcs") -> geopandas.GeoDataFrame:
@@ -223,21 +253,21 @@ class Terrain:
             Without matplotlib.
         """
         ax = _show.axes_of(ax)
-        if self.dem is not None:
+        if self.has_dem:
             _show.plot_raster(self.dem, ax)
-        if self.network is not None and self.orders is not None:
+        if self.has_network:
             limits = (ax.get_xlim(), ax.get_ylim())
             _show.plot_lines(self.network.planform.lines, self.orders.strahler, ax)
-            if self.dem is not None:
+            if self.has_dem:
                 ax.set(xlim=limits[0], ylim=limits[1])
         return ax
 
     def _words(self) -> str:
         grid = self.grid
         words = [f"{grid.width} × {grid.height} cells of {grid.cell_m:g} m"]
-        if self.dem is not None and np.isfinite(self.dem.values).any():
+        if self.has_dem and np.isfinite(self.dem.values).any():
             words.append(f"relief {np.nanmax(self.dem.values) - np.nanmin(self.dem.values):.0f} m")
-        if self.network is not None and self.orders is not None:
+        if self.has_network:
             words += [f"{self.network.planform.arc_count} arcs", f"highest order {max(self.orders.strahler)}"]
         failed = [check["name"] for check in self.checks if not check["ok"]]
         words.append(f"failed: {', '.join(failed)}" if failed else f"{len(self.checks)} checks ok")
@@ -248,7 +278,7 @@ class Terrain:
 
     @functools.cached_property
     def _map(self) -> bytes | None:
-        return None if self.dem is None else pipeline.draw_map(self.made, width_px=MAP_WIDTH).bytes
+        return pipeline.draw_map(self.made, width_px=MAP_WIDTH).bytes if self.has_dem else None
 
     def _repr_html_(self) -> str:
         return _show.html_of(self._map, self._words())

@@ -18,6 +18,9 @@ STUBS = pathlib.Path(thalweg.__file__).parent
 MODULES = [thalweg._core, *(getattr(thalweg, name) for name in thalweg._core.MODULES)]
 
 
+ERRORS = {"Error", "BadParameter", "BadInput", "NotConverged", "IoError", "Cancelled", "version", "Picture"}  # without, or in parts
+
+
 def public(thing):
     return [(name, value) for name, value in vars(thing).items() if not name.startswith("_") and not isinstance(value, types.ModuleType)]
 
@@ -58,6 +61,29 @@ class Names(unittest.TestCase):
             if inspect.isclass(value) or inspect.isfunction(value):
                 self.assertTrue(inspect.getdoc(value), name)
 
+    def test_every_number_has_a_unit_and_every_code_a_meaning(self):
+        count = codes = 0
+        for module in MODULES:
+            for name, value in public(module):
+                entries = re.findall(r"^(\w+(?:, \w+)*) : ([^\n]*)\n?((?:    [^\n]*\n?)*)", inspect.getdoc(value) or "", re.M)
+                for argument, kind, text in entries:
+                    if re.search(r"\bfloat\b|float64|float32", kind) and "Callable" not in kind and "dict[" not in kind:
+                        count += 1
+                        if not re.search("_(m|m2|m3|km2|deg|rad|cells|px|s)$", argument):
+                            self.assertIn("[", text, f"{module.__name__}.{name}: {argument}")
+                    codes += "Codes, uint8: " in text
+        self.assertGreater(count, 600)
+        self.assertGreater(codes, 2)
+        for text in (inspect.getdoc(thalweg.flow.FlowField), inspect.getdoc(thalweg.flow.FlowField.direction)):
+            self.assertRegex(text, "Codes, uint8: 0 east, 1\\s+south\\s+east, 2 south.*254 no data \\(the\\s+cell\\s+has")
+
+    def test_stubs_have_docstrings(self):
+        for module in MODULES:
+            for node in stub_of(module).body:
+                if isinstance(node, (ast.FunctionDef, ast.ClassDef)) and "overload" not in ast.dump(node):
+                    if node.name not in ERRORS:
+                        self.assertGreater(len(ast.get_docstring(node) or ""), 20, node.name)
+
     def test_stubs_have_the_names_that_are_there(self):
         for module in MODULES:
             stub = stub_of(module)
@@ -75,7 +101,8 @@ class Names(unittest.TestCase):
             functions = [n for n in stub_of(module).body if isinstance(n, ast.FunctionDef)]
             for node in functions:
                 if sum(n.name == node.name for n in functions) > 1:
-                    lines = inspect.getdoc(getattr(module, node.name)).split("\n\n")[0].split("\n")
+                    words = inspect.getdoc(getattr(module, node.name))
+                    lines = words.split("\nCalls\n-----\n")[1].split("\n\n")[0].split("\n")
                     self.assertEqual(len(lines), sum(n.name == node.name for n in functions), node.name)
                     continue
                 signature = inspect.signature(getattr(module, node.name))

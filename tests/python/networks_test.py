@@ -65,6 +65,43 @@ class Confluence(unittest.TestCase):
         self.assertEqual(list(arcs.geometry[2].coords), [(50, 50), (0, 50), (0, 0)])
         self.assertEqual(nodes.crs.to_epsg(), 32631)
 
+    def test_graphs_and_tables_come_back(self):
+        def same(one, other):
+            self.assertIs(type(one), type(other))
+            plans = [getattr(each, "planform", each) for each in (one, other)]
+            for field in ("nodes", "from_nodes", "to_nodes"):
+                np.testing.assert_array_equal(getattr(plans[0], field), getattr(plans[1], field))
+            for line, again in zip(plans[0].lines, plans[1].lines, strict=True):
+                np.testing.assert_array_equal(line, again)
+            if isinstance(one, ElevatedNetwork):
+                np.testing.assert_array_equal(one.node_z, other.node_z)
+                for z, again in zip(one.arc_z, other.arc_z, strict=True):
+                    np.testing.assert_array_equal(z, again)
+
+        for network in (planform(), ElevatedNetwork(planform(), NODE_Z, ARC_Z)):
+            same(thalweg.from_networkx(network.to_networkx()), network)
+            for crs in ("EPSG:32631", None):
+                same(thalweg.from_geodataframe(network.to_geodataframe(crs=crs)), network)
+        # Any graph, and any table.
+        graph = networkx.DiGraph([("spring", "mouth")])
+        graph.add_node("spring", x=0, y=5, z=7)
+        graph.add_node("mouth", x=10, y=5, z=1)
+        graph.edges["spring", "mouth"]["line"] = [(0, 5), (5, 5), (10, 5)]
+        self.assertEqual(thalweg.from_networkx(graph).arc_z[0].tolist(), [7.0, 4.0, 1.0])
+        table = geopandas.GeoDataFrame(geometry=[shapely.geometry.LineString(line) for line in LINES], crs=32631)
+        self.assertEqual(sorted(thalweg.network.order(thalweg.from_geodataframe(table)).strahler), [1, 1, 2])
+        del graph.nodes["mouth"]["x"]
+        for wrong, words in ((graph, "node 'mouth' has no x and y"), (networkx.Graph([(1, 2)]), "edges have no direction")):
+            with self.assertRaisesRegex(BadInput, words):
+                thalweg.from_networkx(wrong)
+        bent = planform().to_networkx()
+        bent.edges[1, 3]["line"] = [(0, 0), (1, 1)]
+        with self.assertRaisesRegex(BadInput, "the line of the edge from 1 to 3 does not begin and end at its nodes"):
+            thalweg.from_networkx(bent)
+        for frame, words in ((table[:0], "the table is empty"), (table.to_crs(4326), "not in metres: reproject it first")):
+            with self.assertRaisesRegex(BadInput, words):
+                thalweg.from_geodataframe(frame)
+
     def test_what_is_no_layer_or_network_is_refused_in_words(self):
         with self.assertRaisesRegex(BadParameter, "layer = 'lakes': write arcs or nodes"):
             planform().to_geodataframe("lakes")
@@ -139,10 +176,11 @@ class Files(unittest.TestCase):
             for number, name in enumerate(read):
                 self.assertEqual([row[number] for row in rivers.attributes.rows], read[name])
 
-    def test_extracted_streams_keep_their_areas(self):
+    def test_extracted_streams_keep_their_areas_and_crs(self):
         dem = thalweg.io.read_dem(pathlib.Path(__file__).parents[2] / "samples/jacksboro_utm16.tif")
         streams = thalweg.flow.extract_streams(thalweg.flow.route(dem), dem)
-        table = thalweg.to_geodataframe(streams, crs=dem.crs)
+        table = thalweg.to_geodataframe(streams)
+        self.assertEqual((streams.crs, table.crs.to_epsg()), (dem.crs, 32616))
         self.assertEqual(table.ds_area.tolist(), streams.areas.ds_area_m2.tolist())
         self.assertEqual(len(thalweg.to_networkx(streams).edges), len(table))
 

@@ -3,8 +3,10 @@
 """Rasters are numpy arrays without copies; what is converted is said, what is wrong is said with its place."""
 import copy
 import gc
+import os
 import pathlib
 import pickle
+import re
 import tempfile
 import unittest
 import warnings
@@ -16,7 +18,7 @@ import pyproj
 import rasterio.crs
 import rioxarray
 import xarray
-from osgeo import osr
+from osgeo import gdal, osr
 
 import thalweg
 from thalweg import BadInput, ConversionWarning, Grid, Raster
@@ -102,16 +104,101 @@ class Values(Quiet):
 
     def test_numpy_takes_it(self):
         array, raster = slope(), Raster(slope())
-        for take in (lambda a: a + 1, lambda a: 2 * a, lambda a: a - a, lambda a: -a, lambda a: a > 3, lambda a: a[1:, ::2],
-                     np.sqrt, np.maximum.accumulate, lambda a: np.where(a > 2, a, 0), lambda a: np.array(list(a))):
+        for take in (lambda a: a[1:, ::2], np.maximum.accumulate, lambda a: np.where(a > 2, a, 0), lambda a: np.array(list(a)),
+                     lambda a: np.add.reduce(a), lambda a: a[a > 3], lambda a: a[0, a[0] > 1], lambda a: a + np.zeros((2, 4, 5)),
+                     lambda a: np.add.outer(a, [1, 2])):
             result, expected = take(raster), take(array)
             self.assertIs(type(result), np.ndarray)
             self.assertEqual(result.dtype, expected.dtype)
             np.testing.assert_array_equal(result, expected)
-        self.assertEqual(np.mean(raster), array.mean())
+        for reduce in ("min", "max", "mean", "std", "sum", "any", "all"):
+            for axis in (None, 0, 1):
+                np.testing.assert_array_equal(getattr(raster, reduce)(axis=axis), getattr(array, reduce)(axis=axis))
+                np.testing.assert_array_equal(getattr(np, reduce)(raster, axis=axis), getattr(np, reduce)(array, axis=axis))
+        self.assertEqual(np.nanmean(raster), array.mean())
         out = np.empty_like(array)
         np.add(raster, 1, out=out)
         np.testing.assert_array_equal(out, array + 1)
+
+    def test_arithmetic_keeps_grid_and_crs(self):
+        array, raster = slope() + 1, Raster(slope() + 1, cell_m=30, west=7.0, crs="EPSG:32616")
+        for take in (lambda a: a + 1, lambda a: 2 * a, lambda a: a - a, lambda a: -a, lambda a: a > 3, np.sqrt, abs,
+                     lambda a: 1 / a, lambda a: a ** 2, lambda a: ~(a > 2), lambda a: (a > 2) & (a < 9), lambda a: a - slope(),
+                     lambda a: slope() - a, lambda a: a - slope()[0], lambda a: np.hypot(a, a), np.isnan,
+                     lambda a: np.add(a, 1, where=a > 2, out=None) * 0):
+            result, expected = take(raster), take(array)
+            self.assertIsInstance(result, Raster)
+            self.assertEqual(result.grid, raster.grid)
+            self.assertEqual(result.dtype, expected.dtype)
+            np.testing.assert_array_equal(result, expected)
+        for part, expected in zip(np.modf(raster), np.modf(array)):
+            self.assertEqual(part.grid, raster.grid)
+            np.testing.assert_array_equal(part, expected)
+        metres = (raster * 0.3048).astype(np.float32)
+        self.assertEqual((metres.grid, metres.dtype), (raster.grid, np.float32))
+        moved = Raster(slope(), cell_m=30, west=8.0, crs="EPSG:32616")
+        with self.assertRaisesRegex(BadInput, "subtract: rasters of different grids.*west=7.0.*west=8.0"):
+            raster - moved
+        self.assertEqual(type(raster - moved.values), Raster)
+
+    def test_numbers_for_no_data_are_refused_as_of_files(self):
+        for number in (-9999, -32768, -3.4e38, 1e38):
+            heights = slope()
+            heights[1, 2] = number
+            words = f"dem: 1 cells are {re.escape(f'{number:g}')}, the first in row 1, column 2 .from 0.: no terrain has this height"
+            for given in (heights, Raster(heights), xarray.DataArray(heights, dims=("y", "x"))):
+                with self.assertRaisesRegex(BadInput, words) as refused:
+                    thalweg.flow.route(given)
+                self.assertEqual(refused.exception.where, "flow.route")
+            with self.assertRaisesRegex(BadInput, words):
+                thalweg.measure.statistics(heights)
+            known = np.where(heights == np.float32(number), np.nan, heights)  # as the message says
+            self.assertEqual(thalweg.measure.statistics(known.astype(np.float32)).nodata, 1)
+        sea = slope() - 10005  # deeper than 9999 m, too
+        self.assertEqual(thalweg.measure.statistics(sea.astype(np.float32)).nodata, 0)
+        self.assertEqual(to_core(np.array([[-9999]], np.int32), np.int32, "codes")[0, 0], -9999)
+
+    def test_opened_saved_sampled(self):
+        dem = Raster.open(DEM)
+        self.assertEqual(dem.grid, thalweg.io.read_dem(str(DEM)).grid)
+        source = gdal.Open(str(DEM))
+        west, width, _, north, _, height = source.GetGeoTransform()
+        self.assertEqual(dem.transform, (width, 0.0, west, 0.0, height, north))
+        with tempfile.TemporaryDirectory() as place:
+            for values, kind in ((dem, np.float32), (dem > 400, np.uint8), (dem.astype(np.float64), np.float64)):
+                path = pathlib.Path(place) / f"{np.dtype(kind).name}.tif"
+                values.save(path)
+                with self.assertRaises(thalweg.IoError):
+                    values.save(path)
+                values.save(path, overwrite=True)
+                self.assertEqual(sorted(one.name for one in path.parent.iterdir() if one.name.startswith(".")), [])
+                again = Raster.open(path, values="codes" if kind is np.uint8 else "numbers")
+                self.assertEqual(again.grid, dem.grid)
+                np.testing.assert_array_equal(again, values.astype(np.float32))
+                self.assertEqual(gdal.Open(str(path)).GetRasterBand(1).DataType,
+                                 {np.float32: gdal.GDT_Float32, np.uint8: gdal.GDT_Byte, np.float64: gdal.GDT_Float64}[kind])
+            for name in ("dem.png", "dem.asc", "dem.npy"):
+                with self.assertRaisesRegex(thalweg.BadParameter, "a GeoTIFF is written, whose name ends in .tif, not"):
+                    thalweg.io.write_dem(dem, f"{place}/{name}")
+            self.assertEqual(sorted(os.listdir(place)), ["float32.tif", "float64.tif", "uint8.tif"])
+        random = np.random.default_rng(5)
+        grid = dem.grid
+        x = random.uniform(dem.bounds[0] - 300, dem.bounds[2] + 300, 500)
+        y = random.uniform(dem.bounds[1] - 300, dem.bounds[3] + 300, 500)
+        rows, columns = dem.index(x, y)
+        inside = (rows >= 0) & (rows < grid.height) & (columns >= 0) & (columns < grid.width)
+        found = dem.sample(x, y)
+        np.testing.assert_array_equal(np.isnan(found), ~inside | np.isnan(dem.values[rows * inside, columns * inside]))
+        np.testing.assert_array_equal(found[inside], dem.values[rows[inside], columns[inside]])
+        np.testing.assert_array_equal(dem.sample(*dem.xy([3, 7], [5, 6]), method="bilinear"), dem.values[[3, 7], [5, 6]])
+        # As SciPy interpolates between centres.
+        plane = Raster(np.add.outer(np.arange(6.0), 10.0 * np.arange(8.0)), cell_m=2.0, west=50.0, north=40.0)
+        x, y = random.uniform(51.0, 65.0, 100), random.uniform(29.0, 39.0, 100)
+        np.testing.assert_allclose(plane.sample(x, y, method="bilinear"), (39.0 - y) / 2 + 10 * (x - 51.0) / 2, atol=1e-9)
+        self.assertEqual(plane.sample(50.0, 40.0, method="bilinear"), 0.0)
+        self.assertTrue(np.isnan(plane.sample([49.9, np.nan], 35.0, method="bilinear")).all())
+        with self.assertRaisesRegex(thalweg.BadParameter, "cubic"):
+            plane.sample(55.0, 35.0, method="cubic")
 
     def test_both_protocols_of_array(self):
         raster = Raster(slope())
@@ -344,7 +431,7 @@ class Pictures(Quiet):
         empty = np.full((3, 3), np.nan, np.float32)
         for raster in (Raster(slope()), Raster(slope() > 3), Raster(empty), Raster(slope(2000, 3))):
             page = raster._repr_html_()
-            self.assertIn("data:image/png;base64,", page)
+            self.assertRegex(page, "data:image/(png|jpeg);base64,")
             self.assertIn(f"{raster.grid.width} × {raster.grid.height} cells", page)
 
     def test_written_and_read_it_is_the_same(self):

@@ -176,9 +176,10 @@ class Inputs(unittest.TestCase):
 
     def test_a_dem_without_rivers(self):
         terrain = thalweg.make(DEM)
-        self.assertIsNone(terrain.network)
-        self.assertIsNone(terrain.orders)
-        self.assertIsNone(terrain.areas)
+        self.assertEqual((terrain.has_dem, terrain.has_network), (True, False))
+        for name in ("network", "orders", "areas"):
+            with self.assertRaisesRegex(thalweg.BadInput, "the terrain has no rivers: its recipe has no .network."):
+                getattr(terrain, name)
         for take in (terrain.to_networkx, terrain.to_geodataframe):
             with self.assertRaisesRegex(BadInput, "the terrain has no rivers"):
                 take()
@@ -223,8 +224,10 @@ class Values(unittest.TestCase):
 
     def test_rivers_alone(self):
         terrain = thalweg.make({key: DILATED[key] for key in ("grid", "network")})
-        self.assertIsNone(terrain.dem)
-        self.assertIsNone(terrain.flow)
+        self.assertEqual((terrain.has_dem, terrain.has_network), (False, True))
+        for name in ("dem", "flow"):
+            with self.assertRaisesRegex(thalweg.BadInput, "its recipe asks for rivers alone"):
+                getattr(terrain, name)
         self.assertGreater(len(terrain.to_geodataframe()), 0)
         with self.assertRaisesRegex(BadInput, "the terrain has no DEM"):
             terrain.to_xarray()
@@ -284,7 +287,8 @@ class Values(unittest.TestCase):
 
     def test_a_notebook_shows_it(self):
         page = self.terrain._repr_html_()
-        self.assertIn("data:image/png;base64,iVBOR", page)
+        self.assertIn("data:image/jpeg;base64,/9j/", page)
+        self.assertLess(len(page), 300_000)
         for words in ("96 × 80 cells of 30 m", "relief", f"{self.terrain.network.planform.arc_count} arcs", "checks ok"):
             self.assertIn(words, page)
             self.assertIn(words, repr(self.terrain))

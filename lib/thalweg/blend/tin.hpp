@@ -14,9 +14,9 @@ namespace thalweg::blend {
 
 /// Gradients of the three coordinates of a mesh in a triangle of a parameter mesh.
 struct CoordinateGradients {
-    Vec3 x;
-    Vec3 y;
-    Vec3 z;
+    Vec3 x; ///< [-]
+    Vec3 y; ///< [-]
+    Vec3 z; ///< [-]
 };
 
 /// A linear map of space, by rows.

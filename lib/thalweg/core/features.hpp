@@ -38,7 +38,7 @@ struct RidgeLines {
 struct Polygon {
     std::int64_t feature = 0;             ///< id in the file
     std::vector<std::vector<Vec2>> rings; ///< [m] implicitly closed; even-odd rule
-    double value = 0.0;                   ///< of the requested field; NaN: it has none
+    double value = 0.0;                   ///< [as the field] the requested one; NaN: it has none
 };
 
 /// The polygons of a file.

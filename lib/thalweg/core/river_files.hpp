@@ -25,7 +25,7 @@ struct AttributeTable {
         Type type = Type::text;
     };
     std::vector<Column> columns;
-    std::vector<std::vector<Value>> rows; ///< record r, from 1, is row r - 1: a value for each column
+    std::vector<std::vector<Value>> rows; ///< [as the columns] record r, from 1, is row r - 1: a value for each
 };
 
 /// A part of an arc that came from one feature.
@@ -46,7 +46,7 @@ struct RiverLine {
     std::int64_t rank = 0;      ///< flow rank from the direction field, decreasing downstream; 0: none
     int lambda = 0;             ///< generator of the network that grows from a stroke; 0: none
     std::int64_t down = 0;      ///< feature of the line downstream, by the file's links; 0: none
-    /// Areas, discharge, orders and classes from the file's fields, the most reliable first: larger for larger rivers,
+    /// [as the fields] Areas, discharge, orders and classes, the most reliable first: larger for larger rivers,
     /// 0: unknown. All lines of a file have the same fields, which are compared one after another.
     std::vector<double> size = {};
     Channel channel = Channel::unknown;

@@ -13,11 +13,11 @@ namespace thalweg::draw {
 
 /// An index of the members of an ensemble, with its natural range.
 struct Distribution {
-    std::string name;               ///< UTF-8
-    std::string unit;               ///< UTF-8; "" for none
-    std::vector<double> values;     ///< by member; NaN: unknown
-    std::optional<double> low = {}; ///< of the natural range; without both ends there is none
-    std::optional<double> high = {};
+    std::string name;                ///< UTF-8
+    std::string unit;                ///< UTF-8; "" for none
+    std::vector<double> values;      ///< [unit] by member; NaN: unknown
+    std::optional<double> low = {};  ///< [unit] of the natural range; without both ends there is none
+    std::optional<double> high = {}; ///< [unit]
     std::string group = {}; ///< UTF-8, a heading above the first of consecutive indices of one group; "" for none
 };
 

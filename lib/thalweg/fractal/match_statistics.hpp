@@ -41,9 +41,9 @@ struct MatchParams {
 
 /// The result for one statistic.
 struct Residual {
-    std::string name; ///< "mean", "std", "lx_cells", "ly_cells", "slope_rad", "dimension", "max", "min"
-    double asked = 0.0;
-    double got = 0.0;   ///< NaN: undefined
+    std::string name;   ///< "mean", "std", "lx_cells", "ly_cells", "slope_rad", "dimension", "max", "min"
+    double asked = 0.0; ///< [as named]
+    double got = 0.0;   ///< [as named] NaN: undefined
     double error = 0.0; ///< relative to the target; for mean, max and min to the standard deviation
 };
 

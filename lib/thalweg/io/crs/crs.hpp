@@ -35,10 +35,10 @@ std::optional<int> utm_number(std::string const& crs);
 
 /// A box of longitudes and latitudes [degrees], west <= east, south <= north.
 struct DegreeBox {
-    double west = 0.0;
-    double south = 0.0;
-    double east = 0.0;
-    double north = 0.0;
+    double west = 0.0;  ///< [deg]
+    double south = 0.0; ///< [deg]
+    double east = 0.0;  ///< [deg]
+    double north = 0.0; ///< [deg]
 };
 
 /// Computes the largest relative error of lengths in a UTM zone, anywhere in a box.

@@ -38,7 +38,7 @@ struct ReadPointsParams {
     /// Column of the heights of all points, of text too; "": their Z or z_field; nothing: the user has no option to
     /// name it
     std::optional<std::string> height_column = {};
-    /// A height that stands for no data: such points are left out. NaN: none does. Nothing: those that are known to
+    /// [m] A height that stands for no data: such points are left out. NaN: none does. None: those that are known to
     /// (-9999, ...) are refused where no other height is near
     std::optional<double> nodata = {};
     /// Text: the columns of x, y and z, as names in a first line or numbers from 1 ("3,2,4"), or "pnezd" (number,

@@ -19,7 +19,7 @@ std::string qml(QgisStyle const& style);
 /// The field by which rivers are as wide as the root of their drainage area.
 struct RiverWidths {
     std::string field = {}; ///< "": all are equally wide for their order
-    double greatest = 0.0;  ///< of its values
+    double greatest = 0.0;  ///< [as its values]
 };
 
 /// Rivers, darker with their order.
@@ -62,6 +62,7 @@ QgisStyle water_style();
 using Tints = std::vector<std::pair<double, std::string>>;
 
 /// Hypsometric tints, which multiply what lies below, such as a hillshade.
+/// \param tints [unit] heights and their colours, ascending
 /// \param unit of the heights in the legend: "m"
 /// \param no_data colour of cells without a height; "": none
 /// \return a style for a DEM
@@ -69,7 +70,7 @@ using Tints = std::vector<std::pair<double, std::string>>;
 QgisStyle tint_style(Tints const& tints, std::string const& unit, std::string const& no_data = {});
 
 /// Light from the north-west.
-/// \param metres_in_unit of heights
+/// \param metres_in_unit [m] in a unit of the heights
 /// \return a style for a DEM
 QgisStyle hillshade_style(double metres_in_unit = 1.0);
 
@@ -80,12 +81,14 @@ QgisStyle hillshade_style(double metres_in_unit = 1.0);
 QgisStyle mask_style(std::string const& label, std::string const& colour);
 
 /// Contributing areas by their logarithm.
-/// \param smallest, greatest [m2], > 0
+/// \param smallest,greatest [m2] > 0
 /// \return a style for a raster
 /// \throws BadInput when they are not
 QgisStyle area_style(double smallest, double greatest);
 
 /// A TIN as a mesh: hypsometric tints, and thin edges.
+/// \param tints [unit] as for tint_style
+/// \param unit of the heights in the legend
 /// \return a style for a mesh with heights in its first dataset
 QgisStyle mesh_style(Tints const& tints, std::string const& unit);
 

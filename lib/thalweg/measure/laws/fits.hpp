@@ -13,11 +13,11 @@ namespace thalweg::measure {
 
 /// A least-squares line.
 struct LineFit {
-    double slope = 0.0;
-    double intercept = 0.0; ///< y at x = 0
+    double slope = 0.0;     ///< [y / x]
+    double intercept = 0.0; ///< [y] at x = 0
     /// share of y's variance explained; NaN: two points, or y is constant
     double r2 = std::numeric_limits<double>::quiet_NaN();
-    double slope_error = std::numeric_limits<double>::quiet_NaN(); ///< standard error; NaN: two points
+    double slope_error = std::numeric_limits<double>::quiet_NaN(); ///< [y / x] standard error; NaN: two points
     std::int64_t points = 0;
 };
 
@@ -30,20 +30,20 @@ std::optional<LineFit> fit_line(std::vector<Vec2> const& points, std::vector<dou
 /// A value at a place, and the area that drains to it.
 struct AtArea {
     double area_m2 = 0.0;
-    double value = 0.0;
+    double value = 0.0; ///< [any]
 };
 
 /// The mean of places with similar areas.
 struct AreaBin {
     double area_m2 = 0.0; ///< geometric mean
-    double value = 0.0;   ///< geometric mean
+    double value = 0.0;   ///< [any] geometric mean
     std::int64_t places = 0;
 };
 
 /// A power law of area: value = coefficient * area^exponent, area in m2.
 struct PowerLaw {
     double exponent = 0.0;
-    double coefficient = 0.0;
+    double coefficient = 0.0;    ///< [value / m^(2 exponent)]
     double r2 = 0.0;             ///< of the regression of the bins' logarithms; NaN: all values are equal
     double exponent_error = 0.0; ///< standard error
     std::vector<AreaBin> bins;   ///< by area

@@ -34,7 +34,7 @@ struct EnsembleResult {
     std::int64_t failed = 0;            ///< not made
     std::int64_t warned = 0;            ///< made with warnings
     std::string table = {};             ///< path of table.csv; "" for a share
-    double seconds = 0.0;               ///< of making and writing members
+    double seconds = 0.0;               ///< [s] of making and writing members
     std::vector<Finding> findings = {}; ///< on the whole ensemble
 };
 

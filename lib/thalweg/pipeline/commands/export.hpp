@@ -109,7 +109,7 @@ struct ExportResult {
     std::string crs;              ///< as in Grid
     double min_m = 0.0;           ///< lowest height
     double max_m = 0.0;           ///< highest height
-    double metres_per_step = 0.0; ///< of 16 bits; else 0
+    double metres_per_step = 0.0; ///< [m] of 16 bits; else 0
     std::int64_t holes = 0;       ///< cells of the DEM without data
     /// the level of the sea that they were given; not set: there is none, they are left out, or closed as gaps says
     std::optional<double> hole_m = {};

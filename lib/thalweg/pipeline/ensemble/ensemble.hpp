@@ -20,7 +20,7 @@ namespace thalweg::pipeline {
 /// values in turn.
 struct VariedKey {
     std::string key;                                   ///< "surface.mean_slope"
-    std::optional<std::array<double, 2>> between = {}; ///< of a number: the lowest and the highest value
+    std::optional<std::array<double, 2>> between = {}; ///< [unit of the key] lowest and highest value
     std::vector<std::string> values = {};              ///< as set_key() takes them; empty where between is set
     bool is_integer = false;                           ///< numbers are rounded to whole ones
 };

@@ -103,7 +103,7 @@ struct LawRow {
     std::string_view key;
     std::string_view name;
     std::string_view unit;
-    std::optional<double> value;                              ///< nothing: the network is too small
+    std::optional<double> value;                              ///< [unit] nothing: the network is too small
     std::vector<std::pair<std::string_view, double>> details; ///< of the fit: r2, error, counts; NaN: unknown
     measure::NaturalRange const* nature = nullptr;            ///< null: no range is published
 };

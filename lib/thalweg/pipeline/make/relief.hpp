@@ -55,8 +55,8 @@ struct ReliefRow {
     std::string_view key;
     std::string_view name;
     std::string_view unit;
-    std::optional<double> value;               ///< nothing: the terrain is too small
-    std::vector<double> beside;                ///< of the reference DEMs, in order; empty: they have none
+    std::optional<double> value;               ///< [unit] nothing: the terrain is too small
+    std::vector<double> beside;                ///< [unit] of the reference DEMs, in order; empty: they have none
     std::optional<measure::ReliefRange> range; ///< nothing: unknown
     bool ok() const { return !value || !range || (*value >= range->low && *value <= range->high); }
 };

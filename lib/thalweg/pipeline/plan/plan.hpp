@@ -79,7 +79,7 @@ struct Forecast {
     std::optional<Grid> grid;        ///< empty: it depends on rivers that must be grown first
     std::int64_t cells = 0;          ///< of the grid; an estimate if it is unknown
     std::int64_t memory_bytes = 0;   ///< estimated upper limit
-    double seconds = 0.0;            ///< estimated, on one core of 2020
+    double seconds = 0.0;            ///< [s] estimated, on one core of 2020
     std::vector<Finding> findings;   ///< of the plan
 };
 

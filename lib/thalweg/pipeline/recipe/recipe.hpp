@@ -196,7 +196,7 @@ struct SkeletonRecipe {
     double midpoint_inverse_cells = 0.0; ///< [cells] >= 0, L: cells beside the skeleton that follow from it; 0: none
     std::string points;                  ///< file of points with heights; "" for none
     std::string height_column;           ///< of points: their heights; "": their own
-    std::optional<double> nodata;        ///< height that stands for no data: such points are left out; NaN: none does
+    std::optional<double> nodata;        ///< [m] that stands for no data: such points are left out; NaN: none does
     std::string ridge_lines;             ///< file of ridges, with or without heights; "" for none
     std::string ridge_height_column;     ///< of ridge_lines: the height of all of a line; "": those of its vertices
     std::int64_t scatter = 0;            ///< points at random; 0 for none
@@ -215,7 +215,7 @@ struct StatisticsRecipe {
     std::optional<double> mean;                  ///< [m]
     std::optional<double> std;                   ///< [m] > 0
     std::optional<std::array<double, 3>> max;    ///< height [m], column, row
-    std::optional<std::array<double, 3>> min;    ///< likewise
+    std::optional<std::array<double, 3>> min;    ///< height [m], column, row
     std::optional<std::array<double, 2>> length; ///< [cells] > 0, along rows and along columns
     std::optional<double> slope;                 ///< [rad] (0, pi/2) arctan of metres a cell
     std::optional<double> dimension;             ///< (2, 3)
@@ -314,8 +314,8 @@ struct KeyHelp {
     std::vector<std::string> choices = {}; ///< words it may be; of an expression, those with a name; {} for none
     std::string used_by = {};              ///< what a recipe must hold for the key to have an effect; "": any recipe
     bool is_file = false;                  ///< its value names a file, relative to the recipe's folder
-    std::optional<double> least = {};      ///< of a number; with most: none where the range has no such end
-    std::optional<double> most = {};
+    std::optional<double> least = {};      ///< [unit] of a number; with most: none where the range has no such end
+    std::optional<double> most = {};       ///< [unit]
 };
 
 /// \return every key in the order of recipe files.

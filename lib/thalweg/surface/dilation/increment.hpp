@@ -29,9 +29,9 @@ std::vector<double> increments(std::int64_t levels, IncrementParams const& param
 
 /// A jump of dh(x).
 struct IncrementJump {
-    double x = 0.0;    ///< dilations
-    double from = 0.0; ///< increment before it, in the units of Cao, Long and Lü
-    double to = 0.0;   ///< increment after it
+    double x = 0.0;    ///< [dilations]
+    double from = 0.0; ///< [unit of Cao, Long and Lü] increment before it
+    double to = 0.0;   ///< [unit of Cao, Long and Lü] increment after it
 };
 
 /// Finds the jumps of dh(x) between 1 and levels: slopes break there on every hillside at once.
