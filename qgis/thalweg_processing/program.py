@@ -118,7 +118,7 @@ def _asked(path: str) -> Program:
         keys = tuple(json.loads(_said(path, "recipe", "--json"))["keys"])
     except (ValueError, KeyError, TypeError):
         raise ProgramError(f"{path} recipe --json prints no table of keys. Is it thalweg? {WHERE} names the program.") from None
-    version = _said(path, "--version").split("\n", 1)[0].strip().removeprefix("thalweg").split(",")[0].strip()
+    version = _said(path, "--version").split("\n", 1)[0].removeprefix("thalweg").partition("(")[0].strip()
     return Program(path, version, keys)
 
 

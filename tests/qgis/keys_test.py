@@ -174,7 +174,8 @@ class WhatTheProgramTakes(Case):
 
     def test_versions(self):
         provider = QgsApplication.processingRegistry().providerById("thalweg")
-        self.assertIn(provider.versionInfo(), program("--version").stdout)
+        version, = re.findall(r"^thalweg (\S+) \(GDAL .*\)$", program("--version").stdout, re.MULTILINE)
+        self.assertEqual((provider.versionInfo(), provider.longName()), (version, f"thalweg ({version})"))
         self.assertEqual(runner.find().path, str(PROGRAM))
 
     def test_shared_checks_come_before_the_program(self):
