@@ -13,7 +13,8 @@ from typing import Any
 from processing.core.ProcessingConfig import ProcessingConfig
 from qgis.core import (QgsProcessing, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
                        QgsProcessingFeedback, QgsProcessingOutputDefinition, QgsProcessingOutputLayerDefinition,
-                       QgsProcessingParameterDefinition, QgsProcessingParameterNumber, QgsProcessingUtils)
+                       QgsProcessingParameterDefinition, QgsProcessingParameterEnum, QgsProcessingParameterNumber,
+                       QgsProcessingUtils)
 from qgis.PyQt.QtCore import QUrl
 from qgis.PyQt.QtGui import QIcon
 
@@ -37,6 +38,11 @@ def ends_in(destination: Any, *endings: str) -> bool:
     """Return whether the file of a destination has one of these extensions, or gets one from QGIS."""
     said = destination.sink.staticValue() if isinstance(destination, QgsProcessingOutputLayerDefinition) else destination
     return not isinstance(said, str) or said == QgsProcessing.TEMPORARY_OUTPUT or said.lower().endswith(endings)
+
+
+def is_part_of_another(feedback: QgsProcessingFeedback) -> bool:
+    """Return whether another algorithm, such as a model, runs this one: it then reports a part of that one's progress."""
+    return feedback.metaObject().className() == "QgsProcessingMultiStepFeedback"
 
 
 class Algorithm(QgsProcessingAlgorithm):
@@ -108,6 +114,17 @@ class Algorithm(QgsProcessingAlgorithm):
         parameter.setHelp(text)
         self.said[parameter.name()] = text
         self.addParameter(parameter)
+
+    def add_load(self, titles: list[str], default: list[int], text: str = "") -> None:
+        """Declare LOAD, the layers that QGIS opens when the algorithm has ended."""
+        self.add(QgsProcessingParameterEnum("LOAD", "Open after running", titles, allowMultiple=True, optional=True,
+                                            defaultValue=default),
+                 f"Layers that QGIS opens, of those that are written. {text}A model opens its own outputs only.".strip())
+
+    def opened(self, parameters: dict[str, Any], context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> list[int]:
+        """Return which layers of LOAD are to be opened."""
+        wants_none = parameters.get("LOAD") in ([], "")  # without the parameter, its default holds
+        return [] if wants_none or is_part_of_another(feedback) else self.parameterAsEnums(parameters, "LOAD", context)
 
     def give(self, output: QgsProcessingOutputDefinition, text: str) -> None:
         """Declare an output with its help."""

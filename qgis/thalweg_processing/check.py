@@ -38,7 +38,8 @@ class Check(NetworkAlgorithm):
         self.add_network()
         self.add(QgsProcessingParameterRasterLayer("DEM", "DEM", optional=True),
                  "Also check that this DEM drains, and by these rivers; the repair finds the flow direction of lines by it. "
-                 "It must have the network's CRS.")
+                 "It must have the network's CRS or, of a network in degrees, be in its UTM zone: the network is then "
+                 "reprojected.")
         self.add(QgsProcessingParameterNumber("NEAR", "Distance of near line ends [m]", QgsProcessingParameterNumber.Double,
                                               optional=True, minValue=0),
                  "Report line ends closer than this to a line that they do not meet; the repair joins those that meet no other "

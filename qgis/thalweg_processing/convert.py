@@ -6,7 +6,7 @@ from __future__ import annotations
 from typing import Any
 
 from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputRasterLayer,
-                       QgsProcessingOutputVectorLayer, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
+                       QgsProcessingOutputVectorLayer, QgsProcessingParameterEnum,
                        QgsProcessingParameterFileDestination, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
@@ -53,8 +53,7 @@ class Convert(NetworkAlgorithm):
                  "Format of the output. Default: by the file extension. GeoJSON is in degrees; geojson2008 keeps the network's CRS.",
                  advanced=True)
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
-        self.add(QgsProcessingParameterBoolean("LOAD", "Open the network after running", defaultValue=True),
-                 "Open the layers of the output that QGIS reads.")
+        self.add_load(["Arcs", "Nodes", "River cells"], [0, 1, 2])
         self.add(QgsProcessingParameterFileDestination("OUTPUT", "Converted network", FILTER),
                  "The file to write; an existing one is replaced.")
         self.give(QgsProcessingOutputVectorLayer("ARCS", "Arcs", QgsProcessing.TypeVectorLine),
@@ -82,18 +81,18 @@ class Convert(NetworkAlgorithm):
     def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
         written = finished.report["written"]
-        opens = self.parameterAsBool(parameters, "LOAD", context)
+        opened = self.opened(parameters, context, feedback)
         found: dict[str, Any] = {"OUTPUT": self.output}
         layers = network_layers(written)
-        for name, kind in (("ARCS", "arcs"), ("NODES", "nodes")):
+        for number, (name, kind) in enumerate((("ARCS", "arcs"), ("NODES", "nodes"))):
             if kind in layers:
                 found[name] = layers[kind]
-                if opens:
+                if number in opened:
                     open_after(context, layers[kind], name.capitalize(), name, "vector")
         rasters = [path for path in written if path.lower().endswith(".tif")]
         if rasters:
             found["RASTER"] = rasters[0]
-            if opens:
+            if 2 in opened:
                 open_after(context, rasters[0], "River cells", "RASTER", "raster")
         for finding in finished.report.get("findings", []):
             feedback.pushInfo(finding["text"])

@@ -144,9 +144,7 @@ class Make(Algorithm):
             if key["key"] not in PLAIN:
                 self.add(parameter_of(key), help_of(key), advanced=True)
         titles = [title for _, _, title, _ in LAYERS.values()]
-        self.add(QgsProcessingParameterEnum("LOAD", "Open after running", titles, allowMultiple=True, optional=True,
-                                            defaultValue=[0, 1]),
-                 "Layers that QGIS opens. project.qgz in the folder is a project with all of them.")
+        self.add_load(titles, [0, 1], "project.qgz in the folder is a project with all of them. ")
         self.add(QgsProcessingParameterFolderDestination("OUTPUT", "Folder"),
                  "Files that an earlier run wrote to it are replaced; other files are kept.")
         for name, (_, _, title, kind) in LAYERS.items():
@@ -269,7 +267,7 @@ class Make(Algorithm):
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
         warn_of_failed(finished.report, feedback)
         found: dict[str, Any] = {"OUTPUT": self.output, "CHECKS_OK": finished.passed}
-        opened = self.parameterAsEnums(parameters, "LOAD", context) if self.is_set(parameters, "LOAD") else []
+        opened = self.opened(parameters, context, feedback)
         written = set(finished.report["files"])
         crs = str(finished.report["recipe"].get("grid", {}).get("crs", ""))
         for number, (name, (file, layer, title, kind)) in enumerate(LAYERS.items()):

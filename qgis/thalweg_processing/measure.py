@@ -7,7 +7,7 @@ import os
 from typing import Any
 
 from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedback, QgsProcessingOutputRasterLayer,
-                       QgsProcessingOutputVectorLayer, QgsProcessingParameterBoolean, QgsProcessingParameterEnum,
+                       QgsProcessingOutputVectorLayer, QgsProcessingParameterEnum,
                        QgsProcessingParameterFolderDestination, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
@@ -72,8 +72,8 @@ class Measure(NetworkAlgorithm):
         self.add(QgsProcessingParameterNumber("KNICK_DROP", "Least height of a knickpoint [m]", real, 30, minValue=0.001),
                  "Above the concave profile.", advanced=True)
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
-        self.add(QgsProcessingParameterBoolean("LOAD", "Open the layers after running", defaultValue=True),
-                 "Open what was written.")
+        titles = [title for _, title in RASTERS.values()] + [title for _, title, _, _ in LAYERS.values()]
+        self.add_load(titles, list(range(len(titles))))
         self.add(QgsProcessingParameterFolderDestination("OUTPUT", "Folder"),
                  "Files of the same names in it are replaced; other files are kept.")
         for name, (_, title) in RASTERS.items():
@@ -108,16 +108,16 @@ class Measure(NetworkAlgorithm):
     def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
         files = {os.path.basename(path): path for path in finished.report["files"]}
-        opens = self.parameterAsBool(parameters, "LOAD", context)
+        opened = self.opened(parameters, context, feedback)
         found: dict[str, Any] = {"OUTPUT": self.output}
-        for name, (file, title) in RASTERS.items():
+        for number, (name, (file, title)) in enumerate(RASTERS.items()):
             if file in files:
                 found[name] = files[file]
-                if opens:
+                if number in opened:
                     open_after(context, files[file], title, name, "raster")
-        for name, (file, title, _, _) in LAYERS.items():
+        for number, (name, (file, title, _, _)) in enumerate(LAYERS.items(), len(RASTERS)):
             if f"{file}.gpkg" in files:
                 found[name] = f"{files[f'{file}.gpkg']}|layername={name.lower()}"
-                if opens:
+                if number in opened:
                     open_after(context, found[name], title, name, "vector")
         return found

@@ -78,8 +78,8 @@ class Tin(Algorithm):
         self.add(QgsProcessingParameterEnum("FORMAT", "Format", FORMATS, optional=True, usesStaticStrings=True),
                  "Format of the output. Default: by the file extension.", advanced=True)
         self.add(QgsProcessingParameterString("NODATA", "No-data value of the DEM", optional=True), NODATA, advanced=True)
-        self.add(QgsProcessingParameterBoolean("LOAD", "Open the TIN after running", defaultValue=True),
-                 "Open a 2DM or PLY as a mesh layer, a GeoPackage as polygons. A 2DM names no CRS: the layer gets it.")
+        self.add_load(["TIN"], [0], "A 2DM or PLY is a mesh layer, a GeoPackage has polygons. A 2DM names no CRS: the layer "
+                                    "gets it. ")
         self.add(QgsProcessingParameterFileDestination("OUTPUT", "TIN", FILTER),
                  "The file to write; an existing one is replaced.")
         self.give(QgsProcessingOutputMapLayer("TIN", "TIN"), "The TIN as a layer, in formats that QGIS reads.")
@@ -123,6 +123,6 @@ class Tin(Algorithm):
         kind = KINDS.get(self.output[self.output.rfind("."):].lower(), "")
         if kind and self.word(parameters, "FORMAT", context) != "ply-points":
             found["TIN"] = self.output
-            if self.parameterAsBool(parameters, "LOAD", context):
+            if self.opened(parameters, context, feedback):
                 open_after(context, self.output, "TIN", "TIN", kind, report["crs"])
         return found

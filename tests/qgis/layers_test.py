@@ -236,6 +236,22 @@ class Layers(Case):
         self.refused("2 arcs leave(.|\n)*In QGIS: ", "convert", NETWORK=str(COAST), OUTPUT=f"{out}/new/x.gpkg")
         self.assertEqual(os.listdir(self.folder), [])
 
+    def test_a_dem_in_the_utm_zone_of_rivers_in_degrees(self):
+        """As the help of Check says."""
+        warped = str(self.folder / "dem.tif")
+        gdal.Warp(warped, str(JACKSBORO), dstSRS="EPSG:4326")
+        rivers = str(SAMPLES / "jacksboro_rivers.fgb")
+        degrees = str(self.folder / "degrees.gpkg")
+        gdal.VectorTranslate(degrees, rivers, dstSRS="EPSG:4326", reproject=True)
+        said = Said()
+        processing.run("thalweg:check", {"NETWORK": degrees, "DEM": str(JACKSBORO), "FIX": str(self.folder / "f.gpkg")},
+                       feedback=said)
+        self.assertIn("EPSG:32616", " ".join(said.lines))
+        self.refused("In QGIS: Raster > Projections > Warp", "check", NETWORK=degrees, DEM=warped,
+                     FIX=str(self.folder / "f.gpkg"))
+        instance = QgsApplication.processingRegistry().createAlgorithmById("thalweg:check")
+        self.assertIn("in degrees, be in its UTM zone", instance.parameterDefinition("DEM").help())
+
     def test_no_folder_for_temporary_files(self):
         none = unittest.mock.Mock(tempFolder=lambda: "/proc/none")
         with unittest.mock.patch.object(thalweg_processing.algorithm, "QgsProcessingUtils", none):
@@ -352,13 +368,15 @@ class Opened(Case):
     kept = []  # QGIS 3.22 crashes where a second project goes before the end
 
     def opened(self, algorithm, parameters):
+        return self.opened_by(QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{algorithm}"), parameters)
+
+    def opened_by(self, instance, parameters):
         project = QgsProject()
         self.kept.append(project)
         parameters = {name: QgsProcessingOutputLayerDefinition(value[1:], project) if str(value)[:1] == ">" else value
                       for name, value in parameters.items()}  # ">": to be opened
         context = QgsProcessingContext()
         context.setProject(project)
-        instance = QgsApplication.processingRegistry().createAlgorithmById(f"thalweg:{algorithm}")
         self.assertTrue(instance.checkParameterValues(parameters, context)[0])
         results, done = instance.run(parameters, context, QgsProcessingFeedback())
         self.assertTrue(done)
@@ -400,6 +418,29 @@ class Opened(Case):
         read = QgsProject()
         self.assertTrue(read.read(results["PROJECT"]))
         self.assertTrue(read.mapLayers() and all(layer.isValid() for layer in read.mapLayers().values()))
+
+    def test_a_model_opens_its_own_outputs_alone(self):
+        """The TIN and the catchments of its children are none; the blended DEM, as an output of the model, is opened."""
+        static = QgsProcessingModelChildParameterSource.fromStaticValue
+        model = QgsProcessingModelAlgorithm("drainage and its TIN")
+        for name, values in (("measure", {"DEM": str(JACKSBORO), "LOAD": [0, 1]}),
+                             ("tin", {"DEM": str(JACKSBORO), "ERROR": 30, "LOAD": [0]}),
+                             ("blend", {"TARGET": str(JACKSBORO), "SOURCE": str(JACKSBORO), "WINDOW": "5,5,50,50", "GAIN": 2})):
+            child = QgsProcessingModelChildAlgorithm(f"thalweg:{name}")
+            child.setChildId(name)
+            for parameter, value in values.items():
+                child.addParameterSources(parameter, [static(value)])
+            if name == "blend":
+                output = QgsProcessingModelOutput("pasted")
+                output.setChildOutputName("OUTPUT")
+                child.setModelOutputs({"pasted": output})
+            model.addChildAlgorithm(child)
+        _, layers = self.opened_by(model, {"blend:pasted": f">{self.folder / 'b.tif'}"})
+        self.assertEqual(len(layers), 1)
+        _, layers = self.opened("tin", {"DEM": str(JACKSBORO), "ERROR": 30, "LOAD": [], "OUTPUT": str(self.folder / "t.2dm")})
+        self.assertEqual(layers, {})
+        _, layers = self.opened("measure", {"DEM": str(JACKSBORO), "LOAD": [1], "OUTPUT": str(self.folder / "m")})
+        self.assertEqual(set(layers), {"Contributing area (D-infinity)"})
 
     def test_tin_has_the_crs_that_2dm_has_no_place_for(self):
         _, layers = self.opened("tin", {"DEM": str(JACKSBORO), "ERROR": 30, "OUTPUT": str(self.folder / "t.2dm")})

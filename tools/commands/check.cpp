@@ -94,8 +94,8 @@ Command add_check(CLI::App& app, Session& session) {
     add_network_options(app, options->params.network, options->params.read, options->fields, "--schema,--from");
     app.add_option("--dem", options->params.dem,
                    "Also check that this DEM drains, and by these rivers; --fix finds the flow direction of lines by "
-                   "it. It must "
-                   "have the network's CRS.")
+                   "it. It must have the network's CRS or, of a network in degrees, be in its UTM zone: the network is "
+                   "then reprojected.")
         ->type_name("FILE(tif)");
     app.add_option(
            "--fix", options->params.fix,
