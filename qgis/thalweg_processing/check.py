@@ -12,6 +12,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingExcepti
                        QgsProcessingParameterEnum, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString, QgsProcessingParameterVectorDestination, QgsProject)
 
+from .advice import in_qgis
 from .algorithm import LIMITS, NODATA, ends_in, warn_of_failed
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
 from .network_input import MAIN, MAIN_HELP, NetworkAlgorithm
@@ -91,7 +92,8 @@ class Check(NetworkAlgorithm):
             feedback.pushInfo(f"All checks passed. {allowance(report['checks'])}")
         say(report["mended"], "repair", feedback)
         for note in report["notes"]:
-            feedback.pushInfo(f"note: {note['text']}")
+            if not any(note["text"] in line for line in finished.heard):
+                feedback.pushInfo(f"note: {in_qgis(note['text'])}")
         found: dict[str, Any] = {"OK": finished.passed, "FINDINGS_COUNT": len(report["findings"])}
         if self.findings:
             found["FINDINGS"] = self.findings
@@ -119,7 +121,7 @@ def say(found: list[dict[str, Any]], what: str, feedback: QgsProcessingFeedback)
     counted = ", ".join(f"{number} {kind}" for kind, number in kinds.most_common())
     feedback.pushInfo(f"{len(found)} {what}{'s' if len(found) > 1 else ''}: {counted}")
     for one in sorted(found, key=lambda one: kinds[one["kind"]])[:SHOWN]:
-        feedback.pushInfo(f"  {one['text']}")
+        feedback.pushInfo(f"  {in_qgis(one['text'])}")
     if len(found) > SHOWN:
         feedback.pushInfo(f"  and {len(found) - SHOWN} more")
 

@@ -10,6 +10,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
                        QgsProcessingParameterFileDestination, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
+from .advice import in_qgis
 from .algorithm import NODATA
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
 from .network_input import MAIN, MAIN_HELP, SCHEMAS, NetworkAlgorithm
@@ -95,5 +96,6 @@ class Convert(NetworkAlgorithm):
             if 2 in opened:
                 open_after(context, rasters[0], "River cells", "RASTER", "raster")
         for finding in finished.report.get("findings", []):
-            feedback.pushInfo(finding["text"])
+            if not any(finding["text"] in line for line in finished.heard):
+                feedback.pushInfo(in_qgis(finding["text"]))
         return found

@@ -20,6 +20,7 @@ from qgis.core import (QgsCoordinateReferenceSystem, QgsProcessing, QgsProcessin
 
 from . import program
 from .algorithm import Algorithm, warn_of_failed
+from .keys import GROUPS, group_of, label_of
 from .layers import File, RasterInput, VectorInput, crs_text, map_layer_input, open_after, raster_input, vector_input
 from .program import Finished
 
@@ -69,15 +70,14 @@ def help_of(key: Key) -> str:
     parts += [f"Range: {key['range']}."] if key["range"] and not key["choices"] else []
     parts += [f"Default: {key['default']}."] if key["default"] not in ("", "''") else []
     parts += [f"Used by: {key['used_by']}."] if key["used_by"] else []
+    parts.append(f"Key: {key['key']}.")
     return html.escape(" ".join(parts), quote=False)
 
 
 def parameter_of(key: Key, label: str | None = None) -> QgsProcessingParameterDefinition:
     """Return the parameter of a key of the recipe; left empty, the key is not set."""
     name, kind = parameter_name(key["key"]), key["type"]
-    section, _, last = key["key"].rpartition(".")
-    if label is None:
-        label = f"{section}: {last.replace('_', ' ')}" + (f" [{key['unit']}]" if key["unit"] else "")
+    label = label or label_of(key["key"]) + (f" [{key['unit']}]" if key["unit"] else "")
     if kind in ("integer", "number"):
         least, greatest = bounds(key)
         whole = kind == "integer"
@@ -140,7 +140,7 @@ class Make(Algorithm):
         for name, label in (("output.units", "Unit of heights"), ("output.title", "Title")):
             if name in by_name:
                 self.add(parameter_of(by_name[name], label), help_of(by_name[name]))
-        for key in self.keys:
+        for key in sorted(self.keys, key=lambda key: group_of(key["key"])):
             if key["key"] not in PLAIN:
                 self.add(parameter_of(key), help_of(key), advanced=True)
         titles = [title for _, _, title, _ in LAYERS.values()]
@@ -156,6 +156,17 @@ class Make(Algorithm):
         self.give(QgsProcessingOutputFile("PROJECT", "QGIS project"), "A QGIS project with every layer.")
         self.give(QgsProcessingOutputHtml("REPORT", "Report"), "The report, for a browser.")
         self.give(QgsProcessingOutputBoolean("CHECKS_OK", "Every check passed"), "Whether every check of the terrain passed.")
+
+    def shortHelpString(self) -> str:
+        """Return the help, with a title over each group of keys."""
+        text, shown = super().shortHelpString(), set()
+        for key in sorted(self.keys, key=lambda key: group_of(key["key"])):
+            group, name = group_of(key["key"]), parameter_name(key["key"])
+            if key["key"] not in PLAIN and group not in shown and group < len(GROUPS):
+                shown.add(group)
+                first = f"<h3>{self.parameterDefinition(name).description()}</h3>"
+                text = text.replace(first, f"<h2>{GROUPS[group][0]}</h2>\n{first}", 1)
+        return text
 
     def takes(self, key: Key) -> bool:
         """Return whether a key can be set here."""

@@ -67,6 +67,7 @@ class Finished:
 
     report: dict[str, Any]  # what it prints with --json
     passed: bool  # False: a check failed
+    heard: tuple[str, ...] = ()  # what it wrote to the log
 
 
 def configured() -> str:
@@ -169,18 +170,21 @@ def _read_all(stream: Any, printed: list[bytes]) -> None:
 
 def without_columns(line: str) -> str:
     """Return a line of the log, such as "read       60 lines of a.gpkg       0.1 s", for QGIS, whose log has no columns."""
-    return re.sub(r" {2,}([\d.]+ s|ok)$", r", \1", re.sub(r"^(\w+) {2,}", r"\1: ", line))
+    named = re.sub(r"^([a-z]+(?:_[a-z]+)+) (?=\S)", lambda kind: f"{kind[1].replace('_', ' ')}: ", line)
+    return re.sub(r" {2,}([\d.]+ s|ok)$", r", \1", re.sub(r"^(\w+) {2,}", r"\1: ", named))
 
 
 class _Listener:
     """Passes on what the program writes to stderr."""
 
-    def __init__(self, command: str, folder: str, feedback: QgsProcessingFeedback) -> None:
+    def __init__(self, command: str, folder: str, feedback: QgsProcessingFeedback, keys: frozenset[str]) -> None:
         self.folder = os.path.join(folder, "")  # a layer that was written to it is named without it
         self.feedback = feedback
         self.parts = STAGES.get(command, {})
         self.shown = 0.0
+        self.keys = keys
         self.error: list[str] = []
+        self.heard: list[str] = []
 
     def hear(self, line: str) -> None:
         line = line.replace(self.folder, "")
@@ -197,14 +201,18 @@ class _Listener:
         if line.startswith("error:") or self.error:
             self.error.append(line.removeprefix("error:").strip() if not self.error else line)
         elif line.strip():
-            self.feedback.pushInfo(without_columns(line))
+            self.heard.append(line)
+            self.feedback.pushInfo(in_qgis(without_columns(line), self.keys))
 
     def tell(self, finding: dict[str, Any]) -> None:
+        if any(finding["text"] in line for line in self.heard):
+            return
+        self.heard.append(finding["text"])
         words = ". ".join(filter(None, (finding["text"], finding.get("remedy", "") if finding["severity"] == "warning" else "")))
         if finding["severity"] == "warning":
-            self.feedback.pushWarning(in_qgis(words))
+            self.feedback.pushWarning(in_qgis(words, self.keys))
         elif finding["severity"] == "note":
-            self.feedback.pushInfo(f"{finding['kind'].replace('_', ' ')}: {in_qgis(words)}")
+            self.feedback.pushInfo(f"{finding['kind'].replace('_', ' ')}: {in_qgis(words, self.keys)}")
 
     def move(self, stage: str, share: float) -> None:
         begin, end = self.parts.get(stage, (0, 0))
@@ -266,7 +274,8 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
                threading.Thread(target=_read_all, args=(out, printed), daemon=True)]
     for reader in readers:
         reader.start()
-    listener = _Listener(arguments[0], folder, feedback)
+    keys = frozenset(key["key"] for key in program.keys)
+    listener = _Listener(arguments[0], folder, feedback, keys)
     try:
         while True:
             if feedback.isCanceled():
@@ -290,15 +299,15 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
             reader.join(ENDS_WITHIN)
         out.close()
         err.close()
-    return _finished(process.returncode, b"".join(printed), listener.error)
+    return _finished(process.returncode, b"".join(printed), listener, keys)
 
 
-def _finished(code: int, printed: bytes, error: list[str]) -> Finished:
-    words = in_qgis("\n".join(error).strip())
+def _finished(code: int, printed: bytes, listener: _Listener, keys: frozenset[str]) -> Finished:
+    words = in_qgis("\n".join(listener.error).strip(), keys)
     if code not in (0, CHECK_FAILED):
         raise QgsProcessingException(words if code > 0 and words else f"thalweg failed: {_ended(code)}. {words}".strip())
     try:
         report = json.loads(printed)
     except ValueError:
         raise QgsProcessingException(f"thalweg failed: {_ended(code)} and printed no JSON. {words}".strip()) from None
-    return Finished(report, code == 0)
+    return Finished(report, code == 0, tuple(listener.heard))

@@ -15,6 +15,7 @@ from qgis.core import (QgsApplication, QgsProcessingContext, QgsProcessingParame
                        QgsProcessingParameterDefinition)
 from processing.gui.AlgorithmDialog import AlgorithmDialog  # noqa: E402
 from thalweg_processing import make, program as runner, rebuild  # noqa: E402
+from thalweg_processing.keys import GROUPS, group_of, label_of  # noqa: E402
 
 KEYS = json.loads(program("recipe", "--json").stdout)["keys"]
 SOURCES = {path.stem: path.read_text() for path in pathlib.Path(PLUGINS, "thalweg_processing").glob("*.py")}
@@ -93,7 +94,8 @@ class WhatTheProgramTakes(Case):
             self.assertIsNone(definition.defaultValue(), key["key"])
             if key["key"] not in make.PLAIN:
                 self.assertTrue(definition.flags() & QgsProcessingParameterDefinition.FlagAdvanced, key["key"])
-                self.assertTrue(definition.description().startswith(key["key"].rpartition(".")[0] + ": "))
+                self.assertEqual(definition.description().split(" [")[0], label_of(key["key"]))
+                self.assertTrue(definition.help().endswith(f"Key: {key['key']}."))
             if definition.type() == "number":
                 self.assertEqual(definition.dataType() == QgsProcessingParameterNumber.Integer, key["type"] == "integer",
                                  key["key"])
@@ -109,6 +111,26 @@ class WhatTheProgramTakes(Case):
                 self.assertIn(html.escape(key["meaning"][1:], quote=False), definition.help())
         for key in [*make.PLAIN, *make.LEFT_OUT, *make.FIELDS, *make.TEXT_FILES]:
             self.assertIn(key, [known["key"] for known in KEYS])
+
+    def test_keys_are_in_groups(self):
+        """Each key has one; those of a group follow one another, those for rivers of a layer first, and the help has titles."""
+        for command in ("make", "rebuild"):
+            instance = algorithm(command)
+            keys = {make.parameter_name(key["key"]): key["key"] for key in KEYS if key["key"] not in make.PLAIN}
+            groups = [group_of(keys[definition.name()]) for definition in instance.parameterDefinitions()
+                      if definition.name() in keys]
+            self.assertEqual(groups, sorted(groups))
+            self.assertLess(groups[-1], len(GROUPS))
+            said = instance.shortHelpString()
+            places = [said.index(f"<h2>{GROUPS[group][0]}</h2>") for group in sorted(set(groups))]
+            self.assertEqual(places, sorted(places))
+        self.assertEqual({group_of(key["key"]) for key in KEYS if key["key"] not in make.PLAIN}, set(range(len(GROUPS))))
+        for key in KEYS:  # other ways to make terrain have groups of their own
+            if key["key"].startswith("surface.") and 'surface.method = "equilibrium"' in key["used_by"]:
+                self.assertEqual(GROUPS[group_of(key["key"])][0], "Terrain", key["key"])
+            if key["used_by"].startswith('surface.method = "diffuse"'):
+                self.assertEqual(GROUPS[group_of(key["key"])][0], "Diffused terrain", key["key"])
+        self.assertEqual(label_of("network.dla.particles"), "Grown rivers, DLA: particles")
 
     def test_a_dialog_as_it_opens_sets_nothing(self):
         for command in ("make", "tin"):  # the others want a layer

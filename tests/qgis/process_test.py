@@ -27,7 +27,7 @@ class InTheProcessingExecutable(Case):
         self.assertEqual({f"thalweg:{name}" for name in ALGORITHMS}, set(provider["algorithms"]))
         said = json.loads(qgis_process("--json", "help", "thalweg:make").stdout)
         self.assertLessEqual({"OUTPUT", "DEM", "ARCS", "PROJECT", "CHECKS_OK"}, set(said["outputs"]))
-        self.assertEqual(said["parameters"]["NETWORK_DLA_PARTICLES"]["description"], "network.dla: particles")
+        self.assertEqual(said["parameters"]["NETWORK_DLA_PARTICLES"]["description"], "Grown rivers, DLA: particles")
 
     def test_make_and_what_follows_on_its_files(self):
         results = run("make", RIVERS=COAST, OUTPUT=self.folder / "coast", SEED=9, CELL=150)

@@ -16,7 +16,7 @@ application, plugin = start()
 
 from qgis.core import (QgsApplication, QgsProcessingContext, QgsProcessingException, QgsProcessingFeedback,  # noqa: E402
                        QgsProcessingUtils, QgsSettings)
-from thalweg_processing import program  # noqa: E402
+from thalweg_processing import advice, program  # noqa: E402
 
 LONG = {"GRID_WIDTH": 3000, "GRID_HEIGHT": 3000}
 REPORT = ('{"findings": [], "mended": [], "notes": [], "written": [], '
@@ -215,16 +215,45 @@ class Wrong(WithSetting):
         warnings = [". ".join((one["text"], one["remedy"])) for one in findings if one["severity"] == "warning"]
         self.assertEqual([one["kind"] for one in findings if one["severity"] == "warning"][:2],
                          ["placeholder_heights", "filled_heights"])
-        self.assertEqual([words.split("\nIn QGIS: ")[0] for words in said.warnings], warnings)
+        keys = [key["key"] for key in program.find().keys]
+        self.assertEqual(said.warnings, [advice.in_qgis(words, keys) for words in warnings])
+        self.assertIn('"Rivers: slope" beyond the last one known', said.warnings[1])
         self.assertIn("grid: 88x49 cells of 50 m", said.lines)
         self.assertFalse([line for line in said.lines if line.startswith("{")])
 
-    def test_advice_for_the_shell_is_followed_by_what_to_do_in_qgis(self):
-        for words, there in (("a.shp has no CRS; assign one (ogr2ogr -a_srs EPSG:n)", "Layer CRS > Set Layer CRS"),
-                             ("a.tif is in feet: warp it (gdalwarp -t_srs)", "Raster > Projections > Warp"),
-                             ("too coarse: --set grid.cell=3 keeps them apart", "the parameter Cell size."),
-                             ("If they should meet: --set network.lines.snap=3.", "the parameter network.lines: snap.")):
-            self.fails(f"echo 'error: {words}' >&2; exit 1", f"^{re.escape(words)}\nIn QGIS: .*{there}")
+    def test_advice_is_for_qgis_alone(self):
+        for words, there in (
+                ("a.shp has no CRS; assign one (ogr2ogr -a_srs EPSG:n) or name it (--source-crs EPSG:n)",
+                 "a.shp has no CRS; assign one (right-click the layer, Layer CRS > Set Layer CRS, and run again)"),
+                ("a.tif is in feet: warp it (gdalwarp -t_srs)", "a.tif is in feet: warp it (Raster > Projections > Warp)"),
+                ("too coarse: --set grid.cell=3 keeps them apart", 'too coarse: the parameter "Cell size" = 3 keeps them apart'),
+                ("If they should meet: --set network.lines.snap=3.5.",
+                 'If they should meet: the parameter "Rivers of a layer: snap" = 3.5.'),
+                ("it runs outside the grid. Enlarge it, or set grid.clip = true.",
+                 'it runs outside the grid. Enlarge it, or set "Grid: clip" = true.'),
+                ("cannot read network.gpkg", "cannot read network.gpkg"),
+                ("give --dem or --cell", 'give the parameter "DEM" or the parameter "Cell size of a raster"'),
+                ("it looks like no-data. If it is terrain, use --nodata nan, or declare it (gdal_edit.py -a_nodata 0 a.tif)",
+                 'it looks like no-data. If it is terrain, use the parameter "No-data value" = nan, or declare it (the parameter '
+                 '"No-data value")'),
+                ("2 rivers; run thalweg check on the file; its --fix writes a mended copy",
+                 "2 rivers; run Check river network and take its Repaired network"),
+                ("2 arcs leave the node at (1, 2)",
+                 "2 arcs leave the node at (1, 2)\nIn QGIS: run Check river network and take its Repaired network."),
+                ("assign its CRS by gdal_edit.py -a_srs",
+                 "In QGIS: right-click the layer, Layer CRS > Set Layer CRS, and run again.\n"
+                 "assign its CRS by gdal_edit.py -a_srs")):
+            self.fails(f"echo 'error: {words}' >&2; exit 1", f"^{re.escape(there)}$")
+
+    def test_a_note_is_written_once(self):
+        note = "GeoJSON is written in degrees; --format geojson2008 keeps its coordinates"
+        finding = json.dumps({"kind": "in_degrees", "severity": "note", "text": note})
+        report = json.dumps({"written": [], "findings": [{"text": note}, {"text": "another"}]})
+        self.fake(f"echo 'in_degrees {note}' >&2; echo '{{\"finding\": {finding}}}' >&2; echo '{report}'")
+        said = Said()
+        run("convert", {"NETWORK": str(COAST), "OUTPUT": str(self.folder / "x.geojson")}, said)
+        self.assertEqual(said.lines, ['in degrees: GeoJSON is written in degrees; the parameter "Format" = geojson2008 keeps its '
+                                      "coordinates", "another"])
 
     def test_full_pipes(self):
         self.fake("head -c 3000000 /dev/zero | tr '\\0' x | fold -w 1000 >&2\n"
