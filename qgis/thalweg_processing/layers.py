@@ -73,6 +73,7 @@ class VectorInput:
     file: File | None
     source: QgsProcessingFeatureSource | None
     origin: str = ""  # the file that the features come from; "": none
+    is_selection: bool = False  # whether they are the selected ones
 
     def written(self, path: str, layer_name: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         """Add the features to a GeoPackage as a layer of this name."""
@@ -89,12 +90,18 @@ class VectorInput:
         if writer.hasError() != QgsVectorFileWriter.NoError:
             raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
         features = source.getFeatures(QgsFeatureRequest(), QgsProcessingFeatureSource.FlagSkipGeometryValidityChecks)
+        is_empty = True
         for feature in features:
             if feedback.isCanceled():
-                break
+                return
+            is_empty = False
             if not writer.addFeature(feature, QgsFeatureSink.FastInsert):
                 raise QgsProcessingException(f"cannot write feature {feature.id()} of {self.layer_name}: "
                                              f"{writer.errorMessage()}")
+        if is_empty:
+            raise QgsProcessingException(f"the selection of layer {self.layer_name} holds no features: select some, or untick "
+                                         "Selected features only" if self.is_selection else
+                                         f"the layer {self.layer_name} shows no features: look at its filter")
         if not writer.flushBuffer():
             raise QgsProcessingException(f"cannot write the features of {self.layer_name}: {writer.errorMessage()}")
         del writer
@@ -222,7 +229,8 @@ def vector_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], 
     file = _file_of(layer, takes_layer_name) if layer is not None and not _is_part(parameters[name]) else None
     if file is not None and file.source_crs and not takes_source_crs:
         file = None
-    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source, _origin(layer))
+    is_selection = isinstance(value := parameters[name], QgsProcessingFeatureSourceDefinition) and value.selectedFeaturesOnly
+    return VectorInput(layer.name() if layer is not None else source.sourceName(), file, source, _origin(layer), is_selection)
 
 
 def map_layer_input(algorithm: QgsProcessingAlgorithm, parameters: dict[str, Any], name: str,

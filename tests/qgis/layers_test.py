@@ -102,6 +102,19 @@ class Layers(Case):
                                                          options)[0] == 0
         return path
 
+    def test_an_empty_selection_is_named_so(self):
+        layer = QgsProject.instance().addMapLayer(lines_layer(name="my rivers"))
+        selected = QgsProcessingFeatureSourceDefinition(layer.id(), selectedFeaturesOnly=True)
+        self.refused("^the selection of layer my rivers holds no features: select some, or untick Selected features only$",
+                     "check", NETWORK=selected)
+        self.refused("^the selection of layer my rivers holds no features", "make", RIVERS=selected,
+                     OUTPUT=str(self.folder / "out"))
+        QgsProject.instance().clear()
+        path = self.saved(lines_layer())
+        layer = QgsVectorLayer(f'{path}|layername=lines "a" é', "lines", "ogr")
+        layer.setSubsetString("\"name\" = 'none'")
+        self.refused("^the layer lines shows no features: look at its filter$", "check", NETWORK=layer)
+
     def test_layer_of_a_geopackage_with_quotes_in_its_names(self):
         path = self.saved(lines_layer())
         options = gdal.VectorTranslateOptions(options=["-update", "-nln", "other"])
