@@ -11,6 +11,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
                        QgsProcessingParameterPoint, QgsProcessingParameterRasterDestination, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
+from . import styles
 from .algorithm import NODATA, Algorithm, ends_in
 from .layers import File, RasterInput, VectorInput, raster_input, style_after, vector_input
 from .program import Finished
@@ -101,5 +102,5 @@ class Blend(Algorithm):
 
     def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
-        style_after(context, self.output)
+        style_after(context, self.output, styles.heights)
         return {"OUTPUT": self.output, "CELLS": finished.report["cells"], "SEAM_RMS": finished.report["seam_rms_m"]}

@@ -10,6 +10,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
                        QgsProcessingParameterFileDestination, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
+from . import styles
 from .advice import in_qgis
 from .algorithm import NODATA
 from .layers import File, RasterInput, VectorInput, network_layers, open_after, raster_input
@@ -89,12 +90,13 @@ class Convert(NetworkAlgorithm):
             if kind in layers:
                 found[name] = layers[kind]
                 if number in opened:
-                    open_after(context, layers[kind], name.capitalize(), name, "vector")
+                    open_after(context, layers[kind], name.capitalize(), name, "vector", style=styles.network)
         rasters = [path for path in written if path.lower().endswith(".tif")]
         if rasters:
             found["RASTER"] = rasters[0]
             if 2 in opened:
-                open_after(context, rasters[0], "River cells", "RASTER", "raster")
+                open_after(context, rasters[0], "River cells", "RASTER", "raster",
+                           style=styles.cells("#2171b5", "river"))
         for finding in finished.report.get("findings", []):
             if not any(finding["text"] in line for line in finished.heard):
                 feedback.pushInfo(in_qgis(finding["text"]))

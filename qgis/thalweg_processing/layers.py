@@ -18,6 +18,8 @@ from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, Qg
                        QgsWkbTypes)
 from qgis.PyQt import sip
 
+from .styles import Style
+
 ITS_OWN_ID, ITS_SHAPE = "thalweg_fid", "thalweg_shape"  # of an exported feature: fields fid and geom of the layer stay fields
 
 
@@ -286,20 +288,23 @@ HEIGHTS = {QgsWkbTypes.PolygonGeometry: 1, QgsWkbTypes.LineGeometry: 2, QgsWkbTy
 
 
 class _AsMade(QgsProcessingLayerPostProcessorInterface):
-    """Gives a new layer the style that lies in or beside its file, a CRS that its format has no place for, and its place
-    among the layers of the run: those that hide most are at the bottom."""
+    """Gives a new layer the style that lies in or beside its file, else one of its own, a CRS that its format has no place
+    for, and its place among the layers of the run: those that hide most are at the bottom."""
 
-    def __init__(self, crs: QgsCoordinateReferenceSystem, on_top: bool) -> None:
+    def __init__(self, crs: QgsCoordinateReferenceSystem, on_top: bool, style: Style | None) -> None:
         super().__init__()
         self.crs = crs
         self.on_top = on_top
+        self.style = style
         self.layer_id = ""
         self.height = 0
 
     def postProcessLayer(self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         if self.crs.isValid() and not layer.crs().isValid():
             layer.setCrs(self.crs)
-        layer.loadDefaultStyle()
+        _, has_style = layer.loadDefaultStyle()
+        if not has_style and self.style is not None:
+            self.style(layer)
         layer.triggerRepaint()
         self.layer_id = layer.id()
         self.height = 4 if self.on_top else HEIGHTS.get(layer.geometryType(), 0) if isinstance(layer, QgsVectorLayer) else 0
@@ -329,11 +334,12 @@ _kept: list[_AsMade] = []  # until their contexts, which own them, have gone: QG
 _keeping = threading.Lock()  # algorithms run in threads
 
 
-def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str, on_top: bool = False) -> None:
+def _show_as_made(details: QgsProcessingContext.LayerDetails, crs: str, on_top: bool = False,
+                  style: Style | None = None) -> None:
     its = QgsCoordinateReferenceSystem()
     if crs:
         its.createFromUserInput(crs)
-    processor = _AsMade(its, on_top)
+    processor = _AsMade(its, on_top, style)
     details.setPostProcessor(processor)
     with _keeping:
         _kept[:] = [one for one in _kept if not sip.isdeleted(one)] + [processor]
@@ -344,7 +350,7 @@ HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingU
 
 
 def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "",
-               project: QgsProject | None = None, on_top: bool = False) -> None:
+               project: QgsProject | None = None, on_top: bool = False, style: Style | None = None) -> None:
     """Let QGIS open a layer when the algorithm has ended.
 
     Parameters
@@ -363,20 +369,22 @@ def open_after(context: QgsProcessingContext, source: str, title: str, output: s
         Where it is opened; None: in that of the run.
     on_top : bool
         Whether it lies over all others of the run.
+    style : Style or None
+        Of a layer whose file has none.
     """
     project = project or context.project()
     if project is None:
         return
     details = QgsProcessingContext.LayerDetails(title, project, output, HINTS[kind])
     details.forceName = True
-    _show_as_made(details, crs, on_top)
+    _show_as_made(details, crs, on_top, style)
     context.addLayerToLoadOnCompletion(source, details)
 
 
-def style_after(context: QgsProcessingContext, source: str) -> None:
+def style_after(context: QgsProcessingContext, source: str, style: Style) -> None:
     """Let a layer that QGIS opens anyway have its style."""
     if context.willLoadLayerOnCompletion(source):
-        _show_as_made(context.layerToLoadOnCompletionDetails(source), "")
+        _show_as_made(context.layerToLoadOnCompletionDetails(source), "", style=style)
 
 
 KINDS = {ogr.wkbLineString: "arcs", ogr.wkbMultiLineString: "arcs", ogr.wkbPoint: "nodes"}

@@ -11,6 +11,7 @@ from qgis.core import (QgsProcessing, QgsProcessingContext, QgsProcessingFeedbac
                        QgsProcessingParameterFolderDestination, QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer,
                        QgsProcessingParameterString)
 
+from . import styles
 from .algorithm import NODATA
 from .layers import File, RasterInput, VectorInput, open_after, raster_input
 from .network_input import NetworkAlgorithm
@@ -35,6 +36,8 @@ RASTERS = {"AREA_D8": ("area_d8.tif", "Contributing area (D8)"),
            "SHREVE": ("shreve.tif", "Stream order (Shreve)"),
            "CHI": ("chi.tif", "Chi"),
            "KSN": ("ksn.tif", "Channel steepness (ksn)")}
+STYLES = {"DIRECTION_D8": styles.directions, "DIRECTION_DINF": styles.angles, "STRAHLER": styles.orders,
+          "EDGE": styles.cells("#d7642c", "cut by the edge")}  # of those that are no amounts
 LAYERS = {"CATCHMENTS": ("catchments", "Catchments", QgsProcessing.TypeVectorPolygon, "One polygon per arc, with rivers."),
           "BASINS": ("catchments", "Basins", QgsProcessing.TypeVectorPolygon, "One polygon per outlet, with rivers."),
           "ARCS": ("streams", "Arcs", QgsProcessing.TypeVectorLine, "Rivers, or streams of the DEM, if wanted."),
@@ -114,7 +117,7 @@ class Measure(NetworkAlgorithm):
             if file in files:
                 found[name] = files[file]
                 if number in opened:
-                    open_after(context, files[file], title, name, "raster")
+                    open_after(context, files[file], title, name, "raster", style=STYLES.get(name, styles.amounts))
         for number, (name, (file, title, _, _)) in enumerate(LAYERS.items(), len(RASTERS)):
             if f"{file}.gpkg" in files:
                 found[name] = f"{files[f'{file}.gpkg']}|layername={name.lower()}"

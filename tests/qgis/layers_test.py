@@ -472,7 +472,26 @@ class Opened(Case):
         _, layers = self.opened("blend", {
             "TARGET": str(JACKSBORO), "SOURCE": str(JACKSBORO), "WINDOW": "5,5,50,50", "GAIN": 2,
             "OUTPUT": f">{self.folder / 'b.tif'}"})
-        self.assertEqual(len(layers), 1)
+        layer, = layers.values()
+        blended = layer.renderer().shader().rasterShaderFunction()
+        self.assertEqual(len(blended.colorRampItemList()), 17)
+        self.assertGreater(blended.maximumValue(), 900)
+        self.assertEqual([name for name in os.listdir(self.folder) if name.startswith("b.")], ["b.tif"])
+
+    def test_no_output_is_grey(self):
+        self.assertEqual(program("make", *SMALL, "-o", self.folder / "made").returncode, 0)
+        dem, arcs = str(self.folder / "made/dem.tif"), f"{self.folder / 'made/network.gpkg'}|layername=arcs"
+        _, layers = self.opened("measure", {"DEM": dem, "NETWORK": arcs, "WHAT": list(range(11)),
+                                            "OUTPUT": str(self.folder / "m")})
+        self.assertEqual(len(layers), 17)
+        kinds = {name: layer.renderer().type() for name, layer in layers.items()}
+        self.assertEqual({name for name, kind in kinds.items() if kind == "paletted"},
+                         {"Flow direction (D8)", "Stream order (Strahler)", "Cut by the edge"})
+        self.assertNotIn("singlebandgray", kinds.values())
+        _, layers = self.opened("convert", {"NETWORK": arcs, "OUTPUT": str(self.folder / "n.tif"), "DEM": dem})
+        self.assertEqual(layers["River cells"].renderer().type(), "paletted")
+        _, layers = self.opened("convert", {"NETWORK": arcs, "OUTPUT": str(self.folder / "n.geojson")})
+        self.assertEqual(layers["Arcs"].renderer().symbol().color().name(), "#2171b5")
 
 
 if __name__ == "__main__":
