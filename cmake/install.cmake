@@ -57,4 +57,10 @@ set(PLUGINS ${CMAKE_INSTALL_DATADIR}/qgis/python/plugins)
 configure_file(qgis/thalweg_processing/metadata.txt ${PROJECT_BINARY_DIR}/qgis/metadata.txt @ONLY)
 install(DIRECTORY qgis/thalweg_processing DESTINATION ${PLUGINS} COMPONENT qgis EXCLUDE_FROM_ALL
   FILES_MATCHING PATTERN "*.py" PATTERN "*.svg" PATTERN __pycache__ EXCLUDE)
+find_program(THALWEG_PYTHON3 python3) # without it, the plugin has no button Help
+if(THALWEG_PYTHON3)
+  install(CODE "execute_process(COMMAND ${THALWEG_PYTHON3} -B ${PROJECT_SOURCE_DIR}/qgis/manual.py
+    \$ENV{DESTDIR}\${CMAKE_INSTALL_PREFIX}/${PLUGINS}/thalweg_processing/help COMMAND_ERROR_IS_FATAL ANY)"
+    COMPONENT qgis EXCLUDE_FROM_ALL)
+endif()
 install(FILES ${PROJECT_BINARY_DIR}/qgis/metadata.txt DESTINATION ${PLUGINS}/thalweg_processing COMPONENT qgis EXCLUDE_FROM_ALL)

@@ -10,6 +10,8 @@ import sys
 import time
 import zipfile
 
+import manual
+
 ROOT = pathlib.Path(__file__).resolve().parents[1]
 NAME = "thalweg_processing"
 
@@ -18,6 +20,7 @@ files = {path.relative_to(ROOT / "qgis").as_posix(): path.read_bytes() for path 
          if path.is_file() and path.suffix in (".py", ".svg", ".txt")}
 files[f"{NAME}/metadata.txt"] = files[f"{NAME}/metadata.txt"].replace(b"@PROJECT_VERSION@", version.encode())
 files[f"{NAME}/LICENSE"] = (ROOT / "LICENSE").read_bytes()
+files.update({f"{NAME}/help/{name}": content for name, content in manual.files().items()})
 first = calendar.timegm((1980, 1, 1, 0, 0, 0))  # a ZIP knows no earlier time
 when = time.gmtime(max(int(os.environ.get("SOURCE_DATE_EPOCH", "0")), first))[:6]
 output = pathlib.Path(sys.argv[1]).resolve() / f"thalweg-qgis-{version}.zip"

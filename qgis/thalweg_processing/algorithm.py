@@ -3,7 +3,6 @@
 """What the algorithms have in common."""
 from __future__ import annotations
 
-import configparser
 import contextlib
 import math
 import os
@@ -22,7 +21,8 @@ from . import program
 from .layers import File, RasterInput, VectorInput, crs_text, is_given
 
 HERE = os.path.dirname(os.path.abspath(__file__))
-MANUAL = "/usr/share/doc/thalweg-doc/docs/qgis.md"  # of Debian's package
+MANUALS = (os.path.join(HERE, "help", "index.html"),  # of an installed plugin
+           os.path.join(HERE, "..", "..", "docs", "qgis.md"))  # of the sources
 NODATA = ("Treat DEM cells with this stored value as no-data, beside what the file declares; nan: treat every value as a "
           "height. Default: refuse values that look like undeclared no-data.")
 
@@ -92,13 +92,9 @@ class Algorithm(QgsProcessingAlgorithm):
         return QgsProcessingUtils.formatHelpMapAsHtml({"ALG_DESC": paragraphs, **self.said}, self)
 
     def helpUrl(self) -> str:
-        """Return where docs/qgis.md of the sources can be read, where anybody knows."""
-        metadata = configparser.ConfigParser(interpolation=None)
-        metadata.read(os.path.join(HERE, "metadata.txt"), encoding="utf-8")
-        home = metadata.get("general", "homepage", fallback="")
-        if home:
-            return home
-        return QUrl.fromLocalFile(MANUAL).toString() if os.path.exists(MANUAL) else ""
+        """Return the manual, which the button Help opens."""
+        found = [os.path.normpath(manual) for manual in MANUALS if os.path.exists(manual)]
+        return QUrl.fromLocalFile(found[0]).toString() if found else ""
 
     def canExecute(self) -> tuple[bool, str]:
         try:

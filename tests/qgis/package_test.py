@@ -3,6 +3,7 @@
 # SPDX-License-Identifier: GPL-3.0-or-later
 """The ZIP of scripts/package qgis: the same bytes twice, and QGIS lists and runs the algorithms that were installed from it."""
 import configparser
+import html
 import json
 import os
 import re
@@ -11,6 +12,19 @@ import sys
 import zipfile
 
 from support import ENVIRONMENT, JACKSBORO, ROOT, Case, main, qgis_process
+
+
+HELP = """
+import os, sys
+sys.path[:0] = [os.environ["PLUGINS"], "/usr/share/qgis/python", "/usr/share/qgis/python/plugins"]
+from qgis.core import QgsApplication
+application = QgsApplication([], False)
+application.initQgis()
+from qgis.PyQt.QtCore import QUrl
+from thalweg_processing.check import Check
+print(QUrl(Check().helpUrl()).toLocalFile(), flush=True)
+os._exit(0)
+"""
 
 
 class Package(Case):
@@ -42,6 +56,26 @@ class Package(Case):
         self.assertIn(version, one.name)
         self.assertEqual((metadata["general"]["qgisMinimumVersion"], metadata["general"]["hasProcessingProvider"]),
                          ("3.22", "yes"))
+
+    def test_it_has_a_manual(self):
+        """The button Help opens it; its pictures and links are there."""
+        plugins = self.folder / "plugins"
+        with zipfile.ZipFile(self.packed("one")) as packed:
+            packed.extractall(plugins)
+        page = plugins / "thalweg_processing/help/index.html"
+        text = page.read_text("utf-8")
+        for name in re.findall(r'<img src="([^"]+)"', text):
+            self.assertTrue((page.parent / name).read_bytes().startswith(b"\x89PNG"), name)
+        for name in re.findall(r'<a href="([^"]+)"', text):
+            self.assertTrue(name.startswith("https://") or f'id="{name[1:]}"' in text, name)
+        shown = html.unescape(re.sub(r"<[^>]+>", "", re.sub(r"(?s)<style>.*?</style>", "", text)))
+        for mark in ("`", "**", "](", "\n#", "|--"):
+            self.assertNotIn(mark, re.sub(r"(?s)<pre>.*?</pre>", "", text))
+        for words in ("Check river network", "When something is wrong", "thalweg:make", "750 × 965 cells of 75 m"):
+            self.assertIn(words, shown)
+        said = subprocess.run([sys.executable, "-c", HELP], env={**ENVIRONMENT, "PLUGINS": str(plugins)}, capture_output=True,
+                              text=True, check=True)
+        self.assertEqual(said.stdout.strip(), str(page), said.stderr)
 
     def test_installed_into_an_empty_profile(self):
         home = self.folder / "home"
