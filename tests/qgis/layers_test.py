@@ -244,6 +244,10 @@ class Layers(Case):
         self.refused("CRS: 'EPSG:0' is not a CRS", "tin", TEXT=str(SAMPLES / "points.csv"), CRS="EPSG:0", OUTPUT=f"{out}.2dm")
         self.refused("is a folder", "tin", TEXT=str(self.folder), OUTPUT=f"{out}.2dm")
         self.refused("writes a GeoTIFF", "blend", TARGET=dem, SOURCE=dem, OUTPUT=f"{out}.png")
+        for name in ("FIX", "FINDINGS"):  # an ending in capitals is one
+            results = processing.run("thalweg:check", {"NETWORK": str(COAST), name: str(self.folder / "X.GPKG")})
+            self.assertTrue(QgsVectorLayer(results[name], "layer", "ogr").isValid())
+            (self.folder / "X.GPKG").unlink()
         self.refused("FIX: thalweg writes", "check", NETWORK=str(COAST), FIX=f"{out}.geojson")
         self.refused("match no schema(.|\n)*In QGIS: ", "check", NETWORK=lines_layer())
         self.refused("2 arcs leave(.|\n)*In QGIS: ", "convert", NETWORK=str(COAST), OUTPUT=f"{out}/new/x.gpkg")

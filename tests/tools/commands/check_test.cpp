@@ -68,6 +68,18 @@ TEST(Check, TauDemsLinksWithoutLengthAreBridged) {
     EXPECT_EQ(expect_run(place, "convert rivers.gpkg -o native.gpkg --json", 0).json()["arcs"], 4);
 }
 
+TEST(Check, AnEndingInCapitalsIsOne) {
+    Workplace const place;
+    write_network(place);
+    expect_run(place, "check net.gpkg --fix MENDED.GPKG --findings FOUND.GPKG", 0);
+    EXPECT_TRUE(fs::exists(place / "MENDED.GPKG") && fs::exists(place / "FOUND.GPKG"));
+    expect_run(place, "check MENDED.GPKG", 0);
+    expect_run(place, "check net.gpkg --fix MENDED.SHP", 0);
+    expect_run(place, "check MENDED_arcs.shp", 0);
+    expect_run(place, "convert net.gpkg -o COPY.GPKG", 0);
+    EXPECT_TRUE(fs::exists(place / "COPY.GPKG") && !fs::exists(place / "COPY.GPKG.gpkg"));
+}
+
 TEST(Check, FixMovesOpenEndsOnly) {
     Workplace const place;
     pack(place, "WKT,part\n"

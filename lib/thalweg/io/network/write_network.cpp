@@ -205,7 +205,8 @@ Mask mask_of(StreamNetwork const& plan, Grid const& grid) {
 } // namespace
 
 void write_geopackage(NetworkTables const& tables, std::string const& path, Run const& run) {
-    std::string const file = path.ends_with(".gpkg") ? path : path + ".gpkg";
+    bool const is_named_so = lower_case(std::filesystem::path(path).extension().string()) == ".gpkg";
+    std::string const file = is_named_so ? path : path + ".gpkg";
     write_tables(geopackage_tables(tables, "io.write_geopackage: " + file), tables.crs, file, run);
 }
 

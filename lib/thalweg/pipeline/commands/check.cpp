@@ -3,8 +3,10 @@
 #include <thalweg/pipeline/commands/check.hpp>
 
 #include <algorithm>
+#include <cctype>
 #include <filesystem>
 #include <limits>
+#include <string_view>
 #include <unordered_map>
 
 #include <fmt/format.h>
@@ -104,9 +106,12 @@ public:
         : folder_(fs::path(path).has_parent_path() ? fs::path(path).parent_path().string() : "."),
           stem_(fs::path(path).stem().string()) {
         std::string const ending = fs::path(path).extension().string();
-        if (ending == ".gpkg") {
+        auto const is = [&](std::string_view known) {
+            return std::ranges::equal(ending, known, {}, [](unsigned char c) { return std::tolower(c); });
+        };
+        if (is(".gpkg")) {
             names_ = {stem_ + ending};
-        } else if (ending == ".shp" && may_be_shapefile) {
+        } else if (is(".shp") && may_be_shapefile) {
             if (stem_.ends_with("_arcs")) {
                 stem_.resize(stem_.size() - std::string("_arcs").size());
             }
