@@ -57,6 +57,8 @@ struct RiverLine {
     double area_m2 = 0.0;        ///< drainage area at its lower end from the file; 0: unknown
     std::int64_t from_node = 0;  ///< number of the node from which water comes, by the file; 0: unknown
     std::int64_t to_node = 0;    ///< of the node to which it goes
+    bool begins_at_edge = false; ///< cut there at the grid's edge: the first vertex is no end of a river
+    bool ends_at_edge = false;   ///< likewise the last vertex
 
     /// The file's own number of the line.
     std::int64_t number() const { return feature - id_shift; }

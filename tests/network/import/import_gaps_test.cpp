@@ -90,6 +90,14 @@ TEST(ImportGaps, LinksJoinOverATenthOfTheShorterLine) {
     EXPECT_EQ(outlets(lines), 3U);
 }
 
+TEST(ImportGaps, EndsAtTheEdgeOfAGridJoinNothing) {
+    RiverLines lines = drawn({{{0, 0}, {400, 0}}, {{415, 0}, {900, 0}}});
+    lines.lines[0].down = lines.lines[1].feature; // named, and near
+    EXPECT_EQ(outlets(lines), 1U);
+    lines.lines[0].ends_at_edge = lines.lines[1].begins_at_edge = true;
+    EXPECT_EQ(outlets(lines), 2U);
+}
+
 TEST(ImportGaps, AStepBackWithinACellIsStraightened) {
     RiverLines const lines = drawn({{{0, 0}, {400, 0}, {399.3, 0.0005}, {900, 0}}});
     for (double const cell_m : {0.0, 10.0}) {

@@ -12,6 +12,7 @@
 #include <network/rivers.hpp>
 #include <rapidcheck.h>
 
+#include <thalweg/core/cells.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/geometry/crossings.hpp>
@@ -184,6 +185,122 @@ TEST(ClipLines, WhatLiesBeyondIsSecondary) {
     EXPECT_NEAR(inside + beyond, length_in_plan(lines.lines.front().vertices), 1e-9);
     EXPECT_TRUE(network::clip_lines(lines_of({{{2, 5, 8}, {3, 5, 6}}}), ten).secondary.empty());
     EXPECT_EQ(network::clip_lines(lines_of({{{-5, 0, 1}, {0, -5, 0}}}), ten).secondary.size(), 1U);
+}
+
+namespace {
+
+/// Of the outermost cells, lines have only those of their ends.
+void expect_ended(RiverLines const& lines, Grid const& grid) {
+    for (RiverLine const& line : lines.lines) {
+        std::vector<Vec2> plan;
+        for (Vec3 const& v : line.vertices) {
+            plan.push_back(in_plan(v));
+        }
+        std::vector<Cell> const cells = cells_along(plan, grid); // throws off the grid
+        for (std::size_t i = 1; i + 1 < cells.size(); ++i) {
+            EXPECT_FALSE(grid.on_border(cells[i])) << "line " << line.feature << ", cell " << i;
+        }
+        EXPECT_TRUE(cells.size() > 1 || (!line.begins_at_edge && !line.ends_at_edge));
+        EXPECT_TRUE(!line.begins_at_edge || grid.on_border(cells.front()));
+        EXPECT_TRUE(!line.ends_at_edge || grid.on_border(cells.back()));
+    }
+}
+
+RiverLines ended(std::vector<Line> const& drawn) {
+    RiverLines const out = network::end_at_edge(lines_of(drawn), ten);
+    expect_ended(out, ten);
+    return out;
+}
+
+} // namespace
+
+TEST(EndAtEdge, WhatEndsThereIsKeptBitForBit) {
+    for (Line const& line : {Line{{2, 5, 3}, {5, 5, 2}, {8, 5, 1}}, Line{{2, 5, 3}, {9.7, 5.2, 1}},
+                             Line{{0.1, 5, 3}, {5, 5, 2}, {10, 5, 1}}}) {
+        RiverLines const out = ended({line});
+        ASSERT_EQ(out.lines.size(), 1U);
+        EXPECT_EQ(out.lines[0].vertices, line);
+        EXPECT_FALSE(out.lines[0].begins_at_edge || out.lines[0].ends_at_edge);
+        EXPECT_TRUE(out.secondary.empty());
+    }
+    Line const trunk{{5, 5, 2}, {10, 5, 1}}; // drawn twice, with a tributary at its mouth
+    EXPECT_TRUE(ended({trunk, trunk, {{5, 8, 2}, {8.9, 5.2, 1.5}, {10, 5, 1}}}).secondary.empty());
+    Grid const small{4, 4, 1.0, 0.0, 4.0, ""};
+    EXPECT_EQ(network::end_at_edge(lines_of({{{-1, 2, 1}, {5, 2, 0}}}), small).lines.size(), 1U);
+}
+
+TEST(EndAtEdge, ALineThatLeavesIsDrawnOnStraight) {
+    RiverLines const out = ended({{{5, 5, 5}, {15, 10, 0}}}); // through two outermost cells
+    ASSERT_EQ(out.lines.size(), 1U);
+    Line const& line = out.lines[0].vertices;
+    ASSERT_EQ(line.size(), 3U);
+    EXPECT_EQ(line.front(), (Vec3{5, 5, 5}));
+    EXPECT_NEAR(line[1].x, 8.999, 1e-9);
+    EXPECT_NEAR(line[1].y, 6.9995, 1e-9);
+    EXPECT_EQ(line[2].x, 10.0);
+    EXPECT_EQ(line[2].y, line[1].y);
+    EXPECT_LT(line[2].z, line[1].z) << "it goes on falling";
+    EXPECT_TRUE(out.lines[0].ends_at_edge && !out.lines[0].begins_at_edge);
+    ASSERT_EQ(out.secondary.size(), 1U);
+    EXPECT_EQ(out.secondary[0].cause, LeftOut::grid);
+    // The same upstream.
+    RiverLines const back = ended({{{15, 10, 9}, {5, 5, 5}}});
+    ASSERT_EQ(back.lines.size(), 1U);
+    EXPECT_EQ(back.lines[0].vertices.front().x, 10.0);
+    EXPECT_TRUE(back.lines[0].begins_at_edge && !back.lines[0].ends_at_edge);
+}
+
+TEST(EndAtEdge, ALineAlongTheEdgeIsCut) {
+    RiverLines const out = ended({{{5, 2, 9}, {9.5, 2.5, 7}, {9.5, 7.5, 3}, {5, 8, 1}}});
+    ASSERT_EQ(out.lines.size(), 2U);
+    EXPECT_TRUE(out.lines[0].ends_at_edge && out.lines[1].begins_at_edge);
+    EXPECT_EQ(ended({{{9.5, 2.5, 7}, {9.5, 7.5, 3}}}).lines.size(), 0U);
+    EXPECT_EQ(ended({{{20, 2.5, 7}, {20, 7.5, 3}}}).lines.size(), 0U);
+    // It comes back at once.
+    RiverLines const bend = ended({{{5, 5, 9}, {12, 5.5, 5}, {5, 6, 1}}});
+    ASSERT_EQ(bend.lines.size(), 1U);
+    EXPECT_FALSE(bend.lines[0].begins_at_edge || bend.lines[0].ends_at_edge);
+    EXPECT_EQ(bend.secondary.size(), 1U);
+}
+
+// Without land between them.
+TEST(EndAtEdge, EndsSideBySideAreJoined) {
+    RiverLines const both = ended({{{5, 5.2, 9}, {20, 5.4, 5}}, {{5, 4.2, 9}, {20, 4.4, 5}}});
+    ASSERT_EQ(both.lines.size(), 2U);
+    EXPECT_TRUE(both.lines[0].ends_at_edge && !both.lines[1].ends_at_edge);
+    EXPECT_EQ(both.lines[1].vertices.back(), both.lines[0].vertices[1]);
+    // Out, and in again in another line.
+    RiverLines const back = ended({{{5, 5.2, 9}, {20, 5.4, 5}}, {{20, 4.4, 5}, {5, 4.2, 1}}});
+    ASSERT_EQ(back.lines.size(), 2U);
+    EXPECT_FALSE(back.lines[0].ends_at_edge || back.lines[1].begins_at_edge);
+    EXPECT_EQ(back.lines[0].vertices.back(), back.lines[1].vertices.front());
+    // Two heads.
+    RiverLines const heads = ended({{{20, 5.4, 9}, {5, 5.2, 5}}, {{20, 4.4, 9}, {5, 4.2, 5}}});
+    EXPECT_TRUE(heads.lines[0].begins_at_edge && heads.lines[1].begins_at_edge);
+}
+
+// A confluence in the outermost cells: both rivers end at the edge, each by itself.
+TEST(EndAtEdge, LinesThatMeetThereAreParted) {
+    RiverLines const out =
+        ended({{{8, 2, 9}, {9.5, 5.5, 5}}, {{8, 9, 9}, {9.5, 5.5, 5}}, {{9.5, 5.5, 5}, {12, 5.5, 0}}});
+    ASSERT_EQ(out.lines.size(), 2U);
+    EXPECT_NE(out.lines[0].vertices.back(), out.lines[1].vertices.back());
+    EXPECT_TRUE(out.lines[0].ends_at_edge && out.lines[1].ends_at_edge);
+}
+
+TEST(EndAtEdge, AnyLineEndsThere) {
+    ASSERT_TRUE(rc::check("no line runs along the edge", [] {
+        std::vector<Line> drawn;
+        for (int k = *rc::gen::inRange(1, 4); k > 0; --k) {
+            Line line;
+            for (int n = *rc::gen::inRange(2, 9); n > 0; --n) {
+                line.push_back({*rc::gen::inRange(-30, 130) / 10.0, *rc::gen::inRange(-30, 130) / 10.0, 1.0 * n});
+            }
+            drawn.push_back(std::move(line));
+        }
+        ended(drawn);
+        RC_ASSERT(!testing::Test::HasFailure());
+    }));
 }
 
 // Law: every metre is inside or beyond, and no vertex lies in a cell that is not marked.

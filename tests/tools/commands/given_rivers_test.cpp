@@ -109,6 +109,25 @@ TEST(GivenRivers, RiversMayEndOnTheGridsEdge) {
     }
 }
 
+// Rivers run along the edge of such windows, meet there, leave and come back.
+TEST(GivenRivers, APartOfACoastPassesItsChecks) {
+    Workplace const place;
+    for (std::string const window : {"width=309 --set grid.height=213 --set grid.origin=[386130,4460910]",
+                                     "width=160 --set grid.height=200 --set grid.origin=[400350,4452375]",
+                                     "width=348 --set grid.height=132 --set grid.origin=[389850,4461000]",
+                                     "width=133 --set grid.height=133 --set grid.origin=[390000,4460025]"}) {
+        expect_run(
+            place,
+            "make " + samples +
+                "coastal_nhdplus.gpkg -o part --overwrite -q --set grid.cell=60 --set grid.clip=true --set grid." +
+                window,
+            0);
+        json const given = report_of(place / "part")["given"];
+        EXPECT_GT(given["kept_m"], 20000.0);
+        EXPECT_GT(given["left_out_m"]["grid"], 100000.0);
+    }
+}
+
 TEST(GivenRivers, AnyFormatGivesTheSameLand) {
     Workplace const place;
     made(place, walker, coarse, "gpkg");

@@ -25,16 +25,27 @@ Vec2 end_of(RiverLine const& line, std::size_t e) {
     return in_plan(e % 2 == 0 ? line.vertices.front() : line.vertices.back());
 }
 
+namespace {
+
+/// Whether a line was cut at this end.
+bool is_at_edge(std::vector<RiverLine> const& lines, std::size_t e) {
+    return e % 2 == 0 ? lines[e / 2].begins_at_edge : lines[e / 2].ends_at_edge;
+}
+
+} // namespace
+
 Parts parts_of(Pieces const& pieces, std::vector<RiverLine> const& lines) {
     Parts parts{std::vector<std::size_t>(lines.size(), 0), std::vector<char>(2 * lines.size(), 0), pieces.nodes.size()};
     Sets sets(pieces.nodes.size());
     for (Piece const& piece : pieces.pieces) {
         sets.join(piece.from, piece.to);
         if (piece.first == 0) {
-            parts.is_open[2 * piece.line] = pieces.at_node[piece.from].size() == 1 ? 1 : 0;
+            bool const is_alone = pieces.at_node[piece.from].size() == 1;
+            parts.is_open[2 * piece.line] = is_alone && !is_at_edge(lines, 2 * piece.line) ? 1 : 0;
         }
         if (piece.last + 1 == lines[piece.line].vertices.size()) {
-            parts.is_open[2 * piece.line + 1] = pieces.at_node[piece.to].size() == 1 ? 1 : 0;
+            bool const is_alone = pieces.at_node[piece.to].size() == 1;
+            parts.is_open[2 * piece.line + 1] = is_alone && !is_at_edge(lines, 2 * piece.line + 1) ? 1 : 0;
         }
     }
     for (Piece const& piece : pieces.pieces) {
@@ -155,6 +166,9 @@ private:
             std::optional<Proposal> best;
             for (std::size_t const e : {2 * l, 2 * l + 1}) {
                 Vec2 const p = end_of(lines_[l], e);
+                if (is_at_edge(lines_, e)) {
+                    continue;
+                }
                 for (std::size_t s = 0; s + 1 < lines_[to].vertices.size(); ++s) {
                     Joint const goal = nearest_on(lines_[to], {to, s}, p);
                     if (goal.gap_m <= most_m && (!best || goal.gap_m < best->joint.gap_m)) {

@@ -20,6 +20,15 @@ namespace thalweg::network {
 /// is added to `secondary`.
 RiverLines clip_lines(RiverLines const& lines, Grid const& grid);
 
+/// Clips lines to a grid so that none runs along its edge: its outermost cells hold ends of lines only.
+/// \param lines polylines [m], drawn downstream unless `runs` says otherwise
+/// \param grid smaller than five cells a side: as clip_lines
+/// \return lines inside that already do so are kept bit for bit. Others end one cell inside the edge and are drawn on
+/// straight to it, with begins_at_edge and ends_at_edge; their parts beyond are added to `secondary`. One that leaves
+/// and comes back within three cells stays whole, inside. Ends in neighbouring outermost cells are joined one cell
+/// inside, unless both are heads.
+RiverLines end_at_edge(RiverLines const& lines, Grid const& grid);
+
 /// Cuts lines where they leave the marked cells of a grid.
 /// \param lines polylines [m], which clip_lines has cut at the grid's edge
 /// \param land 0: no river may run there

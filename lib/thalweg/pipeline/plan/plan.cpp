@@ -340,7 +340,7 @@ Plan plan_forest(Recipe recipe, Raster<float> const& raster, StageLog& stage_log
 
 /// Clips lines to their grid, and to its land.
 RiverLines clipped(RiverLines lines, Grid const& grid, Mask const& land) {
-    lines = network::clip_lines(lines, grid);
+    lines = network::end_at_edge(lines, grid);
     if (land.cells() > 0) {
         lines = network::clip_lines(lines, land);
     }
