@@ -37,6 +37,7 @@ OPTIONS = {"--network": "Rivers", "--max-upstream": "Most arcs upstream of one",
 
 # What the program says without advice for a shell.
 KNOWN = ((r"\barcs leave the node\b", REPAIR),
+         (r"\bno river of .* runs inside the grid\b", "draw the extent where the rivers are"),
          (r"\bmatch no schema \(", "take a Repaired network, for which any lines will do, or the advanced parameters Schema and "
                                   "Fields of the network"))
 

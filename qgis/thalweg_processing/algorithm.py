@@ -236,6 +236,8 @@ class Algorithm(QgsProcessingAlgorithm):
                feedback: QgsProcessingFeedback) -> dict[str, Any]:
         """Run the command with a folder for what must be written for it."""
         files = self.written(folder, context, feedback)
+        if not feedback.isCanceled():
+            self.settle(folder, found, parameters, context, files, feedback)
         if feedback.isCanceled():
             return {}
         arguments = [self.COMMAND, *self.arguments(parameters, context, files), "--json", "--progress"]
@@ -248,6 +250,10 @@ class Algorithm(QgsProcessingAlgorithm):
     def written(self, folder: str, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> dict[str, File]:
         """Return the files of the inputs; those that must be written, in this folder."""
         return {name: taken.as_file(folder, context, feedback) for name, taken in self.inputs.items() if taken is not None}
+
+    def settle(self, folder: str, found: program.Program, parameters: dict[str, Any], context: QgsProcessingContext,
+               files: dict[str, File], feedback: QgsProcessingFeedback) -> None:
+        """Decide what the program must be asked for before it runs."""
 
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
         """Return the layers of the parameters, in the thread that they live in."""

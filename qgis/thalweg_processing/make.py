@@ -9,14 +9,15 @@ import os
 import re
 from typing import Any
 
-from qgis.core import (QgsCoordinateReferenceSystem, QgsProcessing, QgsProcessingContext, QgsProcessingException,
+from qgis.core import (QgsCoordinateReferenceSystem, QgsCoordinateTransform, QgsCsException, QgsProcessing,
+                       QgsProcessingContext, QgsProcessingException,
                        QgsProcessingFeedback, QgsProcessingOutputBoolean, QgsProcessingOutputFile, QgsProcessingOutputHtml,
                        QgsProcessingOutputMapLayer, QgsProcessingOutputRasterLayer, QgsProcessingOutputVectorLayer,
                        QgsProcessingParameterCrs, QgsProcessingParameterDefinition, QgsProcessingParameterEnum,
                        QgsProcessingParameterExtent, QgsProcessingParameterFeatureSource, QgsProcessingParameterField,
                        QgsProcessingParameterFile, QgsProcessingParameterFolderDestination, QgsProcessingParameterMapLayer,
                        QgsProcessingParameterNumber, QgsProcessingParameterRasterLayer, QgsProcessingParameterString,
-                       QgsUnitTypes)
+                       QgsRectangle, QgsUnitTypes)
 
 from . import program
 from .algorithm import Algorithm, warn_of_failed
@@ -38,6 +39,8 @@ HEIGHTS_TEXT = "The heights of the terrain."
 COUNTS = {"two numbers": 2, "three numbers": 3, "four numbers": 4}
 SOURCES = ("RIVERS", "DEM", "RECIPE")
 WITHOUT_INPUT_CELL = 30.0  # [m] of a recipe without CELL
+FEWEST_CELLS = 250  # along the longer side of an extent without CELL
+ROUND = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 7.5, 9)  # cell sizes that the program chooses, times a power of ten
 
 # Outputs that are layers: file, layer in it, title, kind.
 LAYERS = {"DEM": ("dem.tif", "", "DEM", "raster"), "ARCS": ("network.gpkg", "arcs", "Rivers", "vector"),
@@ -133,8 +136,9 @@ class Make(Algorithm):
             if name in by_name:
                 self.add(parameter_of(by_name[name], label), help_of(by_name[name]))
         self.add(QgsProcessingParameterExtent("EXTENT", "Extent of the grid", optional=True),
-                 "The grid covers this extent, in whole cells. Its CRS is that of the terrain, else that of the rivers or the "
-                 "DEM, else the extent's own. Default: that of the DEM, or of the rivers and a margin of 5 %.")
+                 "The grid covers this extent, in whole cells, and rivers are cut there. It may be drawn in any CRS. CRS and cell "
+                 "size, where they are empty, are those for all of the rivers; where fewer than 250 cells would lie along "
+                 "its longer side, they are finer. Default: the rivers and a margin of 5 %.")
         self.add(QgsProcessingParameterCrs("CRS", "CRS of the terrain", optional=True),
                  "A projected CRS in metres. Default: that of the rivers or the DEM, or its UTM zone.")
         for name, label in (("output.units", "Unit of heights"), ("output.title", "Title")):
@@ -194,11 +198,11 @@ class Make(Algorithm):
                 return False, f"Give EXTENT or {clash[0]}, not both"
             if given == ["DEM"]:
                 return False, "EXTENT: the grid is that of DEM"
-            if given and not self.is_set(parameters, "CELL"):
-                return False, "CELL: an extent with rivers or a recipe needs the cell size"
-            crs = self.grid_crs(parameters, context)
-            if not crs.isValid() or crs.isGeographic() or crs.mapUnits() != QgsUnitTypes.DistanceMeters:
-                return False, "CRS: give a projected CRS in metres with this extent"
+            crs = self.parameterAsCrs(parameters, "CRS", context)
+            if crs.isValid() and not is_metric(crs):
+                return False, "CRS: give a projected CRS in metres, or leave it empty"
+            if not given and not crs.isValid() and not self.parameterAsExtentCrs(parameters, "EXTENT", context).isValid():
+                return False, "CRS: give the CRS of this extent"
         for key in self.keys:
             name = parameter_name(key["key"])
             if key["type"] in COUNTS and self.is_set(parameters, name):
@@ -208,29 +212,15 @@ class Make(Algorithm):
                     return False, f"{name}: write {key['type']} separated by commas, {key['range']}"
         return super().checkParameterValues(parameters, context)
 
-    def grid_crs(self, parameters: dict[str, Any], context: QgsProcessingContext) -> QgsCoordinateReferenceSystem:
-        """Return the CRS of a grid with EXTENT."""
-        given = self.parameterAsCrs(parameters, "CRS", context)
-        if given.isValid():
-            return given
-        source = self.parameterAsVectorLayer(parameters, "RIVERS", context) if self.is_set(parameters, "RIVERS") else None
-        if source is not None and source.crs().isValid():
-            return source.crs()
-        return self.parameterAsExtentCrs(parameters, "EXTENT", context)
-
     def take(self, parameters: dict[str, Any], context: QgsProcessingContext) -> dict[str, VectorInput | RasterInput | None]:
-        self.grid: dict[str, str] = {}
+        wanted = self.crs(parameters, "CRS", context)
+        self.grid: dict[str, str] = {"grid.crs": wanted} if wanted else {}
+        self.extent: tuple[QgsRectangle, QgsCoordinateReferenceSystem] | None = None
         if self.is_set(parameters, "EXTENT"):
-            crs = self.grid_crs(parameters, context)
-            extent = self.parameterAsExtent(parameters, "EXTENT", context, crs)
-            cell = float(self.word(parameters, "CELL", context) or WITHOUT_INPUT_CELL)
-            sides = (extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum())
-            if cell <= 0 or not all(math.isfinite(side) for side in sides):
-                raise QgsProcessingException(f"EXTENT: {extent.toString()} in {crs.authid()} has no cells of {cell:g} m")
-            self.grid = grid_of(*sides, cell)
-            self.grid["grid.crs"] = crs_text(crs)
-        elif wanted := self.crs(parameters, "CRS", context):
-            self.grid = {"grid.crs": wanted}
+            crs = self.parameterAsExtentCrs(parameters, "EXTENT", context)
+            if not crs.isValid() and self.is_set(parameters, "RIVERS"):
+                crs = self.parameterAsSource(parameters, "RIVERS", context).sourceCrs()
+            self.extent = self.parameterAsExtent(parameters, "EXTENT", context), crs
         inputs: dict[str, VectorInput | RasterInput | None] = {
             "RIVERS": vector_input(self, parameters, "RIVERS", context, takes_layer_name=True, takes_source_crs=True),
             "DEM": raster_input(self, parameters, "DEM", context)}
@@ -239,6 +229,46 @@ class Make(Algorithm):
             if self.parameterDefinition(name).type() == "layer":
                 inputs[name] = map_layer_input(self, parameters, name, context)
         return inputs
+
+    def settle(self, folder: str, found: program.Program, parameters: dict[str, Any], context: QgsProcessingContext,
+               files: dict[str, File], feedback: QgsProcessingFeedback) -> None:
+        """Lay the grid over EXTENT; the program says which CRS and cells it takes for the rivers."""
+        if self.extent is None:
+            return
+        extent, its_crs = self.extent
+        crs = self.parameterAsCrs(parameters, "CRS", context)
+        cell = float(self.word(parameters, "CELL", context) or 0)
+        corner = (0.0, 0.0)
+        if self.is_set(parameters, "RIVERS") or self.is_set(parameters, "RECIPE"):
+            asked = [self.COMMAND, *self.asked(parameters, context, files), "--dry-run"]
+            planned = program.answer(found, asked, folder, feedback)
+            if not planned:
+                return
+            grid = planned["grid"]
+            if "adopt" in planned["stages"] and not self.is_set(parameters, "GRID_CLIP"):
+                self.grid["grid.clip"] = "true"
+            crs = QgsCoordinateReferenceSystem()
+            crs.createFromUserInput(grid["crs"])
+            corner = (grid["west"], grid["north"])
+            cell = grid["cell"]
+        else:
+            crs = crs if crs.isValid() else its_crs if is_metric(its_crs) else utm_of(extent, its_crs, context)
+            cell = cell if self.is_set(parameters, "CELL") else WITHOUT_INPUT_CELL
+        try:
+            across = QgsCoordinateTransform(its_crs if its_crs.isValid() else crs, crs, context.transformContext())
+            extent = across.transformBoundingBox(extent)
+        except QgsCsException as why:
+            raise QgsProcessingException(f"EXTENT: it cannot be brought into {crs.authid()}, the CRS of the terrain: draw a "
+                                         f"smaller one ({why})") from why
+        sides = (extent.xMinimum(), extent.yMinimum(), extent.xMaximum(), extent.yMaximum())
+        if cell <= 0 or not all(math.isfinite(side) for side in sides):
+            raise QgsProcessingException(f"EXTENT: {extent.toString()} in {crs.authid()} has no cells of {cell:g} m")
+        if self.is_set(parameters, "RIVERS") and not self.is_set(parameters, "CELL"):
+            cell = min(cell, round_below(max(extent.width(), extent.height()) / FEWEST_CELLS))
+        self.grid.update(grid_of(*sides, cell, corner))
+        self.grid.update({"grid.crs": crs_text(crs), "grid.cell": repr(cell)})
+        feedback.pushInfo(f"extent: {self.grid['grid.width']}x{self.grid['grid.height']} cells of {cell:g} m in "
+                          f"{crs.authid() or 'the CRS of the recipe'}")
 
     def settings(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> dict[str, str]:
         """Return the keys of the recipe that are set, with their values as --set takes them."""
@@ -266,17 +296,24 @@ class Make(Algorithm):
             found["network.lines.source_crs"] = rivers.source_crs
         return found
 
-    def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
-        self.output = self.file(parameters, "OUTPUT", context)
+    def asked(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
+        """Return the inputs and what is set, without the output."""
         paths = [files[name].path for name in ("RIVERS", "DEM") if name in files]
         if self.is_set(parameters, "RECIPE"):
             paths = [os.path.abspath(self.parameterAsFile(parameters, "RECIPE", context))]
         settings = self.settings(parameters, context, files)
-        return [*paths, f"--output={self.output}", *(f"--set={key}={value}" for key, value in settings.items()), "--overwrite"]
+        return [*paths, *(f"--set={key}={value}" for key, value in settings.items())]
+
+    def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
+        self.output = self.file(parameters, "OUTPUT", context)
+        return [*self.asked(parameters, context, files), f"--output={self.output}", "--overwrite"]
 
     def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:
         warn_of_failed(finished.report, feedback)
+        if self.extent is not None and (rivers := finished.report.get("given")):
+            feedback.pushInfo(f"extent: it holds {rivers['given_m'] / 1000:.1f} km of the rivers; "
+                              f"{rivers['left_out_m']['grid'] / 1000:.1f} km beyond it were cut off")
         found: dict[str, Any] = {"OUTPUT": self.output, "CHECKS_OK": finished.passed}
         opened = self.opened(parameters, context, feedback)
         written = set(finished.report["files"])
@@ -307,9 +344,31 @@ def numbers_of(text: str, count: int) -> str:
     return f"[{', '.join(words)}]"
 
 
-def grid_of(west: float, south: float, east: float, north: float, cell: float) -> dict[str, str]:
-    """Return the keys of the smallest grid of cells that covers a box; its corners are multiples of the cell size."""
-    column, row = math.floor(west / cell), math.ceil(north / cell)
-    width, height = math.ceil(east / cell) - column, row - math.floor(south / cell)
+def is_metric(crs: QgsCoordinateReferenceSystem) -> bool:
+    """Return whether a CRS is projected, in metres."""
+    return crs.isValid() and not crs.isGeographic() and crs.mapUnits() == QgsUnitTypes.DistanceMeters
+
+
+def utm_of(extent: QgsRectangle, crs: QgsCoordinateReferenceSystem,
+           context: QgsProcessingContext) -> QgsCoordinateReferenceSystem:
+    """Return the UTM zone of the middle of an extent."""
+    degrees = QgsCoordinateReferenceSystem("EPSG:4326")
+    middle = QgsCoordinateTransform(crs, degrees, context.transformContext()).transform(extent.center())
+    zone = min(max(math.floor((middle.x() + 180) / 6) + 1, 1), 60)
+    return QgsCoordinateReferenceSystem(f"EPSG:{(32600 if middle.y() >= 0 else 32700) + zone}")
+
+
+def round_below(size: float) -> float:
+    """Return the greatest cell size that the program chooses, and that is no greater; size > 0."""
+    power = 10.0 ** math.floor(math.log10(size))
+    return max(step * power for step in ROUND if step * power <= size * (1 + 1e-9))
+
+
+def grid_of(west: float, south: float, east: float, north: float, cell: float,
+            corner: tuple[float, float] = (0.0, 0.0)) -> dict[str, str]:
+    """Return the keys of the smallest grid of cells that covers a box; a corner of cells lies at that position."""
+    x, y = corner
+    column, row = math.floor((west - x) / cell), math.ceil((north - y) / cell)
+    width, height = math.ceil((east - x) / cell) - column, row - math.floor((south - y) / cell)
     return {"grid.width": str(max(width, 1)), "grid.height": str(max(height, 1)),
-            "grid.origin": f"[{column * cell!r}, {row * cell!r}]"}
+            "grid.origin": f"[{x + column * cell!r}, {y + row * cell!r}]"}

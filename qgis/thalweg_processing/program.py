@@ -302,6 +302,31 @@ def run(program: Program, arguments: list[str], folder: str, feedback: QgsProces
     return _finished(process.returncode, b"".join(printed), listener, keys)
 
 
+class _Silent(QgsProcessingFeedback):
+    """Is cancelled with another one, and says nothing."""
+
+    def __init__(self, other: QgsProcessingFeedback) -> None:
+        super().__init__(False)
+        self.other = other
+
+    def isCanceled(self) -> bool:
+        return self.other.isCanceled()
+
+    def pushInfo(self, info: str) -> None:
+        pass
+
+    pushWarning = pushCommandInfo = pushInfo
+
+    def setProgress(self, progress: float) -> None:
+        pass
+
+
+def answer(program: Program, arguments: list[str], folder: str, feedback: QgsProcessingFeedback) -> dict[str, Any]:
+    """Return what a command prints with --json, {} when the user cancelled, without a word in the log; raises as run()."""
+    finished = run(program, [*arguments, "--json"], folder, _Silent(feedback))
+    return {} if finished is None else finished.report
+
+
 def _finished(code: int, printed: bytes, listener: _Listener, keys: frozenset[str]) -> Finished:
     words = in_qgis("\n".join(listener.error).strip(), keys)
     if code not in (0, CHECK_FAILED):

@@ -68,10 +68,10 @@ class Rebuild(Make):
         return {**super().take(parameters, context),
                 **{name: raster_input(self, parameters, name, context) for name in ("LIKE", "AGAINST")}}
 
-    def arguments(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
+    def asked(self, parameters: dict[str, Any], context: QgsProcessingContext, files: dict[str, File]) -> list[str]:
         options = [f"--like={files['LIKE'].path}"] if "LIKE" in files else []
         options += [f"--against={files['AGAINST'].path}"] if "AGAINST" in files else []
-        return [*super().arguments(parameters, context, files), *options]
+        return [*super().asked(parameters, context, files), *options]
 
     def results(self, finished: Finished, parameters: dict[str, Any], context: QgsProcessingContext,
                 feedback: QgsProcessingFeedback) -> dict[str, Any]:

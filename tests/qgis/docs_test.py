@@ -169,8 +169,8 @@ class Page(Case):
                 ("has no CRS", "make", {"RIVERS": layer, "OUTPUT": "x"}),
                 ("has lines without Z", "rebuild", {"RIVERS": str(COAST), "CELL": 300, "OUTPUT": "x"}),
                 ("2 arcs leave the node", "convert", {"NETWORK": str(COAST), "OUTPUT": "x.gpkg"}),
-                ("CELL: an extent with rivers or a recipe needs the cell size", "make",
-                 {"RIVERS": str(COAST), "EXTENT": "0,1,0,1", "OUTPUT": "x"})):
+                ("draw the extent where the rivers are", "make",
+                 {"RIVERS": str(COAST), "EXTENT": "0,1,0,1 [EPSG:4326]", "OUTPUT": "x"})):
             with self.assertRaises(QgsProcessingException) as refused:
                 processing.run(f"thalweg:{name}", parameters)
             self.assertIn(words, str(refused.exception))

@@ -207,11 +207,12 @@ class WhatTheProgramTakes(Case):
                  {"TARGET": str(JACKSBORO), "SOURCE": str(JACKSBORO), "MASK": str(COAST), "MASK_RASTER": str(JACKSBORO)},
                  "Give MASK or MASK_RASTER, not both"),
                 ("check", {"NETWORK": str(COAST), "FINDINGS": str(self.folder / "x.shp")}, "GeoPackage"),
-                ("make", {"EXTENT": "0,1,0,1 [EPSG:4326]", "OUTPUT": "x"}, "CRS: give a projected CRS in metres"),
+                ("make", {"EXTENT": "0,1,0,1 [EPSG:4326]", "CRS": "EPSG:4326", "OUTPUT": "x"},
+                 "CRS: give a projected CRS in metres, or leave it empty"),
+                ("make", {"EXTENT": "0,1,0,1", "OUTPUT": "x"}, "CRS: give the CRS of this extent"),
                 ("make", {"EXTENT": "0,900,0,900 [EPSG:32631]", "GRID_ORIGIN": "1,2", "OUTPUT": "x"},
                  "Give EXTENT or GRID_ORIGIN, not both"),
                 ("make", {"DEM": str(JACKSBORO), "SURFACE_SOURCE": str(JACKSBORO), "OUTPUT": "x"}, "SURFACE_SOURCE"),
-                ("rebuild", {"RIVERS": str(COAST), "EXTENT": "0,1,0,1 [EPSG:32631]", "OUTPUT": "x"}, "CELL: an extent with"),
                 ("tin", {"OUTPUT": "x.2dm"}, "not none"),
                 ("tin", {"DEM": str(JACKSBORO), "BREAKLINES": str(COAST), "OUTPUT": "x.2dm"}, "takes no breaklines")):
             can, why = algorithm(command).checkParameterValues(parameters, context)

@@ -19,8 +19,8 @@ from qgis.core import (  # noqa: E402
     QgsApplication, QgsCoordinateReferenceSystem, QgsFeature, QgsFeatureRequest, QgsGeometry, QgsProcessing,
     QgsProcessingContext, QgsProcessingException, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
     QgsProcessingModelAlgorithm, QgsProcessingModelChildAlgorithm, QgsProcessingModelChildParameterSource,
-    QgsProcessingModelOutput, QgsProcessingOutputLayerDefinition, QgsProcessingUtils, QgsProject, QgsRasterLayer,
-    QgsRasterRange, QgsRectangle, QgsVectorLayer)
+    QgsProcessingModelOutput, QgsProcessingMultiStepFeedback, QgsProcessingOutputLayerDefinition,
+    QgsProcessingUtils, QgsProject, QgsRasterLayer, QgsRasterRange, QgsRectangle, QgsVectorLayer)
 from processing.core.ProcessingConfig import ProcessingConfig  # noqa: E402
 import thalweg_processing.algorithm  # noqa: E402
 from processing.gui.Postprocessing import handleAlgorithmResults  # noqa: E402
@@ -358,6 +358,54 @@ class Layers(Case):
         self.assertLessEqual(grid["origin"][0], 500000)
         self.assertTrue(99 <= grid["width"] <= 101 and 111 <= grid["height"] <= 114, grid)
 
+    def of_extent(self, rivers, extent, **parameters):
+        """The grid that make lays over an extent; its checks pass, and the log tells what was cut."""
+        said = Said()
+        results = processing.run("thalweg:make", {"RIVERS": rivers, "EXTENT": extent, "OUTPUT": str(self.folder / "out"),
+                                                  **parameters}, feedback=said)
+        self.assertTrue(results["CHECKS_OK"], f"{rivers} {extent}: {said.warnings}")
+        self.assertRegex("\n".join(said.lines), r"extent: \d+x\d+ cells of [\d.]+ m in EPSG:\d+\n(.|\n)*"
+                                                r"extent: it holds [\d.]+ km of the rivers; [\d.]+ km beyond it were cut off")
+        return json.loads((self.folder / "out/report.json").read_text())["recipe"]["grid"]
+
+    def test_extent_with_rivers_and_nothing_else(self):
+        """The CRS and the cells are those for all of the rivers; the extent may be in any CRS."""
+        coast = str(COAST)
+        whole = json.loads(program("make", coast, "--dry-run", "--json").stdout)["grid"]
+        for extent in ("-124.30,-124.10,40.10,40.28 [EPSG:4326]", "-13820000,-13790000,4880000,4905000 [EPSG:3857]",
+                       "390000,410000,4440000,4460000 [EPSG:32610]"):
+            grid = self.of_extent(coast, extent)
+            self.assertEqual((grid["crs"], grid["clip"], grid["cell"]), (whole["crs"], True, whole["cell"]))
+            for here, there in zip(grid["origin"], (whole["west"], whole["north"])):
+                self.assertEqual((here - there) % whole["cell"], 0)
+        grid = self.of_extent(coast, "-124.10,-124.06,40.10,40.14 [EPSG:4326]")
+        self.assertTrue(250 <= max(grid["width"], grid["height"]) <= 400, grid)  # finer cells
+        self.assertEqual(self.of_extent(coast, "-124.20,-124.05,40.10,40.22 [EPSG:4326]", CELL=60)["cell"], 60)
+        self.assertEqual(self.of_extent(coast, "-124.20,-124.05,40.10,40.22 [EPSG:4326]", CRS="EPSG:26910")["crs"],
+                         "EPSG:26910")
+        metric = self.folder / "metric.gpkg"
+        gdal.VectorTranslate(str(metric), coast, dstSRS="EPSG:3310", reproject=True, layerName="rivers")
+        self.assertEqual(self.of_extent(str(metric), "-124.20,-124.05,40.10,40.22 [EPSG:4326]")["crs"], "EPSG:3310")
+        layer = QgsProject.instance().addMapLayer(QgsVectorLayer(coast, "rivers", "ogr"))
+        layer.selectByExpression("FTYPE <> 'Coastline'")
+        self.of_extent(QgsProcessingFeatureSourceDefinition(layer.id(), selectedFeaturesOnly=True),
+                       "-124.20,-124.05,40.10,40.22 [EPSG:4326]")
+        QgsProject.instance().clear()
+
+    def test_extent_with_a_recipe_and_with_nothing(self):
+        said = Said()
+        results = processing.run("thalweg:make", {
+            "RECIPE": str(SAMPLES / "relief_lines.toml"), "OUTPUT": str(self.folder / "out"),
+            "EXTENT": "-122.85,-122.75,38.13,38.20 [EPSG:4326]"}, feedback=said)
+        self.assertTrue(results["CHECKS_OK"], said.warnings)
+        grid = json.loads((self.folder / "out/report.json").read_text())["recipe"]["grid"]
+        self.assertEqual((grid["cell"], grid["clip"]), (30.0, True))
+        processing.run("thalweg:make", {
+            "EXTENT": "3.00,3.05,-45.04,-45.00 [EPSG:4326]", "CELL": 40, "OUTPUT": str(self.folder / "out"),
+            "NETWORK_FOREST_OUTLET_SPACING": 0})
+        grid = json.loads((self.folder / "out/report.json").read_text())["recipe"]["grid"]
+        self.assertEqual(grid["crs"], "EPSG:32731")
+
     def test_runs_in_a_model(self):
         model = QgsProcessingModelAlgorithm("terrain and its TIN")
         make = QgsProcessingModelChildAlgorithm("thalweg:make")
@@ -454,6 +502,8 @@ class Opened(Case):
             model.addChildAlgorithm(child)
         _, layers = self.opened_by(model, {"blend:pasted": f">{self.folder / 'b.tif'}"})
         self.assertEqual(len(layers), 1)
+        part, batch = QgsProcessingMultiStepFeedback(1, Said()), type("Batch", (QgsProcessingMultiStepFeedback,), {})(1, Said())
+        self.assertEqual([thalweg_processing.algorithm.is_part_of_another(one) for one in (part, batch)], [True, False])
         _, layers = self.opened("tin", {"DEM": str(JACKSBORO), "ERROR": 30, "LOAD": [], "OUTPUT": str(self.folder / "t.2dm")})
         self.assertEqual(layers, {})
         _, layers = self.opened("measure", {"DEM": str(JACKSBORO), "LOAD": [1], "OUTPUT": str(self.folder / "m")})
