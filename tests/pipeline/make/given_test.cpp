@@ -180,8 +180,9 @@ TEST(GivenAreas, OfWalkerCreekAreTheTerrains) {
 // 123 km of rivers on 5 x 5 or 7 x 7 cells passed every check in silence.
 TEST(GivenLength, CellsTooLargeForTheRiversAreSaid) {
     auto const said = [](std::string const& grid) {
-        Made const t = test::made(grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"walker_nhdplus.gpkg\"\n[surface]\n",
-                                  THALWEG_SOURCE_DIR "/samples");
+        Made const t = test::made(
+            grid + "[network]\nsource = \"lines\"\n[network.lines]\npath = \"walker_nhdplus.gpkg\"\n[surface]\n",
+            THALWEG_SOURCE_DIR "/samples");
         std::vector<Finding> found;
         std::ranges::copy_if(t.assessment.findings, std::back_inserter(found),
                              [](Finding const& f) { return f.kind.row().kind == std::string_view("crowded_rivers"); });
@@ -191,7 +192,8 @@ TEST(GivenLength, CellsTooLargeForTheRiversAreSaid) {
         std::vector<Finding> const found = said(grid);
         ASSERT_EQ(found.size(), 1U) << grid;
         EXPECT_GT(found[0].amount, 0.6);
-        EXPECT_TRUE(test::has(found[0].text, "of the 51 arcs have no cell of their own: cells of ", "000 m are too large"));
+        EXPECT_TRUE(
+            test::has(found[0].text, "of the 51 arcs have no cell of their own: cells of ", "000 m are too large"));
         EXPECT_TRUE(test::has(found[0].remedy, "--set grid.cell="));
     }
     EXPECT_TRUE(said("[grid]\ncell = 300\n").empty());
