@@ -26,6 +26,7 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>
 #include <thalweg/core/vec.hpp>

@@ -161,7 +161,6 @@ def axes_of(ax: Axes | None) -> Axes:
     if ax is not None:
         return ax
     new: Axes = need("matplotlib.pyplot", "python3-matplotlib").subplots()[1]
-    new.ticklabel_format(style="plain", useOffset=False)
     return new
 
 
@@ -183,6 +182,8 @@ def plot_raster(raster: Raster, ax: Axes | None) -> Axes:
         ax.imshow(raster.values, cmap="gist_earth", alpha=0.4, extent=extent, vmin=low - 0.67 * (high - low), vmax=high)
     else:
         ax.imshow(raster.values, extent=extent, interpolation="nearest")
+    with contextlib.suppress(AttributeError):  # of axes whose ticks a user has set
+        ax.ticklabel_format(style="plain", useOffset=False)
     return ax
 
 

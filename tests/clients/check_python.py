@@ -4,9 +4,10 @@
 """check_python.py DEM: do GDAL, SAGA and GRASS find what functions of the Python package find that no command writes?
 
 slope and aspect: gdaldem. fill_depressions(level=True): SAGA's ta_preprocessor 4 (Wang and Liu) without slope, bit for bit.
-directions_of and follow: of the directions of r.watershed -s the areas that it adds up itself. codes_of and catchment: r.water.outlet on
+directions_of and follow: of the directions of r.watershed -s the areas that it adds up itself, where it has them whole (below 0 it does not
+count all cells). codes_of and catchment: r.water.outlet on
 our directions finds the same catchments. accumulate: numpy, along receivers from the smallest area to the largest.
-sample: gdallocationinfo. Prints one JSON line and exits with 1 on any violation."""
+sample: gdallocationinfo. Aspects are compared from 0.1 degrees of slope on: gdaldem computes in Float32. Prints one JSON line and exits with 1 on any violation."""
 import pathlib
 import tempfile
 
@@ -36,15 +37,18 @@ def compare_with_gdal(path, dem, folder, report):
         wanted, _ = values_of(out)
         off = np.abs(found.values - wanted)
         off = np.minimum(off, turn - off)
+        off[thalweg.measure.slope(dem).values < (0.1 if what == "aspect" else 0.0)] = np.nan
         figures[f"{what}_deg"] = float(np.nanmax(off))
-        report.unless(np.nanmax(off) < 2e-3, what, f"{np.nanmax(off)} degrees")
+        report.unless(np.nanmax(off) < 2e-2, what, f"{np.nanmax(off)} degrees")
         report.equal(f"{what}_cells", int((np.isnan(found.values) != np.isnan(wanted)).sum()), 0)
     random = np.random.default_rng(3)
     west, south, east, north = dem.bounds
     x, y = random.uniform(west, east, 50), random.uniform(south, north, 50)
     asked = "\n".join(f"{a!r} {b!r}" for a, b in zip(x.tolist(), y.tolist()))
     said = command("gdallocationinfo", "-valonly", "-geoloc", path, input=asked).stdout.split("\n")[:50]
-    report.equal("sample", dem.sample(x, y).tolist(), [float(word) for word in said])
+    wanted = np.array([float(word) for word in said])
+    wanted[wanted == -9999] = np.nan
+    report.equal("sample", different(dem.sample(x, y).astype(float), wanted, 1e-6), 0)
     return figures
 
 
@@ -65,10 +69,11 @@ def compare_with_grass(dem, folder, report):
     grass("r.in.gdal", input=folder / "filled.tif", output="dem")
     grass("g.region", raster="dem")
     grass("r.watershed", flags="s", elevation="dem", accumulation="area", drainage="towards", memory=1000)
-    towards, area = grass.raster("towards", folder), np.abs(grass.raster("area", folder))
+    towards, area = grass.raster("towards", folder), grass.raster("area", folder)
     codes = thalweg.Raster(np.where(np.isnan(towards), -2**31, towards).astype(np.int32), dem.grid)
     theirs = thalweg.flow.follow(thalweg.flow.directions_of(codes, "grass"))
-    report.equal("areas_of_grass", different(theirs.area_cells.values.astype(float), area), 0)
+    whole = area > 0
+    report.equal("areas_of_grass", int((theirs.area_cells.values[whole] != area[whole]).sum()), 0)
 
     drainage = thalweg.flow.route(dem)
     ours = thalweg.flow.codes_of(drainage.direction, "grass")
@@ -91,7 +96,7 @@ def compare_with_grass(dem, folder, report):
         sizes.append(int(found.sum()))
         report.equal("catchment", int((found != wanted).sum()), 0)
         report.equal("catchment_size", sizes[-1], int(drainage.area_cells.values.flat[cell]))
-    return {"catchments_cells": sizes, "areas_compared": int(np.isfinite(area).sum())}
+    return {"catchments_cells": sizes, "areas_compared": int(whole.sum())}
 
 
 def compare_with_numpy(dem, report):

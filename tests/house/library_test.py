@@ -23,7 +23,6 @@ REFERRING = {
     "io/mesh/points.hpp": "names are literals",
     "io/network/schema.hpp": "tables of literals",
     "measure/relief/relief.hpp": "names are literals, and tables of them",
-    "flow/catchments.hpp": "names are literals",
     "pipeline/make/relief.hpp": "names are literals",
     "pipeline/make/laws.hpp": "names are literals, and a row of a table of them",
     "pipeline/commands/convert.hpp": "names are literals",

@@ -11,6 +11,7 @@ import resource
 import signal
 import subprocess
 import sys
+import tempfile
 import textwrap
 import threading
 import time
@@ -296,7 +297,7 @@ class Arguments(unittest.TestCase):
                               ("leave --device out", "leave device out"), ("--nodata nan takes it", "nodata=nan takes it"),
                               ("name one by --classes", "name one by classes"), ("gdal_translate -a_nodata -9999 IN", "gdal_translate -a_nodata -9999 IN"),
                               ("pdal translate IN OUT --writers.las.a_srs=EPSG:n", "pdal translate IN OUT --writers.las.a_srs=EPSG:n"),
-                              ("/tmp/thalweg-x_1/rivers.gpkg: line 3", "rivers: line 3")]:
+                              (os.path.join(tempfile.gettempdir(), "thalweg-x_1/rivers.gpkg: line 3"), "rivers: line 3")]:
             self.assertEqual(words(shell), python)
         with self.assertRaises(thalweg.Error) as refused:
             thalweg.io.read_network(thalweg.Raster(valley()))

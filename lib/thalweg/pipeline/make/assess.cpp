@@ -144,9 +144,13 @@ measure::TopologyReport topology_of(Terrain const& terrain, StageLog& stage_log,
     });
 }
 
-/// A number rounded down to one digit.
+/// A number > 0 rounded down to one digit.
 double one_digit(double number) {
-    double const power = std::pow(10.0, std::floor(std::log10(number)));
+    double power = 1.0;
+    for (; power > number; power /= 10.0) {
+    }
+    for (; power * 10.0 <= number; power *= 10.0) {
+    }
     return std::floor(number / power) * power;
 }
 
