@@ -628,21 +628,21 @@ class Binder:
         return text
 
     def common_signature(self, overloads: list[Function]) -> str:
-        """One signature for all forms, as inspect reads it: what only some take has the default None."""
+        """One signature for all forms, as inspect reads it: *others from where they differ."""
         forms = [self.arguments(f) for f in overloads]
         positional = [[a["name"] for a in form if a["kind"] == "positional"] for form in forms]
         longest = max(positional, key=len)
         parts: list[str] = []
         for number, name in enumerate(longest):
-            if any(form[number : number + 1] not in ([name], []) for form in positional):
-                parts.append("*others")  # they differ from here on
+            if any(form[number : number + 1] != [name] for form in positional):
+                parts.append("*others")
                 break
-            parts.append(name if all(len(form) > number for form in positional) else f"{name}=None")
-        keywords = dict.fromkeys(a["name"] for form in forms for a in form if a["kind"] == "keyword")
+            parts.append(name)
+        keywords = {a["name"]: a["default"] or "None" for form in forms for a in form if a["kind"] == "keyword"}
         if any(self.is_run(p) for f in overloads for p in f.parameters):
-            keywords.update(dict.fromkeys(RUN))
+            keywords |= {"threads": "0", "progress": "None", "log": "None", "device": "'cpu'"}
         if keywords:
-            parts += ([] if parts and parts[-1] == "*others" else ["*"]) + [f"{name}=None" for name in keywords]
+            parts += ([] if parts and parts[-1] == "*others" else ["*"]) + [f"{name}={default}" for name, default in keywords.items()]
         return f"{safe(overloads[0].name)}({', '.join(parts)})"
 
     # -- C++ ----------------------------------------------------------------------------------------------------------

@@ -314,7 +314,7 @@ class Arguments(unittest.TestCase):
                         inspect.signature(value)
                     except ValueError:
                         left.append(name)
-        self.assertEqual(str(inspect.signature(thalweg.flow.route)), "(dem, sinks=None, *, threads=None, progress=None, log=None, device=None)")
+        self.assertEqual(str(inspect.signature(thalweg.flow.route)), "(dem, *others, threads=0, progress=None, log=None, device='cpu')")
         for name in left:  # what only the library makes
             self.assertRegex(name, "^[A-Z]")
 

@@ -256,7 +256,8 @@ class Values(unittest.TestCase):
             self.assertEqual([kind for _, kind in warned][:2], ["placeholder_heights", "filled_heights"])
             self.assertTrue(warned[0][0].startswith("heights of 0 in r.geojson count as missing (vertices: 1; "), warned)
             found = [finding for finding in terrain.report["findings"] if finding["severity"] == "warning"]
-            self.assertEqual([". ".join((finding["text"], finding["remedy"])) for finding in found], [words for words, _ in warned])
+            self.assertEqual([thalweg._show.in_python(". ".join((finding["text"], finding["remedy"]))) for finding in found],
+                             [words for words, _ in warned])
             with self.assertWarns(thalweg.TerrainWarning) as caught:
                 planned = thalweg.forecast(recipe)
             self.assertEqual([one.message.finding["kind"] for one in caught.warnings], ["placeholder_heights", "filled_heights"])
