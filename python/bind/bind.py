@@ -991,7 +991,7 @@ def stub_words(text: str, indent: str) -> list[str]:
 # What the package adds to networks.
 AS_TABLES = [
     "def to_geodataframe(self, layer: str = 'arcs', *, crs: object = None) -> geopandas.GeoDataFrame: ...",
-    "def to_networkx(self) -> networkx.DiGraph: ...",
+    "def to_networkx(self) -> networkx.DiGraph[Any]: ...",
 ]
 STUB_HEAD = """# Written by python/bind/bind.py.
 import os

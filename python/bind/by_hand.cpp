@@ -134,8 +134,80 @@ StreamNetwork Fields<StreamNetwork>::made(Args& in) {
     return {std::move(draft)};
 }
 
+StreamNetwork Fields<StreamNetwork>::take(py::handle value, Place const& place) {
+    if (py::isinstance<ElevatedNetwork>(value)) {
+        return value.cast<ElevatedNetwork const&>().planform;
+    }
+    if (py::isinstance<flow::ExtractedStreams>(value)) {
+        return value.cast<flow::ExtractedStreams const&>().network.planform;
+    }
+    return take_record<StreamNetwork>(value, place);
+}
+
+namespace {
+
+/// \throws BadInput when a corner of a triangle is no vertex
+template <class Triangles> void require_corners(Triangles const& triangles, std::size_t vertices, char const* what) {
+    for (auto const& triangle : triangles) {
+        for (auto const corner : triangle) {
+            if (static_cast<std::uint64_t>(corner) >= vertices) {
+                throw BadInput(fmt::format("{}: a triangle names vertex {}, and there are {}", what, corner, vertices));
+            }
+        }
+    }
+}
+
+} // namespace
+
+void require_sound(Tin const& tin) {
+    require_corners(tin.triangles, tin.vertices.size(), "Tin");
+}
+
+void require_sound(LatticeMesh const& mesh) {
+    require_corners(mesh.triangles, mesh.vertices.size(), "LatticeMesh");
+    if (!mesh.places.empty() && mesh.places.size() != mesh.vertices.size()) {
+        throw BadInput("LatticeMesh: places are one per vertex");
+    }
+}
+
+void require_sound(Channels const& channels) {
+    std::size_t const count = channels.cell.size();
+    auto const fits = [&](std::size_t size) { return size == 0 || size == count; };
+    if (channels.receiver.size() != count || !fits(channels.z.size()) || !fits(channels.level.size()) ||
+        !fits(channels.lake_z.size())) {
+        throw BadInput("Channels: receiver is one per cell, and so are z, level and lake_z where they are given");
+    }
+    for (std::size_t i = 0; i < count; ++i) {
+        if (channels.cell[i] < 0 || channels.cell[i] >= channels.grid.cells() || channels.receiver[i] < -1 ||
+            channels.receiver[i] >= static_cast<ChannelId>(i)) {
+            throw BadInput(fmt::format("Channels: number {} has cell {} and receiver {}; cells lie in the grid, and a "
+                                       "receiver stands before its cell",
+                                       i, channels.cell[i], channels.receiver[i]));
+        }
+    }
+}
+
+void require_sound(network::ChannelsOfArcs const& drawn) {
+    require_sound(drawn.channels);
+    auto const count = static_cast<std::int64_t>(drawn.channels.cell.size());
+    for (auto const& cells : drawn.of_arc) {
+        for (std::int64_t const number : cells) {
+            if (number < 0 || number >= count) {
+                throw BadInput(
+                    fmt::format("ChannelsOfArcs: of_arc names channel cell {}, and there are {}", number, count));
+            }
+        }
+    }
+}
+
 void require_sound(Grid const& grid) {
     constexpr std::int64_t most = std::int64_t{1} << 40;
+    if (!(grid.cell_m > 0.0) || !std::isfinite(grid.cell_m) || !std::isfinite(grid.west) ||
+        !std::isfinite(grid.north)) {
+        throw BadInput(fmt::format("Grid: cells of {} at ({}, {}); their side is a number above 0, and their place is "
+                                   "finite",
+                                   grid.cell_m, grid.west, grid.north));
+    }
     if (grid.width < 0 || grid.height < 0 || (grid.height > 0 && grid.width > most / grid.height)) {
         throw BadInput(
             fmt::format("Grid: {} x {} cells are no grid; it has at most 2^40 cells", grid.width, grid.height));

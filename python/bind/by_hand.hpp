@@ -4,10 +4,14 @@
 
 #include "glue.hpp"
 
+#include <thalweg/core/channels.hpp>
+#include <thalweg/core/lattice.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
+#include <thalweg/core/tin.hpp>
 #include <thalweg/draw/picture.hpp>
 #include <thalweg/flow/route.hpp>
+#include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/growth/tokunaga/lsystem.hpp>
 
 /// What bind.py does not read from the headers: exceptions, classes, functions that change their arguments.
@@ -20,7 +24,8 @@ template <> struct Fields<StreamNetwork> {
     static constexpr char const* signature = "__init__(self, nodes, from_nodes, to_nodes, lines=None, features=None, "
                                              "types=None, is_input=None, persistence=None)\n--\n\n";
     static StreamNetwork made(Args& in);
-    static StreamNetwork take(py::handle value, Place const& place) { return take_record<StreamNetwork>(value, place); }
+    /// Also of what has one: a network with heights, extracted streams.
+    static StreamNetwork take(py::handle value, Place const& place);
 };
 
 template <> struct Fields<draw::Picture> {
@@ -32,6 +37,10 @@ template <> struct Fields<draw::Picture> {
 };
 
 void require_sound(Grid const& grid);
+void require_sound(Tin const& tin);
+void require_sound(LatticeMesh const& mesh);
+void require_sound(Channels const& channels);
+void require_sound(network::ChannelsOfArcs const& drawn);
 void require_sound(ElevatedNetwork const& network);
 void require_sound(RiverLine const& line);
 void require_sound(flow::FlowField const& drainage);

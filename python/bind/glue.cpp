@@ -313,6 +313,9 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
     if (!has_shape || !(kind == 'i' || kind == 'u' || kind == 'b' || (is_real && kind == 'f'))) {
         refuse_type(place, value, wanted + (is_real ? "" : " that are whole"));
     }
+    if (kind == 'b' && !is_real && type.itemsize() > 1) { // 0 and 1 would be taken for numbers of arcs or cells
+        refuse_type(place, value, "an array of whole numbers, not a mask: np.flatnonzero(mask) gives its numbers");
+    }
     py::object const numpy = py::module_::import("numpy");
     if (!is_real && kind != 'b') {
         py::object const range = numpy.attr("iinfo")(type);

@@ -2,6 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
 #include <cmath>
 #include <concepts>
@@ -451,6 +452,11 @@ template <class T> T take(py::handle value, Place const& place) {
         }
         std::span<Value const> const cells(static_cast<Value const*>(values.data()),
                                            static_cast<std::size_t>(values.size()));
+        if constexpr (std::is_enum_v<Value>) { // codes were checked: they stay as they are
+            T own(std::move(grid));
+            std::copy(cells.begin(), cells.end(), own.values().begin());
+            return own;
+        }
         return T::view_of(std::move(grid), cells, kept_alive(values));
     } else if constexpr (std::same_as<T, Vec2> || std::same_as<T, Vec3> || std::same_as<T, Cell> ||
                          (is_array<T>::value && Numbers<T>::count > 0)) {

@@ -100,7 +100,7 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.
     named = parts.crs if crs is None else crs_text(crs)
     flat_z = [np.zeros(len(line)) for line in net.lines]
     elevated = parts.elevated or _core.ElevatedNetwork(net, np.zeros(net.node_count), flat_z)
-    with tempfile.TemporaryDirectory() as folder:
+    with tempfile.TemporaryDirectory(prefix="thalweg-") as folder:
         path = os.path.join(folder, "network.gpkg")
         made = getattr(network, "made", None)
         if made is not None and crs is None:
@@ -119,7 +119,7 @@ def to_geodataframe(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.
     return table
 
 
-def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.ExtractedStreams | Terrain) -> networkx.DiGraph:
+def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.ExtractedStreams | Terrain) -> networkx.DiGraph[Any]:
     """Return a network as a graph, directed downstream.
 
     Parameters
@@ -144,20 +144,26 @@ def to_networkx(network: _core.StreamNetwork | _core.ElevatedNetwork | flow.Extr
     parts = parts_of(network)
     net = parts.planform
     orders = parts.orders or networks.order(net)
-    graph: networkx.DiGraph = nx.DiGraph()
-    for node, (x, y) in enumerate(net.nodes.tolist()):
+    graph: networkx.DiGraph[Any] = nx.DiGraph()
+    # Lists of numbers, which later numpy types as anything.
+    nodes: Any = net.nodes.tolist()
+    for node, (x, y) in enumerate(nodes):
         graph.add_node(node, x=x, y=y)
     lines = list(net.lines)
     if parts.elevated is not None:
-        nx.set_node_attributes(graph, dict(enumerate(parts.elevated.node_z.tolist())), "z")
+        nx.set_node_attributes(graph, dict(enumerate(map(float, parts.elevated.node_z))), "z")
         lines = [np.column_stack([line, z]) for line, z in zip(lines, parts.elevated.arc_z)]
-    ends = zip(net.from_nodes.tolist(), net.to_nodes.tolist())
-    for arc, ((up, down), length, order) in enumerate(zip(ends, net.length_m.tolist(), np.asarray(orders.strahler).tolist())):
+    ends = zip(map(int, net.from_nodes), map(int, net.to_nodes))
+    for arc, ((up, down), length, order) in enumerate(zip(ends, map(float, net.length_m), map(int, orders.strahler))):
         graph.add_edge(up, down, arc=arc, length_m=length, strahler=order, line=lines[arc])
     return graph
 
 
-def from_networkx(graph: networkx.Graph) -> _core.StreamNetwork | _core.ElevatedNetwork:
+def _has_place(known: Any) -> bool:
+    return all(isinstance(known.get(axis), (int, float, np.number)) and np.isfinite(known[axis]) for axis in "xy")
+
+
+def from_networkx(graph: networkx.Graph[Any]) -> _core.StreamNetwork | _core.ElevatedNetwork:
     """Return the network of a graph, as to_networkx writes it or of any graph of rivers.
 
     Parameters
@@ -176,15 +182,17 @@ def from_networkx(graph: networkx.Graph) -> _core.StreamNetwork | _core.Elevated
     BadInput
         When edges have no direction, a node has no x or y, or a line does not begin and end at its nodes.
     """
+    if not hasattr(graph, "is_directed"):
+        raise TypeError(f"from_networkx: takes a DiGraph of networkx, not {type(graph).__name__}")
     if not graph.is_directed():
         raise bad_input("from_networkx", "from_networkx: edges have no direction: give a DiGraph, whose edges lead downstream")
     numbers = {node: number for number, node in enumerate(graph)}
     for node, known in graph.nodes(data=True):
-        if "x" not in known or "y" not in known:
+        if not _has_place(known):
             raise bad_input("from_networkx", f"from_networkx: node {node!r} has no x and y: set them, in metres")
     nodes = np.array([(known["x"], known["y"]) for _, known in graph.nodes(data=True)], float).reshape(-1, 2)
     has_heights = len(numbers) > 0 and all("z" in known for _, known in graph.nodes(data=True))
-    edges = sorted(graph.edges(data=True), key=lambda edge: int(edge[2].get("arc", 0)))
+    edges = sorted(graph.edges(data=True), key=lambda edge: int(edge[2].get("arc") or 0))
     lines = []
     for up, down, known in edges:
         ends = nodes[[numbers[up], numbers[down]]]
@@ -229,6 +237,8 @@ def from_geodataframe(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> _c
     BadInput
         When there are no lines, the CRS is not in metres, or what the columns tell is no network.
     """
+    if not is_table(frame):
+        raise TypeError(f"from_geodataframe: takes a GeoDataFrame or GeoSeries, not {type(frame).__name__}")
     if len(frame) == 0:
         raise bad_input("from_geodataframe", "from_geodataframe: the table is empty")
     crs = "" if frame.crs is None else crs_text(frame.crs)
@@ -240,7 +250,7 @@ def from_geodataframe(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> _c
     if file.says.downstream or file.says.ends:
         elevated = networks.from_file(networks.divide(file)[0]).network
     else:
-        lines = io.read_rivers(path=str(path))
+        lines = io.read_rivers(path=str(path)) if crs else _plain_lines(frame)
         imported = networks.import_lines(lines)
         if imported.repairs:
             say(f"rivers: joined as lines, with {len(imported.repairs)} repairs; network.import_lines lists them")
@@ -248,6 +258,20 @@ def from_geodataframe(frame: geopandas.GeoDataFrame | geopandas.GeoSeries) -> _c
             return imported.network
         elevated = networks.take_file_heights(imported, lines)
     return elevated if np.isfinite(elevated.node_z).all() else elevated.planform
+
+
+def _plain_lines(frame: Any) -> _core.RiverLines:
+    """Lines in metres of no CRS."""
+    lines: list[dict[str, Any]] = []
+    for number, shape in enumerate(frame.geometry, 1):
+        for part in getattr(shape, "geoms", [shape]):
+            if part is not None and part.geom_type == "LineString":
+                vertices = np.full((len(part.coords), 3), np.nan)
+                vertices[:, :3 if part.has_z else 2] = np.asarray(part.coords)[:, :3 if part.has_z else 2]
+                lines.append({"vertices": vertices, "feature": number})
+    if not lines:
+        raise bad_input("from_geodataframe", "from_geodataframe: no lines in the table")
+    return _core.RiverLines(lines=lines, has_z=all(np.isfinite(line["vertices"]).all() for line in lines))
 
 
 class TemporaryPath(str):

@@ -28,7 +28,10 @@ RasterLike: TypeAlias = "Raster | Array | xarray.DataArray | str | os.PathLike[s
 ROWS = {"y", "lat", "latitude", "northing", "row"}
 COLUMNS = {"x", "lon", "longitude", "easting", "col", "column"}
 NO_DATA = (-9999.0, -32767.0, -32768.0, -99999.0)  # what no height is, and often stands for none
-LARGEST = 1e30  # beyond it no number is a height
+LARGEST = 1e19  # beyond it no number is a height; numpy fills masked arrays with 1e20
+# Functions of numpy beside its ufuncs that give one value for each cell.
+OF_EACH_CELL = {np.where, np.clip, np.round, np.around, np.nan_to_num, np.isclose, np.isin, np.real, np.fix, np.full_like, np.zeros_like,
+                np.ones_like, np.empty_like, np.copy, np.interp, np.digitize}
 DEEPEST_SEA = -12000.0  # [m]
 FEET = {"ft", "foot", "feet", "us survey foot", "us_survey_foot", "us-ft", "ftus"}
 
@@ -44,15 +47,16 @@ class UnitWarning(UserWarning):
 class Raster(NDArrayOperatorsMixin):
     """One value per cell of a grid, as a numpy array that cannot be written.
 
-    Operators and numpy's functions of each cell (dem + 1, a - b, dem > 100, np.sqrt(dem)) return rasters of the same grid, and
-    refuse rasters of another one. Every other function of numpy takes a raster as its array: np.where(dem > 0, dem, np.nan) is
-    an array, which Raster(array, dem.grid) places again. A stage gives a plain array the grid of the other rasters of the call.
+    Operators and numpy's functions of each cell (dem + 1, a - b, dem > 100, np.sqrt, np.where, np.clip) return rasters of the
+    same grid, and refuse rasters of another one. Every other function of numpy takes a raster as its array, and returns arrays,
+    which Raster(array, dem.grid) places again. A stage gives a plain array the grid of the other rasters of the call.
 
     Parameters
     ----------
-    values : array_like, shape (height, width)
-        Rows from the north. An array is shown, not copied. Of masked arrays the masked cells become NaN.
-    grid : Grid or dict, optional
+    values : array_like, Raster or DataArray, shape (height, width)
+        Rows from the north. An array is shown, not copied. Of masked arrays the masked cells become NaN. A Raster or DataArray
+        keeps its grid unless one is given.
+    grid : Grid, Raster or dict, optional
         Frame of the cells. Without it the grid follows from the keywords.
     cell_m : float, default 1.0
         [m] Side of a cell.
@@ -66,7 +70,8 @@ class Raster(NDArrayOperatorsMixin):
     Raises
     ------
     BadInput
-        When values are not a table of real numbers, the grid has another size, or crs is no coordinate system.
+        When values are not a table of real numbers, the grid has another size or is given beside keywords, or crs is no
+        coordinate system.
 
     Examples
     --------
@@ -78,14 +83,26 @@ class Raster(NDArrayOperatorsMixin):
     values: Array
     grid: _core.Grid
 
-    def __init__(self, values: npt.ArrayLike, grid: _core.Grid | dict[str, Any] | None = None, *, cell_m: float = 1.0, west: float = 0.0,
+    def __init__(self, values: npt.ArrayLike, grid: _core.Grid | Raster | dict[str, Any] | None = None, *, cell_m: float = 1.0, west: float = 0.0,
                  north: float | None = None, crs: object = "") -> None:
+        of_keywords = (cell_m, west, north) != (1.0, 0.0, None) or not (crs is None or isinstance(crs, str) and not crs)
+        xr = sys.modules.get("xarray")
+        if grid is None and not of_keywords and xr is not None and isinstance(values, xr.DataArray):
+            values = _from_xarray(values, np.dtype(np.float32 if values.dtype.kind == "f" else values.dtype), "values")
+        if grid is None and not of_keywords and isinstance(values, Raster):
+            grid = values.grid
         shown = _unmasked(values, "values").view()
         _require_table(shown, "values")
         shown.flags.writeable = False
         height, width = shown.shape
+        if grid is not None and of_keywords:
+            raise bad_input("Raster", "give a grid or cell_m, west, north and crs, not both")
         if isinstance(grid, dict):
             grid = _core.Grid(**grid)
+        if isinstance(grid, Raster):
+            grid = grid.grid
+        if grid is not None and not isinstance(grid, _core.Grid):
+            raise TypeError(f"Raster: grid is {type(grid).__name__}; it must be a Grid, a Raster or a dict")
         if grid is None:
             if not cell_m > 0.0:
                 raise bad_input("Raster", f"cell_m = {cell_m} is not above 0")
@@ -156,14 +173,20 @@ class Raster(NDArrayOperatorsMixin):
         return self.values.astype(dtype)
 
     def __array_ufunc__(self, ufunc: np.ufunc, method: str, *inputs: Any, **options: Any) -> Any:
-        placed = "out" not in options and method == "__call__"
+        placed = "out" not in options and method == "__call__" and ufunc.signature is None
+        _require_one_grid([*inputs, *options.values()], ufunc.__name__)
         options = {name: tuple(map(_plain, one)) if name == "out" else _plain(one) for name, one in options.items()}
-        grids = [one.grid for one in inputs if isinstance(one, Raster)]
-        for grid in grids[1:]:
-            _require_same_grid(grids[0], grid, ufunc.__name__)
         made = getattr(ufunc, method)(*map(_plain, inputs), **options)
         return tuple(self._placed(one) for one in made) if placed and isinstance(made, tuple) else (
             self._placed(made) if placed else made)
+
+    def __array_function__(self, function: Any, types: Any, args: Any, options: Any) -> Any:
+        if not all(issubclass(kind, (Raster, np.ndarray)) for kind in types):
+            return NotImplemented
+        if function not in OF_EACH_CELL:
+            return function(*_deeply_plain(args), **_deeply_plain(options))
+        _require_one_grid([*args, *options.values()], function.__name__)
+        return self._placed(function(*_deeply_plain(args), **_deeply_plain(options)))
 
     def _placed(self, values: Any) -> Any:
         return Raster(values, self.grid) if isinstance(values, np.ndarray) and values.shape == self.shape else values
@@ -196,12 +219,27 @@ class Raster(NDArrayOperatorsMixin):
         """Return numpy's all of the values."""
         return self.values.all(*args, **options)
 
+    def clip(self, least: Any = None, greatest: Any = None) -> Raster:
+        """Return the raster with values between these two; None: no limit."""
+        return Raster(np.clip(self.values, _plain(least), _plain(greatest)), self.grid)
+
+    def round(self, decimals: int = 0) -> Raster:
+        """Return the raster with values rounded to so many decimals."""
+        return Raster(self.values.round(decimals), self.grid)
+
+    def copy(self) -> Raster:
+        """Return a raster with memory of its own."""
+        return Raster(self.values.copy(), self.grid)
+
     def astype(self, dtype: npt.DTypeLike) -> Raster:
         """Return the raster with values of another type."""
         return Raster(self.values.astype(dtype), self.grid)
 
     def __getitem__(self, key: Any) -> Any:
-        return self.values[tuple(map(_plain, key)) if isinstance(key, tuple) else _plain(key)]
+        return self.values[tuple(map(_mask, key)) if isinstance(key, tuple) else _mask(key)]
+
+    def __setitem__(self, key: Any, value: Any) -> None:
+        raise ValueError("a raster cannot be written: array(copy=True) gives an array that can")
 
     @classmethod
     def open(cls, path: str | os.PathLike[str], *, values: Literal["heights", "numbers", "codes"] = "heights",
@@ -220,7 +258,7 @@ class Raster(NDArrayOperatorsMixin):
         Returns
         -------
         Raster
-            float32, NaN where there is no data.
+            float32, NaN where there is no data; whole numbers beyond 2^24 are rounded.
 
         Raises
         ------
@@ -236,7 +274,7 @@ class Raster(NDArrayOperatorsMixin):
         Parameters
         ----------
         path : str or path
-            Ends in .tif or .tiff.
+            Ends in .tif or .tiff, or has no ending.
         overwrite : bool, default False
             Whether to replace the file.
 
@@ -251,19 +289,26 @@ class Raster(NDArrayOperatorsMixin):
 
         Notes
         -----
-        float16 and float32 become Float32 (as io.write_dem), bool and uint8 Byte with 255 for no data (as io.write_codes), all
-        other types Float64 (as io.write_field).
+        float16 and float32 become Float32 (as io.write_dem), bool and uint8 Byte, without a number for no data (as
+        io.write_mask), all other types Float64 (as io.write_field).
         """
         name = os.fspath(path)
         kind = self.dtype
-        write: Any = io.write_codes if kind in (np.dtype(np.bool_), np.dtype(np.uint8)) else (
-            io.write_dem if kind in (np.dtype(np.float16), np.dtype(np.float32)) else io.write_field)
+        write: Any
+        if kind in (np.dtype(np.bool_), np.dtype(np.uint8)):
+            write, stored = io.write_mask, self.astype(np.uint8)
+        elif kind in (np.dtype(np.float16), np.dtype(np.float32)):
+            write, stored = io.write_dem, self.astype(np.float32)
+        else:
+            write, stored = io.write_field, self.astype(np.float64)
         if not (overwrite and os.path.exists(name)):
-            write(self, name)
+            write(stored, name)
             return
+        if os.path.isdir(name):
+            raise _core.IoError(f"{name} is a folder")
         folder, file = os.path.split(os.path.abspath(name))
         with tempfile.TemporaryDirectory(dir=folder, prefix=".thalweg-") as new:
-            write(self, os.path.join(new, file))
+            write(stored, os.path.join(new, file))
             os.replace(os.path.join(new, file), name)
 
     @property
@@ -303,9 +348,11 @@ class Raster(NDArrayOperatorsMixin):
             May lie outside the grid.
         """
         grid = self.grid
+        far = 2.0**62  # positions beyond are outside any grid
         columns = np.floor((np.asarray(x, float) - grid.west) / grid.cell_m)
         rows = np.floor((grid.north - np.asarray(y, float)) / grid.cell_m)
-        return rows.astype(np.int64), columns.astype(np.int64)
+        rows, columns = (np.clip(np.nan_to_num(one, nan=-far), -far, far).astype(np.int64) for one in (rows, columns))
+        return rows, columns
 
     def sample(self, x: npt.ArrayLike, y: npt.ArrayLike, *, method: Literal["nearest", "bilinear"] = "nearest") -> Array:
         """Return the values at positions.
@@ -333,8 +380,9 @@ class Raster(NDArrayOperatorsMixin):
         values = self.values if self.dtype.kind == "f" else self.values.astype(np.float64)
         height, width = self.shape
         if method == "nearest":
-            rows, columns = self.index(np.nan_to_num(x, nan=-np.inf, neginf=-1e300, posinf=1e300),
-                                       np.nan_to_num(y, nan=-np.inf, neginf=-1e300, posinf=1e300))
+            rows, columns = self.index(x, y)
+            columns = np.where(x == self.bounds[2], width - 1, columns)  # the outer edge belongs to the outermost cells
+            rows = np.where(y == self.bounds[1], height - 1, rows)
             inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
             found: Array = np.where(inside, values[np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)], np.nan)
             return found
@@ -474,6 +522,8 @@ def to_core(thing: object, dtype: npt.DTypeLike, what: str, frame: _core.Grid | 
         When values are converted or copied.
     """
     target = np.dtype(dtype)
+    if target == np.int32 and what == "codes":
+        thing = _with_least(thing)
     raster = _raster_of(thing, target, what)
     if frame is not None and (frame.height, frame.width) == raster.shape:
         raster = Raster(raster.values, frame)
@@ -508,7 +558,7 @@ def crs_text(crs: object, what: str = "crs") -> str:
     if crs is None:
         return ""
     if isinstance(crs, str):
-        return _known_crs(crs)
+        return _known_crs(crs.upper() if crs.lower().startswith("epsg:") else crs)
     if isinstance(crs, (int, np.integer)) and not isinstance(crs, bool):
         return _known_crs(f"EPSG:{crs}")
     for method in ("to_wkt", "ExportToWkt"):
@@ -542,6 +592,8 @@ def _raster_of(thing: object, target: np.dtype[Any], what: str) -> Raster:
         return thing
     if isinstance(thing, (str, os.PathLike)):
         # What is not a height may be any number, also one that no terrain has.
+        if what == "codes":
+            return io.read_dem(os.fspath(thing), values="codes", nodata=np.nan)
         return io.read_dem(os.fspath(thing), values="heights" if target == np.float32 else "numbers")
     xr = sys.modules.get("xarray")
     if xr is not None and isinstance(thing, xr.Dataset):
@@ -596,14 +648,17 @@ def _refuse_no_data(values: Array, what: str) -> None:
 
 def _refuse_no_data_at(cells: npt.NDArray[np.bool_], number: float, values: Array, what: str) -> None:
     row, column = np.unravel_index(int(cells.argmax()), cells.shape)
+    test = f"abs({what}) >= {LARGEST:g}" if abs(number) >= LARGEST else f"{what} == {number:g}"
     raise bad_input(what, f"{what}: {int(cells.sum())} cells are {number:g}, the first in row {row}, column {column} (from 0): no "
-                          f"terrain has this height. If it stands for no data: np.where({what} == {number:g}, np.nan, {what})")
+                          f"terrain has this height. If it stands for no data: np.where({test}, np.nan, {what})")
 
 
-def _require_same_grid(one: _core.Grid, other: _core.Grid, where: str) -> None:
-    if one != other:
-        raise bad_input(where, f"{where}: rasters of different grids: {one} and {other}; resample one to the cells of the other, "
-                               "or take its values")
+def _require_one_grid(things: list[Any], where: str) -> None:
+    grids = [one.grid for one in things if isinstance(one, Raster)]
+    for grid in grids[1:]:
+        if grid != grids[0]:
+            raise bad_input(where, f"{where}: rasters of different grids: {grids[0]} and {grid}; resample one to the cells of the "
+                                   "other, or take its values")
 
 
 def _require_integers(values: Array, target: np.dtype[Any], what: str) -> None:
@@ -635,6 +690,25 @@ def _require_table(values: Array, what: str) -> None:
         raise bad_input(what, f"{what}: is empty: {values.shape[0]} rows, {values.shape[1]} columns")
 
 
+def _with_least(thing: Any) -> Any:
+    """Codes with the least number of int32 where there are none: NaN, masked, or the least number of a smaller type."""
+    raster = thing if hasattr(thing, "__array__") else _raster_of(thing, np.dtype(np.int32), "codes")
+    values = np.asarray(raster)
+    absent = np.broadcast_to(raster.mask, values.shape) if isinstance(raster, np.ma.MaskedArray) else np.zeros(values.shape, bool)
+    if values.dtype.kind == "f":
+        absent = absent | np.isnan(values)
+    elif values.dtype.kind == "i" and values.dtype.itemsize < 4:
+        absent = absent | (values == np.iinfo(values.dtype).min)
+    if values.ndim != 2 or (not absent.any() and raster is thing) or not np.array_equal(values, np.trunc(values), equal_nan=True):
+        return raster
+    filled = np.where(absent, 0, values)
+    if np.abs(filled).max() > np.iinfo(np.int32).max:
+        return raster
+    filled = filled.astype(np.int32)
+    filled[absent] = np.iinfo(np.int32).min
+    return Raster(filled, raster.grid) if isinstance(raster, Raster) else filled
+
+
 def _unmasked(values: Any, what: str) -> Array:
     array: Array = np.asarray(values)
     if _is_masked(values):
@@ -656,6 +730,19 @@ def _with_nan(values: Array, unknown: npt.NDArray[np.bool_]) -> Array:
 
 def _plain(one: Any) -> Any:
     return one.values if isinstance(one, Raster) else one
+
+
+def _deeply_plain(thing: Any) -> Any:
+    if isinstance(thing, (list, tuple)):
+        return type(thing)(map(_deeply_plain, thing))
+    if isinstance(thing, dict):
+        return {name: _deeply_plain(one) for name, one in thing.items()}
+    return _plain(thing)
+
+
+def _mask(key: Any) -> Any:
+    """A key of an array: rasters are masks, also those of the library, which hold 1 and 0."""
+    return (key.values.astype(bool) if key.dtype == np.uint8 else key.values) if isinstance(key, Raster) else key
 
 
 def _restored(values: Array, cell_m: float, west: float, north: float, crs: str) -> Raster:

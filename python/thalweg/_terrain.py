@@ -230,7 +230,7 @@ class Terrain:
         """Return the arcs or nodes of the rivers as a table; see to_geodataframe."""
         return _networks.to_geodataframe(self, layer)
 
-    def to_networkx(self) -> networkx.DiGraph:
+    def to_networkx(self) -> networkx.DiGraph[Any]:
         """Return the rivers as a graph, directed downstream; see to_networkx."""
         return _networks.to_networkx(self)
 
@@ -268,10 +268,13 @@ class Terrain:
         if self.has_dem and np.isfinite(self.dem.values).any():
             words.append(f"relief {np.nanmax(self.dem.values) - np.nanmin(self.dem.values):.0f} m")
         if self.has_network:
-            words += [f"{self.network.planform.arc_count} arcs", f"highest order {max(self.orders.strahler)}"]
+            words += [f"{self.network.planform.arc_count} arcs", f"highest order {int(np.max(self.orders.strahler))}"]
         failed = [check["name"] for check in self.checks if not check["ok"]]
         words.append(f"failed: {', '.join(failed)}" if failed else f"{len(self.checks)} checks ok")
         return " · ".join(words)
+
+    def __reduce__(self) -> Any:
+        raise TypeError("a Terrain cannot be pickled: keep its parts, such as dem and network, or its recipe")
 
     def __repr__(self) -> str:
         return f"<Terrain {self._words()}>"

@@ -303,6 +303,36 @@ class Arguments(unittest.TestCase):
             thalweg.io.read_network(thalweg.Raster(valley()))
         self.assertNotIn("/thalweg-", str(refused.exception))
 
+    def test_masks_are_no_numbers(self):
+        net = thalweg.StreamNetwork([[0, 0], [1, 0], [2, 0]], [0, 1], [1, 2])
+        with self.assertRaisesRegex(TypeError, "not a mask: np.flatnonzero.mask. gives its numbers"):
+            thalweg.network.select(net, net.length_m > 5)
+        self.assertEqual(thalweg.network.select(net, np.flatnonzero(net.length_m > 0)).arc_count, 2)
+
+    def test_networks_with_heights_have_a_plan(self):
+        plan = thalweg.StreamNetwork([[0, 0], [1, 0], [2, 0]], [0, 1], [1, 2])
+        raised = thalweg.ElevatedNetwork(plan, [3, 2, 1], [[3, 2], [2, 1]])
+        self.assertEqual(thalweg.network.upstream_of(raised, 1).tolist(), [0, 1])
+        self.assertEqual(thalweg.network.nearest_arc(thalweg.flow.ExtractedStreams(raised), (1.9, 1)), 1)
+
+    def test_numbers_beyond_a_record_are_refused(self):
+        grid = thalweg.Grid(20, 20)
+        for call in (lambda: thalweg.Tin([[0, 0, 0]], [[0, 1, 99999999]]),
+                     lambda: thalweg.io.write_stl({"vertices": [[0, 0, 0]], "places": [[0, 0]], "triangles": [[0, 1, 10**8]]}, "q.stl"),
+                     lambda: thalweg.surface.survey_rivers({"grid": grid, "cell": [0, 10**9], "receiver": [-1, 0]}),
+                     lambda: thalweg.surface.survey_rivers({"grid": grid, "cell": [0, 1], "receiver": [5, 0]}),
+                     lambda: thalweg.network.flood_lakes({"channels": {"grid": grid, "cell": [0], "receiver": [-1]}, "of_arc": [[7]]},
+                                                         np.ones((20, 20), np.int32)),
+                     lambda: thalweg.Grid(3, 3, 0.0), lambda: thalweg.Grid(3, 3, -5.0), lambda: thalweg.Grid(3, 3, 1.0, np.nan)):
+            with self.assertRaises(thalweg.BadInput):
+                call()
+
+    def test_a_flow_field_owns_its_directions(self):
+        codes = np.full((100, 100), 255, np.uint8)
+        field = thalweg.flow.FlowField(direction=codes, area_cells=np.ones((100, 100), np.int64))
+        codes[:] = 6
+        self.assertEqual(thalweg.flow.path_down(field, (50.5, 50.5)).size, 1)
+
     def test_signatures_can_be_read(self):
         left = []
         for module in map(lambda name: getattr(thalweg, name), thalweg._core.MODULES):

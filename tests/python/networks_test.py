@@ -89,7 +89,12 @@ class Confluence(unittest.TestCase):
         graph.edges["spring", "mouth"]["line"] = [(0, 5), (5, 5), (10, 5)]
         self.assertEqual(thalweg.from_networkx(graph).arc_z[0].tolist(), [7.0, 4.0, 1.0])
         table = geopandas.GeoDataFrame(geometry=[shapely.geometry.LineString(line) for line in LINES], crs=32631)
-        self.assertEqual(sorted(thalweg.network.order(thalweg.from_geodataframe(table)).strahler), [1, 1, 2])
+        for lines in (table, geopandas.GeoDataFrame(geometry=list(table.geometry))):
+            self.assertEqual(sorted(thalweg.network.order(thalweg.from_geodataframe(lines)).strahler), [1, 1, 2])
+        with self.assertRaisesRegex(TypeError, "takes a GeoDataFrame or GeoSeries, not str"):
+            thalweg.from_geodataframe("rivers.gpkg")
+        with self.assertRaisesRegex(BadInput, "^the network has no arcs|^network: the network has no arcs"):
+            thalweg.to_geodataframe(thalweg.network.select(planform(), []))
         del graph.nodes["mouth"]["x"]
         for wrong, words in ((graph, "node 'mouth' has no x and y"), (networkx.Graph([(1, 2)]), "edges have no direction")):
             with self.assertRaisesRegex(BadInput, words):

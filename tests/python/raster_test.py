@@ -104,7 +104,7 @@ class Values(Quiet):
 
     def test_numpy_takes_it(self):
         array, raster = slope(), Raster(slope())
-        for take in (lambda a: a[1:, ::2], np.maximum.accumulate, lambda a: np.where(a > 2, a, 0), lambda a: np.array(list(a)),
+        for take in (lambda a: a[1:, ::2], np.maximum.accumulate, np.flipud, lambda a: np.array(list(a)), lambda a: np.concatenate([a, a]),
                      lambda a: np.add.reduce(a), lambda a: a[a > 3], lambda a: a[0, a[0] > 1], lambda a: a + np.zeros((2, 4, 5)),
                      lambda a: np.add.outer(a, [1, 2])):
             result, expected = take(raster), take(array)
@@ -125,7 +125,9 @@ class Values(Quiet):
         for take in (lambda a: a + 1, lambda a: 2 * a, lambda a: a - a, lambda a: -a, lambda a: a > 3, np.sqrt, abs,
                      lambda a: 1 / a, lambda a: a ** 2, lambda a: ~(a > 2), lambda a: (a > 2) & (a < 9), lambda a: a - slope(),
                      lambda a: slope() - a, lambda a: a - slope()[0], lambda a: np.hypot(a, a), np.isnan,
-                     lambda a: np.add(a, 1, where=a > 2, out=None) * 0):
+                     lambda a: np.add(a, 1, where=a > 2, out=None) * 0, lambda a: np.where(a > 2, a, 0), lambda a: np.clip(a, 2, 5),
+                     lambda a: np.round(a, 1), np.nan_to_num, np.zeros_like, lambda a: np.full_like(a, 7), lambda a: a.clip(2, 5),
+                     lambda a: a.round(), lambda a: a.copy()):
             result, expected = take(raster), take(array)
             self.assertIsInstance(result, Raster)
             self.assertEqual(result.grid, raster.grid)
@@ -140,19 +142,65 @@ class Values(Quiet):
         with self.assertRaisesRegex(BadInput, "subtract: rasters of different grids.*west=7.0.*west=8.0"):
             raster - moved
         self.assertEqual(type(raster - moved.values), Raster)
+        for call in (lambda: np.where(raster > 2, raster, moved), lambda: np.add(raster, 1, where=moved > 2)):
+            with self.assertRaisesRegex(BadInput, "rasters of different grids"):
+                call()
+        with self.assertRaisesRegex(ValueError, "a raster cannot be written: array"):
+            raster[0, 0] = 3
+        square = Raster(np.eye(3, dtype=np.float32))
+        self.assertIs(type(square @ square), np.ndarray)
+
+    def test_what_has_a_place_keeps_it(self):
+        raster = Raster(slope(), cell_m=30, west=60.0, crs="EPSG:32616")
+        for given in (raster, raster.to_xarray()):
+            self.assertEqual(Raster(given).grid, raster.grid)
+        self.assertEqual(Raster(slope(), raster).grid, raster.grid)
+        with self.assertRaisesRegex(BadInput, "give a grid or cell_m, west, north and crs, not both"):
+            Raster(slope(), raster.grid, cell_m=5)
+        with self.assertRaisesRegex(TypeError, "grid is tuple; it must be a Grid, a Raster or a dict"):
+            Raster(slope(), (4, 5))
+        self.assertEqual(Raster(slope(), crs="epsg:32616").crs, "EPSG:32616")
+
+    def test_masks_of_the_library_are_masks(self):
+        dem = Raster(slope(), cell_m=10)
+        drainage = thalweg.flow.route(dem)
+        inside = thalweg.flow.catchment(drainage, (5.0, 35.0))
+        self.assertEqual(dem[inside].tolist(), dem.values[inside.values == 1].tolist())
+
+    def test_codes_of_files(self):
+        drainage = thalweg.flow.route(Raster.open(DEM))
+        with tempfile.TemporaryDirectory() as place:
+            for of in ("esri", "taudem", "whitebox"):
+                codes = thalweg.flow.codes_of(drainage.direction, of)
+                wanted = thalweg.flow.directions_of(codes, of)
+                codes.save(f"{place}/{of}.tif")
+                np.testing.assert_array_equal(thalweg.flow.directions_of(f"{place}/{of}.tif", of), wanted)
+            drainage.direction.save(f"{place}/own.tif")
+            again = Raster.open(f"{place}/own.tif", values="codes").astype(np.uint8)
+            np.testing.assert_array_equal(again, drainage.direction)
+            file = gdal.GetDriverByName("GTiff").Create(f"{place}/declared.tif", 3, 2, 1, gdal.GDT_Byte)
+            file.GetRasterBand(1).SetNoDataValue(255)
+            file.GetRasterBand(1).WriteArray(np.array([[255, 1, 1], [64, 0, 255]], np.uint8))
+            del file
+            self.assertEqual(thalweg.flow.directions_of(f"{place}/declared.tif", "esri").values.tolist(), [[254, 0, 255], [255, 255, 254]])
+        small = np.array([[1, -32768]], np.int16)
+        with warnings.catch_warnings():
+            warnings.simplefilter("ignore", ConversionWarning)
+            self.assertEqual(thalweg.flow.directions_of(small, "whitebox").values.tolist(), [[255, 254]])
 
     def test_numbers_for_no_data_are_refused_as_of_files(self):
-        for number in (-9999, -32768, -3.4e38, 1e38):
+        for number in (-9999, -32768, -3.4e38, 1e20, float(np.finfo(np.float32).min)):
             heights = slope()
             heights[1, 2] = number
-            words = f"dem: 1 cells are {re.escape(f'{number:g}')}, the first in row 1, column 2 .from 0.: no terrain has this height"
+            words = f"dem: 1 cells are {re.escape(f'{np.float32(number):g}')}, the first in row 1, column 2 .from 0.: no terrain has this"
             for given in (heights, Raster(heights), xarray.DataArray(heights, dims=("y", "x"))):
                 with self.assertRaisesRegex(BadInput, words) as refused:
                     thalweg.flow.route(given)
                 self.assertEqual(refused.exception.where, "flow.route")
             with self.assertRaisesRegex(BadInput, words):
                 thalweg.measure.statistics(heights)
-            known = np.where(heights == np.float32(number), np.nan, heights)  # as the message says
+            test = re.search(r"np.where.(.*), np.nan", str(refused.exception))[1]  # as the message says
+            known = np.where(eval(test, {"dem": heights, "abs": abs}), np.nan, heights)
             self.assertEqual(thalweg.measure.statistics(known.astype(np.float32)).nodata, 1)
         sea = slope() - 10005  # deeper than 9999 m, too
         self.assertEqual(thalweg.measure.statistics(sea.astype(np.float32)).nodata, 0)
@@ -175,7 +223,8 @@ class Values(Quiet):
                 again = Raster.open(path, values="codes" if kind is np.uint8 else "numbers")
                 self.assertEqual(again.grid, dem.grid)
                 np.testing.assert_array_equal(again, values.astype(np.float32))
-                self.assertEqual(gdal.Open(str(path)).GetRasterBand(1).DataType,
+                file = gdal.Open(str(path))
+                self.assertEqual(file.GetRasterBand(1).DataType,
                                  {np.float32: gdal.GDT_Float32, np.uint8: gdal.GDT_Byte, np.float64: gdal.GDT_Float64}[kind])
             for name in ("dem.png", "dem.asc", "dem.npy"):
                 with self.assertRaisesRegex(thalweg.BadParameter, "a GeoTIFF is written, whose name ends in .tif, not"):
@@ -196,6 +245,8 @@ class Values(Quiet):
         x, y = random.uniform(51.0, 65.0, 100), random.uniform(29.0, 39.0, 100)
         np.testing.assert_allclose(plane.sample(x, y, method="bilinear"), (39.0 - y) / 2 + 10 * (x - 51.0) / 2, atol=1e-9)
         self.assertEqual(plane.sample(50.0, 40.0, method="bilinear"), 0.0)
+        self.assertEqual(plane.sample(66.0, 28.0), plane.values[-1, -1])
+        self.assertTrue(np.isnan(plane.sample([np.nan, np.inf, 1e300], 35.0)).all())
         self.assertTrue(np.isnan(plane.sample([49.9, np.nan], 35.0, method="bilinear")).all())
         with self.assertRaisesRegex(thalweg.BadParameter, "cubic"):
             plane.sample(55.0, 35.0, method="cubic")
@@ -423,7 +474,7 @@ class Pictures(Quiet):
         heights = Raster(slope(), cell_m=10.0, west=100.0, north=500.0)
         axes = heights.plot()
         self.assertEqual(len(axes.images), 2)
-        self.assertEqual(axes.images[0].get_extent(), (100.0, 150.0, 460.0, 500.0))
+        self.assertEqual(tuple(axes.images[0].get_extent()), (100.0, 150.0, 460.0, 500.0))
         self.assertIs(Raster(slope() > 3).plot(axes), axes)
         matplotlib.pyplot.close("all")
 

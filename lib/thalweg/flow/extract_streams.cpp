@@ -74,6 +74,9 @@ std::int64_t support_for_area(FlowField const& drainage, double area_km2) {
 ExtractedStreams extract_streams(FlowField const& drainage, Raster<float> const& dem,
                                  ExtractStreamsParams const& params, Run const& run) {
     Grid const& grid = drainage.area_cells.grid();
+    if (params.support_km2) {
+        require_in("flow.extract_streams", "support_km2", *params.support_km2, Range::above(0.0), "km2");
+    }
     std::int64_t const support =
         params.support_km2 ? support_for_area(drainage, *params.support_km2) : params.support_cells;
     refuse_if<BadParameter>(params.support_cells < 1,

@@ -25,6 +25,7 @@ Raster<float> by_gradient(Raster<float> const& dem, char const* what, OfGradient
     auto const offsets = d8_offsets(dem.grid());
     parallel_ranges(run, std::max<std::int64_t>(dem.height() - 2, 0), 64, [&](std::int64_t begin, std::int64_t end) {
         for (std::int64_t row = begin + 1; row < end + 1; ++row) {
+            run.check();
             for (std::int64_t col = 1; col + 1 < dem.width(); ++col) {
                 std::int64_t const i = dem.grid().index({col, row});
                 Gradient const rise = horn_gradient(dem, i, offsets);

@@ -72,6 +72,9 @@ std::vector<ArcId> downstream_of(StreamNetwork const& network, ArcId arc) {
     std::vector<ArcId> found;
     for (ArcId at = arc; at != no_arc; at = network.out(network.to(at))) {
         refuse_if<BadInput>(found.size() >= network.arc_count(), "network.downstream_of: arcs form a cycle");
+        refuse_if<BadInput>(network.out_arcs(network.to(at)).size() > 1,
+                            "network.downstream_of: several arcs leave node {}; the network must be a forest",
+                            network.to(at));
         found.push_back(at);
     }
     return found;

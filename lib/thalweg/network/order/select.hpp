@@ -21,7 +21,7 @@ std::vector<ArcId> upstream_of(StreamNetwork const& network, ArcId arc);
 /// \param arc number of the arc
 /// \return downstream, from the arc itself to the outlet
 /// \throws BadParameter when there is no such arc
-/// \throws BadInput when arcs form a cycle
+/// \throws BadInput when arcs form a cycle, or several leave a node
 std::vector<ArcId> downstream_of(StreamNetwork const& network, ArcId arc);
 
 /// Finds the arc that is nearest to a point.
