@@ -40,6 +40,7 @@ class Systems(unittest.TestCase):
         reference.ImportFromEPSG(32616)
         for crs in ("EPSG:32616", 32616, np.int64(32616), pyproj.CRS(32616), rasterio.crs.CRS.from_epsg(32616), reference):
             self.assertEqual(Raster(slope(), cell_m=30, crs=crs).crs, "EPSG:32616", type(crs))
+            self.assertEqual(Grid(5, 4, 30, crs=crs).crs, "EPSG:32616", type(crs))
         for crs in ("", None):
             self.assertEqual(Raster(slope(), crs=crs).crs, "")
         albers = pyproj.CRS("+proj=aea +lat_1=29.5 +lat_2=45.5 +lat_0=37.5 +lon_0=-96 +datum=NAD83 +units=m")
