@@ -555,9 +555,9 @@ class Binder:
         """What is said of a value, with its unit: positions are metres, other numbers of which no unit is said have none."""
         if "[" in says or re.search(r"_(m|m2|m3|km2|deg|rad|cells|px|s)$", name):
             return says
-        numbers = re.sub(r"std::(vector|optional|span)<(.*?)(, \d+)?>$", r"\2", whole)
-        for _ in range(2):
-            numbers = re.sub(r"std::(vector|optional|span)<(.*?)(, \d+)?>$", r"\2", numbers).removesuffix(" const")
+        numbers = whole
+        while arguments_of(numbers)[0] in ("std::vector", "std::optional", "std::span"):
+            numbers = bare(arguments_of(numbers)[1][0])
         if numbers in ("Vec2", "Vec3"):
             return f"[m] {says}".strip()
         return f"[-] {says}".strip() if numbers in ("double", "float") else says

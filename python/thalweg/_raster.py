@@ -8,7 +8,7 @@ import os
 import sys
 import tempfile
 import warnings
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from typing import TYPE_CHECKING, Any, Literal, TypeAlias
 
 import numpy as np
@@ -42,6 +42,15 @@ class ConversionWarning(UserWarning):
 
 class UnitWarning(UserWarning):
     """A stage takes for metres what are none."""
+
+
+def _reduction(name: str) -> Callable[..., Any]:
+    def reduce(self: Raster, *args: Any, **options: Any) -> Any:
+        return getattr(self.values, name)(*args, **options)
+
+    reduce.__name__, reduce.__qualname__ = name, f"Raster.{name}"
+    reduce.__doc__ = f"Return numpy's {name} of the values: cells without data count as NaN."
+    return reduce
 
 
 class Raster(NDArrayOperatorsMixin):
@@ -89,8 +98,8 @@ class Raster(NDArrayOperatorsMixin):
         xr = sys.modules.get("xarray")
         if grid is None and not of_keywords and xr is not None and isinstance(values, xr.DataArray):
             values = _from_xarray(values, np.dtype(np.float32 if values.dtype.kind == "f" else values.dtype), "values")
-        if grid is None and not of_keywords and isinstance(values, Raster):
-            grid = values.grid
+        if grid is None and isinstance(values, Raster):
+            grid = values.grid  # refused below beside keywords
         shown = _unmasked(values, "values").view()
         _require_table(shown, "values")
         shown.flags.writeable = False
@@ -191,33 +200,13 @@ class Raster(NDArrayOperatorsMixin):
     def _placed(self, values: Any) -> Any:
         return Raster(values, self.grid) if isinstance(values, np.ndarray) and values.shape == self.shape else values
 
-    def min(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's min of the values: NaN where a cell is NaN; np.nanmin leaves those out."""
-        return self.values.min(*args, **options)
-
-    def max(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's max of the values: NaN where a cell is NaN; np.nanmax leaves those out."""
-        return self.values.max(*args, **options)
-
-    def mean(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's mean of the values: NaN where a cell is NaN; np.nanmean leaves those out."""
-        return self.values.mean(*args, **options)
-
-    def std(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's std of the values: NaN where a cell is NaN; np.nanstd leaves those out."""
-        return self.values.std(*args, **options)
-
-    def sum(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's sum of the values: NaN where a cell is NaN; np.nansum leaves those out."""
-        return self.values.sum(*args, **options)
-
-    def any(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's any of the values."""
-        return self.values.any(*args, **options)
-
-    def all(self, *args: Any, **options: Any) -> Any:
-        """Return numpy's all of the values."""
-        return self.values.all(*args, **options)
+    min = _reduction("min")
+    max = _reduction("max")
+    mean = _reduction("mean")
+    std = _reduction("std")
+    sum = _reduction("sum")
+    any = _reduction("any")
+    all = _reduction("all")
 
     def clip(self, least: Any = None, greatest: Any = None) -> Raster:
         """Return the raster with values between these two; None: no limit."""
@@ -345,12 +334,14 @@ class Raster(NDArrayOperatorsMixin):
         Returns
         -------
         rows, columns : ndarray of int64
-            May lie outside the grid.
+            May lie outside the grid. The outer edge belongs to the outermost cells.
         """
         grid = self.grid
+        x, y = np.asarray(x, float), np.asarray(y, float)
+        _, south, east, _ = self.bounds
         far = 2.0**62  # positions beyond are outside any grid
-        columns = np.floor((np.asarray(x, float) - grid.west) / grid.cell_m)
-        rows = np.floor((grid.north - np.asarray(y, float)) / grid.cell_m)
+        columns = np.where(x == east, grid.width - 1.0, np.floor((x - grid.west) / grid.cell_m))
+        rows = np.where(y == south, grid.height - 1.0, np.floor((grid.north - y) / grid.cell_m))
         rows, columns = (np.clip(np.nan_to_num(one, nan=-far), -far, far).astype(np.int64) for one in (rows, columns))
         return rows, columns
 
@@ -381,8 +372,6 @@ class Raster(NDArrayOperatorsMixin):
         height, width = self.shape
         if method == "nearest":
             rows, columns = self.index(x, y)
-            columns = np.where(x == self.bounds[2], width - 1, columns)  # the outer edge belongs to the outermost cells
-            rows = np.where(y == self.bounds[1], height - 1, rows)
             inside = (rows >= 0) & (rows < height) & (columns >= 0) & (columns < width)
             found: Array = np.where(inside, values[np.clip(rows, 0, height - 1), np.clip(columns, 0, width - 1)], np.nan)
             return found
@@ -406,8 +395,7 @@ class Raster(NDArrayOperatorsMixin):
         return iter(self.values)
 
     def __reduce__(self) -> tuple[Any, ...]:
-        grid = self.grid
-        return _restored, (self.values, grid.cell_m, grid.west, grid.north, grid.crs)
+        return Raster, (self.values, self.grid)
 
     def __repr__(self) -> str:
         return f"<Raster {self._words()}>"
@@ -743,10 +731,6 @@ def _deeply_plain(thing: Any) -> Any:
 def _mask(key: Any) -> Any:
     """A key of an array: rasters are masks, also those of the library, which hold 1 and 0."""
     return (key.values.astype(bool) if key.dtype == np.uint8 else key.values) if isinstance(key, Raster) else key
-
-
-def _restored(values: Array, cell_m: float, west: float, north: float, crs: str) -> Raster:
-    return Raster(values, cell_m=cell_m, west=west, north=north, crs=crs)
 
 
 def say(text: str, kind: type[UserWarning] = ConversionWarning) -> None:

@@ -158,6 +158,8 @@ class Values(Quiet):
         self.assertEqual(Raster(slope(), raster).grid, raster.grid)
         with self.assertRaisesRegex(BadInput, "give a grid or cell_m, west, north and crs, not both"):
             Raster(slope(), raster.grid, cell_m=5)
+        with self.assertRaisesRegex(BadInput, "not both"):  # its place would be lost
+            Raster(raster, crs=32616)
         with self.assertRaisesRegex(TypeError, "grid is tuple; it must be a Grid, a Raster or a dict"):
             Raster(slope(), (4, 5))
         self.assertEqual(Raster(slope(), crs="epsg:32616").crs, "EPSG:32616")
@@ -247,6 +249,8 @@ class Values(Quiet):
         np.testing.assert_allclose(plane.sample(x, y, method="bilinear"), (39.0 - y) / 2 + 10 * (x - 51.0) / 2, atol=1e-9)
         self.assertEqual(plane.sample(50.0, 40.0, method="bilinear"), 0.0)
         self.assertEqual(plane.sample(66.0, 28.0), plane.values[-1, -1])
+        self.assertEqual([int(one) for one in plane.index(66.0, 28.0)], [5, 7])
+        self.assertEqual([int(one) for one in plane.index(66.1, 40.1)], [-1, 8])
         self.assertTrue(np.isnan(plane.sample([np.nan, np.inf, 1e300], 35.0)).all())
         self.assertTrue(np.isnan(plane.sample([49.9, np.nan], 35.0, method="bilinear")).all())
         with self.assertRaisesRegex(thalweg.BadParameter, "cubic"):
