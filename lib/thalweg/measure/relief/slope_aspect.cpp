@@ -2,11 +2,9 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/measure/relief/slope_aspect.hpp>
 
-#include <algorithm>
 #include <cmath>
 #include <limits>
 
-#include <thalweg/core/cells.hpp>
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/measure/relief/internal/horn.hpp>
@@ -22,19 +20,7 @@ Raster<float> by_gradient(Raster<float> const& dem, char const* what, OfGradient
     refuse_if<BadInput>(dem.cells() > 0 && !(dem.grid().cell_m > 0.0),
                         "{}: the DEM's cells have a side of {} m; it must be greater than 0", what, dem.grid().cell_m);
     Raster<float> found(dem.grid(), std::numeric_limits<float>::quiet_NaN());
-    auto const offsets = d8_offsets(dem.grid());
-    parallel_ranges(run, std::max<std::int64_t>(dem.height() - 2, 0), 64, [&](std::int64_t begin, std::int64_t end) {
-        for (std::int64_t row = begin + 1; row < end + 1; ++row) {
-            run.check();
-            for (std::int64_t col = 1; col + 1 < dem.width(); ++col) {
-                std::int64_t const i = dem.grid().index({col, row});
-                Gradient const rise = horn_gradient(dem, i, offsets);
-                if (!std::isnan(dem[i]) && !std::isnan(rise.east + rise.south)) {
-                    found[i] = static_cast<float>(of_gradient(rise));
-                }
-            }
-        }
-    });
+    each_gradient(dem, run, [&](std::int64_t i, Gradient rise) { found[i] = static_cast<float>(of_gradient(rise)); });
     return found;
 }
 

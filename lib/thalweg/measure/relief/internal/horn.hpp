@@ -2,10 +2,13 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
 
+#include <algorithm>
 #include <array>
+#include <cmath>
 #include <cstdint>
 
 #include <thalweg/core/cells.hpp>
+#include <thalweg/core/run/run.hpp>
 
 namespace thalweg::measure {
 
@@ -35,6 +38,24 @@ inline Gradient horn_gradient(Raster<float> const& dem, std::int64_t i, std::arr
 inline double horn_squared(Raster<float> const& dem, std::int64_t i, std::array<std::int64_t, 8> const& to) {
     Gradient const rise = horn_gradient(dem, i, to);
     return rise.east * rise.east + rise.south * rise.south;
+}
+
+/// Calls visit(cell, gradient) for each cell that has a height and a gradient; cells on the border have none.
+/// \param visit called as visit(std::int64_t, Gradient), by several threads
+template <class Visit> void each_gradient(Raster<float> const& dem, Run const& run, Visit const& visit) {
+    auto const offsets = d8_offsets(dem.grid());
+    parallel_ranges(run, std::max<std::int64_t>(dem.height() - 2, 0), 64, [&](std::int64_t begin, std::int64_t end) {
+        for (std::int64_t row = begin + 1; row < end + 1; ++row) {
+            run.check();
+            for (std::int64_t col = 1; col + 1 < dem.width(); ++col) {
+                std::int64_t const i = dem.grid().index({col, row});
+                Gradient const rise = horn_gradient(dem, i, offsets);
+                if (!std::isnan(dem[i]) && !std::isnan(rise.east) && !std::isnan(rise.south)) {
+                    visit(i, rise);
+                }
+            }
+        }
+    });
 }
 
 } // namespace thalweg::measure
