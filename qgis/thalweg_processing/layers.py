@@ -349,10 +349,6 @@ HINTS = {"raster": QgsProcessingUtils.LayerHint.Raster, "vector": QgsProcessingU
          "mesh": QgsProcessingUtils.LayerHint.Mesh}
 
 
-def _load_style(layer: QgsMapLayer) -> None:
-    layer.loadDefaultStyle()
-
-
 def open_after(context: QgsProcessingContext, source: str, title: str, output: str, kind: str, crs: str = "",
                project: QgsProject | None = None, on_top: bool = False, style: Style | None = None) -> None:
     """Let QGIS open a layer when the algorithm has ended.
@@ -381,8 +377,6 @@ def open_after(context: QgsProcessingContext, source: str, title: str, output: s
         return
     details = QgsProcessingContext.LayerDetails(title, project, output, HINTS[kind])
     details.forceName = True
-    if kind == "mesh" and style is None:  # QGIS 3.40 opens a mesh without the .qml beside it
-        style = _load_style
     _show_as_made(details, crs, on_top, style)
     context.addLayerToLoadOnCompletion(source, details)
 
