@@ -43,20 +43,15 @@ LEFT_OUT = [
         "a word is a str",
     ),
     (
-        r"io::(is_pipe_or_device|refuse_pipe|read_text|write_text|copy_file|tar_entry|tar_end|names_connection|require_allowed|is_recipe_file|confine_proj|packed|base64"
+        r"io::(is_pipe_or_device|refuse_pipe|files_there|read_text|write_text|copy_file|tar_entry|tar_end|names_connection|require_allowed|is_recipe_file|confine_proj|packed|base64"
         r"|dataset_files|conversions_of|plain_copy|write_tables|table_of|all_schemas|field_of|shortened_names|is_text_of_points|is_point_cloud|holds_tin"
         r"|web_pyramid|web_tiles_at|write_web_tiles|lines_in_degrees)",
         "files and formats inside io",
     ),
     (
-        r"(skeleton|surface|fractal|network|pipeline)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights|check_folder"
-        r"|check_memory|check_memory_of_cluster|bytes_needed|frame_\w+|room_for_network|margin_around|missing_for|files_of_report)",
+        r"(skeleton|surface|fractal|network)::(check|check_targets|require_growth|kept_heights|noise_row|stencil_weights|bytes_needed"
+        r"|room_for_network|margin_around|check_memory|check_memory_of_cluster|frame_\w+)",
         "a part of a stage",
-    ),
-    (
-        r"pipeline::(live_\w+|grid_json|sea_json|rivers_to_be|cluster_arms|keep_inputs|keep_user_file|file_names|state_of_files|as_json"
-        r"|statistics_json|checks_json|relief_json|forecast_(make|rebuild|ensemble)|run_ensemble_on|picture_kinds|unusual_relief|line_of|words_of|key_of|sea_of|write_report)",
-        "a part of the program",
     ),
     (r"measure::relief_range", "by the number of a metric, which relief_rows names"),
     (r"geometry::put_in_order|pipeline::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
@@ -267,6 +262,8 @@ class Binder:
         for function in self.headers.functions:
             whole = f"{function.space}::{function.name}" if function.space else function.name
             reason = next((why for pattern, why in LEFT_OUT if re.fullmatch(pattern, whole)), None)
+            if reason is None and "\\internal" in function.comment:
+                reason = "for modules above"
             types = [self.expanded(p.type, function.space) for p in function.parameters if not self.is_run(p)]
             if reason is None and any(re.search(r"(?<!const)&$", p.type.replace(" &", "&")) for p in function.parameters):
                 reason = "it changes its argument"

@@ -95,6 +95,7 @@ class Reader:
         self.at = 0
         self.headers = headers
         self.name = name
+        self.is_internal = any(line.startswith("/// \\internal") for line in self.lines[:6])  # the header as a whole
 
     def skip_block(self, opened: str) -> None:
         depth = opened.count("{") - opened.count("}")
@@ -241,7 +242,8 @@ class Reader:
             if one is None:
                 return
             parameters.append(Parameter(one[1].strip(), one[2], default.strip() or None))
-        self.headers.functions.append(Function(space, match[2], match[1].strip(), parameters, above, self.name))
+        comment = f"\\internal {above}" if self.is_internal else above
+        self.headers.functions.append(Function(space, match[2], match[1].strip(), parameters, comment, self.name))
 
 
 def read_headers(lib: pathlib.Path, modules: list[str]) -> Headers:

@@ -25,6 +25,9 @@ REFERRING = {
     "measure/relief/relief.hpp": "names are literals, and tables of them",
     "pipeline/make/relief.hpp": "names are literals",
     "pipeline/make/laws.hpp": "names are literals, and a row of a table of them",
+    "pipeline/recipe/recipe_keys.hpp": "a row of a table of literals",
+    "pipeline/recipe/recipe_files.hpp": "a row of a table of literals",
+    "pipeline/ensemble/draw_ensemble.hpp": "names are literals",
     "pipeline/commands/convert.hpp": "names are literals",
     "pipeline/commands/export.hpp": "names are literals",
 }

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/ensemble_table.hpp>
+#include <thalweg/pipeline/ensemble/internal/ensemble_table.hpp>
 
 #include <cmath>
 #include <string>

@@ -21,7 +21,7 @@
 #include <thalweg/measure/laws/network_laws.hpp>
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/plan/make_input.hpp>
 
 #include "ascii_grid.hpp"

@@ -13,7 +13,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 #include "old_recipes.hpp"
 

@@ -18,7 +18,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace keys_walk_test {

@@ -10,9 +10,9 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace recipe_test {
 

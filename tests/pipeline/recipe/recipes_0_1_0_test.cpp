@@ -12,7 +12,7 @@
 #include <house/fnv.hpp>
 #include <pipeline/old_recipes.hpp>
 
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
 
 namespace recipes_0_1_0_test {
 

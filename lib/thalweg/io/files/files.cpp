@@ -385,6 +385,21 @@ void OutputFolder::commit() {
     }
 }
 
+std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
+                                     Existing existing) {
+    std::vector<std::string> there;
+    for (std::string const& name : names) {
+        if (fs::exists(fs::symlink_status(fs::path(folder) / name))) {
+            there.push_back(name);
+        }
+    }
+    if (!there.empty() && existing == Existing::refuse) {
+        throw BadInput(fmt::format("io.files_there: {} already exists: name another or use --overwrite",
+                                   (fs::path(folder) / there.front()).string()));
+    }
+    return there;
+}
+
 bool is_pipe_or_device(std::string const& path) {
     std::error_code ignored;
     fs::file_status const status = fs::status(path, ignored);

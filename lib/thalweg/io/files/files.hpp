@@ -59,6 +59,15 @@ private:
     bool committed_ = false;
 };
 
+/// Tells which files a folder has already.
+/// \param folder any, also one that does not exist
+/// \param names of files, relative to it
+/// \param existing whether they may be there
+/// \return those that are there, in order
+/// \throws BadInput when there is one and existing is refuse
+std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
+                                     Existing existing);
+
 /// Tells whether a path is a pipe, a socket or a terminal, where opening or reading may block forever.
 /// \param path any
 /// \return false: a file, a folder or nothing

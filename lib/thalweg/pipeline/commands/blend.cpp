@@ -16,8 +16,8 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {

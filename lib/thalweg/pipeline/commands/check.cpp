@@ -19,11 +19,10 @@
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/repair_network.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/report/internal/report.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {

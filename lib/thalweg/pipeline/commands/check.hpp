@@ -54,6 +54,7 @@ struct CheckResult {
 /// \throws BadParameter as the readers, and for an output that is the input or not .gpkg or .shp
 CheckResult run_check(CheckParams const& params, Run const& run = {});
 
+/// \internal
 /// Formats the result as one JSON object: ok, arcs, nodes, schema, checks, findings, notes, mended, written;
 /// certificate with a DEM.
 /// \param checked the result of a check

@@ -24,9 +24,9 @@
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 

@@ -14,7 +14,7 @@
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 

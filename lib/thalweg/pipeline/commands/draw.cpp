@@ -10,9 +10,9 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/commands/internal/draw_ensemble.hpp>
-#include <thalweg/pipeline/commands/internal/read_scene.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/ensemble/draw_ensemble.hpp>
+#include <thalweg/pipeline/report/page.hpp>
+#include <thalweg/pipeline/report/read_scene.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -165,27 +165,40 @@ std::string command_of(DrawParams const& params) {
     return command;
 }
 
-} // namespace
-
-std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
-                                     io::Existing existing) {
-    std::vector<std::string> there;
-    for (std::string const& name : names) {
-        if (fs::exists(fs::symlink_status(fs::path(folder) / name))) {
-            there.push_back(name);
-        }
+std::string command_for_ensemble(DrawParams const& params) {
+    std::string command =
+        fmt::format("thalweg draw {} --what ensemble -o {}", for_shell(params.source), for_shell(params.output));
+    if (!params.title.empty()) {
+        command += " --title " + for_shell(params.title);
     }
-    if (!there.empty() && existing == io::Existing::refuse) {
-        throw BadInput(fmt::format("pipeline.run_draw: {} already exists: name another or use --overwrite",
-                                   (fs::path(folder) / there.front()).string()));
-    }
-    return there;
+    return command;
 }
+
+/// An ensemble has no network, no-data value or viewing direction.
+DrawResult draw_members(DrawParams const& params, Order const& order, Run const& run) {
+    refuse_if<BadParameter>(!params.network.empty() || params.reading != io::ReadDemParams{} ||
+                                params.look.azimuth_deg || params.look.elevation_deg || params.look.exaggeration,
+                            "pipeline.run_draw: an ensemble has no network, no-data value or viewing direction: leave "
+                            "out --network, --nodata, --azimuth, --elevation and --exaggeration");
+    DrawnEnsemble drawn = draw_ensemble({.source = params.source,
+                                         .title = params.title,
+                                         .look = params.look,
+                                         .folder = order.folder,
+                                         .single = order.single,
+                                         .existing = params.existing,
+                                         .formats = order.formats,
+                                         .page = order.page,
+                                         .command = command_for_ensemble(params)},
+                                        run);
+    return {std::move(drawn.files), std::move(drawn.findings)};
+}
+
+} // namespace
 
 DrawResult run_draw(DrawParams const& params, Run const& run) {
     Order const order = order_of(params);
     if (order.ensemble) {
-        return draw_ensemble(params, {order.folder, order.single, order.formats, order.page}, run);
+        return draw_members(params, order, run);
     }
     SceneRead read = read_scene({.source = params.source, .network = params.network, .reading = params.reading}, run);
     if (!params.title.empty()) {
@@ -194,7 +207,7 @@ DrawResult run_draw(DrawParams const& params, Run const& run) {
     std::vector<Task> const tasks = tasks_of(order, read.scene);
     std::vector<std::string> names(tasks.size());
     std::transform(tasks.begin(), tasks.end(), names.begin(), [](Task const& task) { return task.name; });
-    io::OutputFolder out(order.folder, io::Existing::add, files_there(order.folder, names, params.existing));
+    io::OutputFolder out(order.folder, io::Existing::add, io::files_there(order.folder, names, params.existing));
     DrawResult drawn{{}, std::move(read.findings)};
     for (std::size_t i = 0; i < tasks.size(); ++i) {
         run.at(static_cast<double>(i) / static_cast<double>(tasks.size()),

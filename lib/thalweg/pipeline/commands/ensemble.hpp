@@ -9,6 +9,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
+#include <thalweg/pipeline/ensemble/make_members.hpp>
 #include <thalweg/pipeline/ensemble/ranks.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
 
@@ -24,20 +25,6 @@ struct EnsembleParams : MakeParams {
     std::int64_t shares = 1;                      ///< [1, 1e6] parts
 };
 
-/// What became of an ensemble.
-struct EnsembleResult {
-    std::int64_t members = 0;           ///< of the ensemble
-    std::int64_t made_now = 0;          ///< by this run
-    std::int64_t found = 0;             ///< of its share, made by earlier runs
-    std::int64_t ok = 0;                ///< of all members, like the following; 0 for a share
-    std::int64_t checks_failed = 0;     ///< made, and a check failed
-    std::int64_t failed = 0;            ///< not made
-    std::int64_t warned = 0;            ///< made with warnings
-    std::string table = {};             ///< path of table.csv; "" for a share
-    double seconds = 0.0;               ///< [s] of making and writing members
-    std::vector<Finding> findings = {}; ///< on the whole ensemble
-};
-
 /// Runs `thalweg make --ensemble`: makes terrains by one recipe that differ in the seed and in what varies, and leaves
 /// a folder for each, or tar files of many, and table.csv with a row for each. Members that the folder already holds
 /// are kept; those that failed are tried again. The files are those of the recipe's output.files, dem and network where
@@ -48,12 +35,14 @@ struct EnsembleResult {
 /// the work must stop; members committed before stay
 EnsembleResult run_ensemble(EnsembleParams const& params, Run const& run = {});
 
+/// \internal
 /// Does the same together with other processes, which call it too: members are dealt to whoever is free.
 /// \param ranks the processes; outlives the call
 /// \return what became of the ensemble; of other ranks than the first, only what they made
 /// \throws Error as run_ensemble(); IoError on the first rank when another one failed
 EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run const& run = {});
 
+/// \internal
 /// Runs `thalweg make --ensemble --dry-run`: plans member 0, and writes nothing.
 /// \return memory of all workers, time of all members on one core
 /// \throws Error as run_ensemble()

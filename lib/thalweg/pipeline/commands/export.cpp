@@ -19,7 +19,7 @@
 #include <thalweg/pipeline/commands/internal/export_gaps.hpp>
 #include <thalweg/pipeline/commands/internal/export_parts.hpp>
 #include <thalweg/pipeline/commands/internal/glb.hpp>
-#include <thalweg/pipeline/commands/internal/read_scene.hpp>
+#include <thalweg/pipeline/report/read_scene.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {
@@ -168,7 +168,8 @@ class ExportFiles {
 public:
     ExportFiles(ExportParams const& params, ExportFormat format)
         : folder_(fs::path(params.output).has_parent_path() ? fs::path(params.output).parent_path() : fs::path(".")),
-          names_(names_of(fs::path(params.output), format)), out_(folder_.string(), io::Existing::add, there(params)) {}
+          names_(names_of(fs::path(params.output), format)),
+          out_(folder_.string(), io::Existing::add, io::files_there(folder_.string(), names_, params.existing)) {}
 
     std::string path(std::size_t number) const { return out_.path(names_[number]); }
     std::string const& name(std::size_t number) const { return names_[number]; }
@@ -195,20 +196,6 @@ private:
         names.push_back(name + ".json");
         return names;
     }
-    std::vector<std::string> there(ExportParams const& params) const {
-        std::vector<std::string> found;
-        for (std::string const& name : names_) {
-            if (fs::exists(fs::symlink_status(folder_ / name))) {
-                found.push_back(name);
-            }
-        }
-        if (!found.empty() && params.existing == io::Existing::refuse) {
-            throw BadInput(fmt::format("pipeline.run_export: {} already exists: name another or use --overwrite",
-                                       (folder_ / found.front()).string()));
-        }
-        return found;
-    }
-
     fs::path folder_;
     std::vector<std::string> names_;
     io::OutputFolder out_;

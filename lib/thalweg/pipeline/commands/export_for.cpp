@@ -23,9 +23,9 @@
 #include <thalweg/pipeline/commands/internal/glb.hpp>
 #include <thalweg/pipeline/commands/internal/land_masks.hpp>
 #include <thalweg/pipeline/commands/internal/print_export.hpp>
-#include <thalweg/pipeline/commands/internal/read_scene.hpp>
 #include <thalweg/pipeline/commands/internal/river_splines.hpp>
 #include <thalweg/pipeline/commands/internal/web_export.hpp>
+#include <thalweg/pipeline/report/read_scene.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/surface/gaps/close_gaps.hpp>
 

@@ -32,6 +32,7 @@ struct MakeParams {
 /// \throws Error as recipe_from(), UserFiles, make() and write_terrain()
 Made run_make(MakeParams const& params, Run const& run = {});
 
+/// \internal
 /// Runs `thalweg make --dry-run`: plans the same work, and writes nothing.
 /// \return the forecast
 /// \throws Error as run_make()
@@ -51,6 +52,7 @@ struct RebuildFromParams : MakeParams {
 /// \throws Error as run_make()
 Made run_rebuild(RebuildFromParams const& params, Run const& run = {});
 
+/// \internal
 /// Runs `thalweg rebuild --dry-run`: plans the same work, and writes nothing.
 /// \return the forecast
 /// \throws Error as run_rebuild()

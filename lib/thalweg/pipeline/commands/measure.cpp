@@ -25,7 +25,7 @@
 #include <thalweg/io/raster/read_drawable.hpp>
 #include <thalweg/measure/relief/wetness.hpp>
 #include <thalweg/pipeline/commands/internal/measure_rivers.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
 
 namespace thalweg::pipeline {
 namespace {

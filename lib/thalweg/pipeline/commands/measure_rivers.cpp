@@ -24,8 +24,8 @@
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/order/pfafstetter.hpp>
 #include <thalweg/pipeline/commands/internal/repair_network.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -13,7 +13,7 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 

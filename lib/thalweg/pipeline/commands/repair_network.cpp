@@ -22,8 +22,8 @@
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/make/internal/given.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/make/given.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {

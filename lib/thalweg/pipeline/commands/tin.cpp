@@ -24,7 +24,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/import/river_heights.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
 #include <thalweg/surface/tin/level_areas.hpp>
 
 namespace thalweg::pipeline {

@@ -18,8 +18,8 @@
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/pipeline/commands/internal/web_template.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {

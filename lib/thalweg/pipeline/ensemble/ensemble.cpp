@@ -17,7 +17,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/ensemble/internal/table.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 

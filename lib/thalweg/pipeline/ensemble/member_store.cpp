@@ -28,8 +28,8 @@
 #include <thalweg/io/files/tar.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 

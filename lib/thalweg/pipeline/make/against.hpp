@@ -58,6 +58,7 @@ struct Against {
 /// \throws BadInput when fewer than 100 cells of the grid can be compared
 Against compare_with_dem(Plan const& plan, Terrain const& terrain, Run const& run = {});
 
+/// \internal
 /// In one line: "r 0.984, above rivers 0.76, ..., beside a cone ...".
 std::string line_of(Against const& against);
 

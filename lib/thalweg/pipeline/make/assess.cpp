@@ -12,10 +12,10 @@
 #include <fmt/format.h>
 
 #include <thalweg/measure/topology/topology.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
 
 namespace thalweg::pipeline {
 

@@ -10,7 +10,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -49,6 +49,7 @@ struct GivenFeatures {
 /// \return nothing where the plan has neither
 std::optional<GivenFeatures> given_features(Plan const& plan, Terrain const& terrain);
 
+/// \internal
 /// Formats the comparison.
 /// \param given the comparison
 /// \return one line for the log

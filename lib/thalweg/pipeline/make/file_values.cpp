@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
 
 #include <algorithm>
 #include <cmath>

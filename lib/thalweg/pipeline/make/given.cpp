@@ -11,8 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/vec.hpp>
-#include <thalweg/pipeline/make/internal/given.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -8,7 +8,9 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/river_files.hpp>
+#include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
@@ -37,11 +39,13 @@ struct GivenLength {
     double share() const { return kept_m / given_m(); }
 };
 
+/// \internal
 /// The key of a cause in report.json.
 /// \param cause why a line is left out
 /// \return snake_case
 char const* key_of(LeftOut cause);
 
+/// \internal
 /// The words for a cause.
 /// \param cause why a line is left out
 /// \return for readers: "cut at heads"
@@ -96,19 +100,30 @@ struct GivenAreas {
 /// \return nothing where the file has none
 std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform, Terrain const& terrain);
 
+/// \internal
 /// Formats the account.
 /// \param given the account
 /// \return one line for the log: kilometres read, kept, left out by cause, reversed, moved, added
 std::string line_of(GivenLength const& given);
 
+/// \internal
 /// Formats the comparison.
 /// \param given the comparison
 /// \return one line for the log
 std::string line_of(GivenAreas const& given);
 
+/// \internal
 /// Formats the comparison.
 /// \param given the comparison
 /// \return one line for the log
 std::string line_of(GivenHeights const& given);
+
+// What is said of the directions of lines.
+
+/// A note on the lengths reversed, by evidence, and a warning for each kind of doubt, with what decides.
+/// \internal
+/// \param by_dem,by_rule options that decide: "--set network.lines.dem=FILE", "--dem FILE"; "" for none
+std::vector<Finding> direction_findings(network::Directions const& directions, std::string const& by_dem,
+                                        std::string const& by_rule);
 
 } // namespace thalweg::pipeline

@@ -13,8 +13,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/raster/polygons.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 

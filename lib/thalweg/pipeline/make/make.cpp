@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/make.hpp>
 
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 

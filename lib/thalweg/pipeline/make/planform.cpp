@@ -16,9 +16,9 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/pipeline/plan/internal/made_from.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/plan/made_from.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 

@@ -11,6 +11,7 @@
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
+#include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
@@ -64,5 +65,9 @@ struct Planform {
 /// types the rivers.
 /// \return the same rivers for the same plan, whatever the Run; none where the plan has no [network]
 Planform make_planform(Plan const& plan, Run const& run = {});
+
+/// The cluster of a plan whose rivers are a branch of one.
+/// \internal
+network::Cluster cluster_of(Plan const& plan, Run const& run);
 
 } // namespace thalweg::pipeline

@@ -24,10 +24,10 @@
 #include <thalweg/network/import/land_and_sea.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
-#include <thalweg/pipeline/make/internal/given.hpp>
+#include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/made_from.hpp>
+#include <thalweg/pipeline/plan/made_from.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -67,12 +67,14 @@ struct ReliefRow {
 /// \return in a fixed order
 std::vector<ReliefRow> relief_rows(TerrainRelief const& relief);
 
+/// \internal
 /// Describes the indices of texture and forms outside the range of the reference DEMs.
 /// \param rows indices
 /// \param rivers_of_file rivers are drawn as in a file, so that their straight parts are not the terrain's
 /// \return "": all are inside
 std::string unusual_relief(std::vector<ReliefRow> const& rows, bool rivers_of_file);
 
+/// \internal
 /// Formats the relief with the reference DEMs as one JSON object: dem.relief in report.json, and the data of the page's
 /// diagrams.
 /// \param relief of a terrain

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
 
 #include <algorithm>
 #include <cmath>

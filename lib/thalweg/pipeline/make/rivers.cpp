@@ -14,9 +14,9 @@
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/pipeline/make/internal/lakes.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {

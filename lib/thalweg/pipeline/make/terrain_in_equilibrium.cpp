@@ -21,10 +21,10 @@
 #include <thalweg/pipeline/make/internal/lakes.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 

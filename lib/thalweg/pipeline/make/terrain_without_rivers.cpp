@@ -14,11 +14,11 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/skeleton/regress.hpp>

@@ -7,8 +7,8 @@
 #include <thalweg/core/numbers/elementary.hpp>
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
 
 namespace thalweg::pipeline {
 

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {

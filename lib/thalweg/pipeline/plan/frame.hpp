@@ -16,11 +16,13 @@ namespace thalweg::pipeline {
 inline constexpr double default_west = 500000.0;
 inline constexpr double default_north = 5000000.0;
 
+/// \internal
 /// Computes the largest box of a network in a grid's side, with 5 % left free around it.
 /// \param side_cells [cells] side of the grid
 /// \return [cells]
 std::int64_t room_for_network(std::int64_t side_cells);
 
+/// \internal
 /// Computes the margin around a network.
 /// \param side_cells [cells] longer side of the network
 /// \return [cells] on each side
@@ -32,6 +34,7 @@ struct FramedBranch {
     Vec2 mouth; ///< [m] centre of the cluster's seed; may lie outside the grid
 };
 
+/// \internal
 /// Places a branch in the middle of the requested grid, or of a grid 5 % larger than its box. The frame follows from
 /// the branch alone: pruning does not move it.
 /// \param branch picked from a cluster
@@ -39,6 +42,7 @@ struct FramedBranch {
 /// \return the branch on its grid
 FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wanted);
 
+/// \internal
 /// Chooses the grid of lines.
 /// \param lines [m]
 /// \param wanted the grid of the recipe; 0: chosen
@@ -47,12 +51,14 @@ FramedBranch frame_branch(network::Branch const& branch, GridRecipe const& wante
 /// no size is set
 Grid frame_lines(RiverLines const& lines, GridRecipe const& wanted);
 
+/// \internal
 /// Chooses the grid of a tree.
 /// \param links number of links
 /// \param wanted the grid of the recipe; 0: chosen
 /// \return the requested grid, or a square one in which links are about twelve cells apart
 Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
 
+/// \internal
 /// Chooses the grid of polygons.
 /// \param polygons [m]
 /// \param wanted the grid of the recipe; 0: chosen
@@ -60,17 +66,20 @@ Grid frame_tree(std::int64_t links, GridRecipe const& wanted);
 /// \throws BadInput naming the first polygon outside a requested grid, unless clip is set
 Grid frame_polygons(Polygons const& polygons, GridRecipe const& wanted);
 
+/// \internal
 /// Estimates the peak memory of a terrain.
 /// \param cells number of cells
 /// \return [bytes] upper limit
 std::int64_t bytes_needed(std::int64_t cells);
 
+/// \internal
 /// Checks the free memory for a terrain.
 /// \param width [cells] number of columns
 /// \param height [cells] number of rows
 /// \throws BadInput when the terrain needs more memory than is free
 void check_memory(std::int64_t width, std::int64_t height);
 
+/// \internal
 /// Checks the free memory for a cluster.
 /// \param particles number of particles
 /// \throws BadInput when the cluster needs more memory than is free

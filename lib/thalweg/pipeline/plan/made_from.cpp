@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/internal/made_from.hpp>
+#include <thalweg/pipeline/plan/made_from.hpp>
 
 #include <utility>
 

@@ -18,9 +18,9 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/sources/sources.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -24,10 +24,10 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/planform/rotate.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/made_from.hpp>
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
+#include <thalweg/pipeline/plan/made_from.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 namespace {

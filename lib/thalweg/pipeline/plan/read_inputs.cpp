@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/plan/internal/read_inputs.hpp>
+#include <thalweg/pipeline/plan/read_inputs.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -26,10 +26,10 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
 
 #include <algorithm>
 #include <array>
@@ -10,7 +10,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/fractal/estimate_fractal.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 #include <thalweg/solver/spectral/circulant.hpp>
 
 namespace thalweg::pipeline {

@@ -9,7 +9,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {

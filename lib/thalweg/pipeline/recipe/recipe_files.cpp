@@ -15,7 +15,6 @@
 #include <thalweg/io/mesh/points.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/sources/sources.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
 
 namespace thalweg::pipeline {
 

@@ -11,7 +11,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 

@@ -7,8 +7,8 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -11,9 +11,9 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/recipe/internal/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
+#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -39,13 +39,16 @@ struct Sea {
     bool is_around = false; ///< it reaches beyond the grid
 };
 
+/// \internal
 /// \return the sea of a terrain; nothing: cells without data are not the sea
 std::optional<Sea> sea_of(Terrain const& terrain);
 
+/// \internal
 /// \param planform rivers of the plan
 /// \return the sea of the terrain that will be made of them, as far as these tell
 std::optional<Sea> sea_of(Plan const& plan, Planform const& planform);
 
+/// \internal
 /// \param made recipe as make writes it: it names the edge of terrain in equilibrium
 /// \return the sea of such a terrain; nothing for other ones
 std::optional<Sea> sea_of(Recipe const& made);

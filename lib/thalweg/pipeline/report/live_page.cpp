@@ -12,10 +12,10 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/make/internal/planform.hpp>
-#include <thalweg/pipeline/recipe/internal/recipe_keys.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/make/planform.hpp>
+#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 
 namespace thalweg::pipeline {
 

@@ -20,14 +20,17 @@ struct LivePage {
     std::string policy; ///< Content-Security-Policy: that of report.html, and a socket to where the page came from
 };
 
+/// \internal
 /// \param title of the page
 /// \param studio what the page asks its server with, one JSON object
 /// \return the page without a terrain
 LivePage live_page(std::string const& title, std::string const& studio);
 
+/// \internal
 /// \return a grid as JSON, as "grid" of the page's data
 std::string grid_json(Grid const& grid);
 
+/// \internal
 /// \return the sea as JSON, as "sea" of the page's data
 std::string sea_json(std::optional<Sea> const& sea);
 
@@ -40,11 +43,13 @@ struct LiveHeights {
     std::int64_t nodata = 0;
 };
 
+/// \internal
 /// \param dem any
 /// \param grid of the terrain that it becomes: the same, or one of smaller cells
 /// \return a DEM of that grid as means of squares that page() chooses; a coarser one as it is; nothing: no heights
 std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& grid);
 
+/// \internal
 /// The members of JSON that describe a terrain and its rivers: "data", "lines" and "water".
 /// \param made a terrain; what is not yet measured or drawn may be missing
 /// \param recipe its text
@@ -52,6 +57,7 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
 /// \return without braces
 std::string live_scene(Made const& made, std::string const& recipe, std::string const& command, Run const& run = {});
 
+/// \internal
 /// Rivers whose terrain is yet to be made, at height 0.
 /// \return for live_scene()
 Made rivers_to_be(Plan const& plan, Planform const& planform);
@@ -66,6 +72,7 @@ struct ClusterArms {
     std::string chosen; ///< as network.branch says it
 };
 
+/// \internal
 /// \param side [places] of the longer side of the picture
 /// \return nothing where the rivers are no branch of a cluster
 std::optional<ClusterArms> cluster_arms(Plan const& plan, std::int64_t side, Run const& run = {});

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 
 #include <algorithm>
 #include <array>

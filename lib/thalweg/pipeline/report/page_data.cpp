@@ -16,10 +16,9 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
-#include <thalweg/pipeline/report/internal/report.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace thalweg::pipeline {

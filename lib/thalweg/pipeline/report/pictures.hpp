@@ -18,6 +18,7 @@ namespace thalweg::pipeline {
 
 enum class PictureKind : std::uint8_t { map, profile, curve, hypsometry, sections, wireframe };
 
+/// \internal
 /// The kinds of picture.
 /// \return in the order of the enumeration
 std::vector<PictureKind> const& picture_kinds();
@@ -46,6 +47,7 @@ struct Look {
     std::optional<double> exaggeration;
 };
 
+/// \internal
 /// Explains why a picture cannot be drawn.
 /// \param kind of picture
 /// \param scene its content

@@ -11,7 +11,7 @@
 #include <thalweg/draw/map.hpp>
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 

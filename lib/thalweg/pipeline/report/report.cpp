@@ -16,10 +16,9 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/flow/condition.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
-#include <thalweg/pipeline/report/internal/report.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {

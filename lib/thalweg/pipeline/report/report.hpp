@@ -6,15 +6,19 @@
 #include <string>
 #include <vector>
 
+#include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
+#include <thalweg/pipeline/make/against.hpp>
 #include <thalweg/pipeline/make/make.hpp>
 
 namespace thalweg::pipeline {
 
+/// \internal
 /// Formats report.json of a terrain: version, recipe, timings_s, cpu_s, peak_rss_mb, network, dem, checks, findings,
 /// repairs, files.
 /// \param made a terrain
@@ -23,11 +27,13 @@ namespace thalweg::pipeline {
 /// \return JSON
 std::string write_report(Made const& made, std::vector<std::string> const& files, Timings const& writing = {});
 
+/// \internal
 /// Reads the files that an earlier report.json lists.
 /// \param json its text
 /// \return empty: the text is not a report
 std::vector<std::string> files_of_report(std::string const& json);
 
+/// \internal
 /// Formats statistics as one JSON object, as under "dem" in report.json.
 /// \param statistics of a DEM
 /// \param laws of the DEM's rivers, or null
@@ -41,6 +47,7 @@ std::string statistics_json(measure::Statistics const& statistics, DemLaws const
 /// \return JSON
 std::string line_laws_json(LineLaws const& found);
 
+/// \internal
 /// Formats checks as one JSON array, as under "checks" in report.json.
 /// \param checks any
 /// \return JSON
@@ -78,6 +85,7 @@ struct DrawMapParams {
 /// \throws BadInput when the recipe asks for rivers alone; as draw::map
 draw::Picture draw_map(Made const& made, DrawMapParams const& params = {}, Run const& run = {});
 
+/// \internal
 /// Checks an output folder before the work starts.
 /// \param folder of the output
 /// \param existing whether its content may be replaced
@@ -98,5 +106,27 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
 /// \throws Error as make() and write_terrain()
 Made make_folder(Recipe const& recipe, std::string const& folder, io::Existing existing = io::Existing::refuse,
                  Run const& run = {});
+
+/// Draws the differences of a terrain and the DEM it is compared with.
+/// \internal
+draw::Picture differences_against(Against const& against, Terrain const& terrain, int width_px);
+
+/// Draws a terrain beside the DEM it is compared with.
+/// \internal
+draw::Picture comparison_against(Against const& against, Terrain const& terrain, std::string const& title);
+
+// Parts of report.json common to other reports.
+
+/// Figures of a terrain beside a DEM as a JSON object.
+/// \internal
+std::string figures_against(TerrainAgainst const& terrain);
+
+/// Whether a finding is about one of the input's features and no fault.
+/// \internal
+bool is_repair(Finding const& finding);
+
+/// A certificate as a JSON object.
+/// \internal
+std::string certificate_json(measure::Certificate const& certificate);
 
 } // namespace thalweg::pipeline

@@ -28,15 +28,14 @@
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/make/internal/file_values.hpp>
-#include <thalweg/pipeline/make/internal/river_claims.hpp>
+#include <thalweg/pipeline/make/file_values.hpp>
+#include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 #include <thalweg/pipeline/recipe/recipe_files.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
-#include <thalweg/pipeline/report/internal/report.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 

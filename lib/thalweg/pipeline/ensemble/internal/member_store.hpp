@@ -17,14 +17,9 @@
 #include <thalweg/io/files/tar.hpp>
 #include <thalweg/pipeline/ensemble/ensemble.hpp>
 #include <thalweg/pipeline/ensemble/internal/table.hpp>
+#include <thalweg/pipeline/ensemble/make_members.hpp>
 
 namespace thalweg::pipeline {
-
-/// What an ensemble leaves of each member, beside its row of the table.
-struct MemberFiles {
-    bool folders = true;              ///< member_00000 and so on
-    std::int64_t members_a_shard = 0; ///< > 0: shard-000000.tar and so on, in place of folders
-};
 
 /// \return "member_00012"
 std::string member_folder(std::int64_t number);
@@ -45,12 +40,6 @@ private:
         std::int64_t before = 0; ///< in the ranges before it
     };
     std::vector<Range> ranges_;
-};
-
-/// Part K of N of an ensemble, for several processes.
-struct Share {
-    std::int64_t number = 1; ///< [1, of]
-    std::int64_t of = 1;
 };
 
 /// The folder of an ensemble. Members are committed one by one, by several processes at once: the row of the table is

@@ -7,10 +7,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
-#include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -28,9 +27,6 @@ struct SourceRivers {
 /// Grows or imports the rivers of a plan: one branch of a DLA cluster, networks by Tokunaga's law, a forest, or the
 /// lines of a file.
 SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run);
-
-/// The cluster of a plan whose rivers are a branch of one.
-network::Cluster cluster_of(Plan const& plan, Run const& run);
 
 /// A network whose arcs name their types.
 struct Typed {

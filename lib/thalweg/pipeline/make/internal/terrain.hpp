@@ -10,8 +10,8 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 
 namespace thalweg::pipeline {

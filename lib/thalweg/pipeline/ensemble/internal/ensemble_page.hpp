@@ -8,36 +8,9 @@
 #include <thalweg/core/finding.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/draw/distributions.hpp>
-#include <thalweg/draw/picture.hpp>
-#include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/commands/draw.hpp>
-#include <thalweg/pipeline/commands/internal/ensemble_table.hpp>
+#include <thalweg/pipeline/ensemble/internal/ensemble_table.hpp>
 
 namespace thalweg::pipeline {
-
-/// A format of pictures and its name, which is also the extension.
-struct NamedFormat {
-    char const* name;
-    draw::Format format;
-};
-
-/// What run_draw() writes of an ensemble.
-struct EnsembleOrder {
-    std::string folder;
-    std::string single; ///< name of the only file; "": all files, into the folder
-    std::vector<NamedFormat> formats;
-    bool page = false; ///< the only file is the page
-};
-
-/// Which of these files a folder has already.
-/// \throws BadInput when there is one and existing is refuse
-std::vector<std::string> files_there(std::string const& folder, std::vector<std::string> const& names,
-                                     io::Existing existing);
-
-/// Draws an ensemble from its table: distributions, responses to the keys that vary, a contact sheet, and a
-/// page of all of them.
-/// \throws BadInput as read_members_table, and the readers of the DEMs in the table's folder
-DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, Run const& run);
 
 /// A key that varies, by member.
 struct DrawnKey {

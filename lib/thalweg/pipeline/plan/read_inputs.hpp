@@ -1,6 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 #pragma once
+/// \internal For the modules above this one.
 
 #include <optional>
 #include <string>
@@ -11,8 +12,8 @@
 #include <thalweg/io/gdal/access.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/network/import/river_heights.hpp>
-#include <thalweg/pipeline/plan/internal/plan.hpp>
 #include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/pipeline/plan/stages.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/read_scene.hpp>
+#include <thalweg/pipeline/report/read_scene.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -23,7 +23,7 @@
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 
 namespace thalweg::pipeline {

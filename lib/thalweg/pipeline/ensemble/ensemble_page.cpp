@@ -10,8 +10,8 @@
 
 #include <thalweg/core/numbers/ranks.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/commands/internal/draw_ensemble.hpp>
-#include <thalweg/pipeline/report/internal/page.hpp>
+#include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
+#include <thalweg/pipeline/report/page.hpp>
 
 namespace thalweg::pipeline {
 namespace {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/commands/internal/draw_ensemble.hpp>
+#include <thalweg/pipeline/ensemble/draw_ensemble.hpp>
 
 #include <algorithm>
 #include <array>
@@ -20,6 +20,7 @@
 #include <thalweg/draw/contact_sheet.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
+#include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
@@ -317,15 +318,6 @@ EnsembleSheet sheet_of_members(EnsembleView const& view, fs::path const& folder,
     return sheet;
 }
 
-std::string command_for_ensemble(DrawParams const& params) {
-    std::string command =
-        fmt::format("thalweg draw {} --what ensemble -o {}", for_shell(params.source), for_shell(params.output));
-    if (!params.title.empty()) {
-        command += " --title " + for_shell(params.title);
-    }
-    return command;
-}
-
 /// A key as a part of a file's name.
 std::string in_file_name(std::string const& key) {
     std::string name = key;
@@ -393,11 +385,7 @@ std::string words_of_key(MembersTable const& table, std::size_t key) {
            (unit.empty() ? "" : " " + unit);
 }
 
-DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, Run const& run) {
-    refuse_if<BadParameter>(!params.network.empty() || params.reading != io::ReadDemParams{} ||
-                                params.look.azimuth_deg || params.look.elevation_deg || params.look.exaggeration,
-                            "pipeline.run_draw: an ensemble has no network, no-data value or viewing direction: leave "
-                            "out --network, --nodata, --azimuth, --elevation and --exaggeration");
+DrawnEnsemble draw_ensemble(DrawEnsembleParams const& params, Run const& run) {
     fs::path const source(params.source);
     fs::path const file = fs::is_directory(source) ? source / "table.csv" : source;
     run.at(0.0, "table");
@@ -410,10 +398,10 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
                                                                               : "Ensemble");
 
     std::vector<std::string> names;
-    if (!order.single.empty()) {
-        names.push_back(order.single);
+    if (!params.single.empty()) {
+        names.push_back(params.single);
     } else {
-        for (NamedFormat const& format : order.formats) {
+        for (NamedFormat const& format : params.formats) {
             names.push_back(fmt::format("distributions.{}", format.name));
             for (DrawnKey const& key : view.parameters) {
                 names.push_back(fmt::format("responses_{}.{}", in_file_name(key.values.name), format.name));
@@ -421,24 +409,25 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
         }
         names.insert(names.end(), {"contact_sheet.png", "ensemble.html"});
     }
-    io::OutputFolder out(order.folder, io::Existing::add, files_there(order.folder, names, params.existing));
-    DrawResult drawn{{}, view.findings};
+    io::OutputFolder out(params.folder, io::Existing::add, io::files_there(params.folder, names, params.existing));
+    DrawnEnsemble drawn{{}, view.findings};
     auto const write = [&](std::string const& file_name, std::string const& bytes) {
         io::write_text(out.path(file_name), bytes);
-        drawn.files.push_back(
-            order.folder == "." && !order.single.empty() ? file_name : (fs::path(order.folder) / file_name).string());
+        drawn.files.push_back(params.folder == "." && !params.single.empty()
+                                  ? file_name
+                                  : (fs::path(params.folder) / file_name).string());
     };
-    bool const wants_page = order.single.empty() || order.page;
-    if (!order.page) {
-        for (NamedFormat const& format : order.formats) {
+    bool const wants_page = params.single.empty() || params.page;
+    if (!params.page) {
+        for (NamedFormat const& format : params.formats) {
             run.at(0.1, "distributions");
-            write(order.single.empty() ? fmt::format("distributions.{}", format.name) : order.single,
+            write(params.single.empty() ? fmt::format("distributions.{}", format.name) : params.single,
                   draw::distributions(view.indices,
                                       sheet_params<draw::DistributionsParams>(view, params.look, format.format))
                       .bytes);
             for (DrawnKey const& key : view.parameters) {
                 run.check();
-                if (order.single.empty()) {
+                if (params.single.empty()) {
                     write(fmt::format("responses_{}.{}", in_file_name(key.values.name), format.name),
                           responses_to(key, view, params.look, format.format).bytes);
                 }
@@ -448,12 +437,11 @@ DrawResult draw_ensemble(DrawParams const& params, EnsembleOrder const& order, R
     if (wants_page) {
         EnsembleSheet const sheet = sheet_of_members(view, folder, params.look, run);
         drawn.findings.push_back({.kind = "contact_sheet", .text = sheet.note});
-        if (!sheet.png.empty() && order.single.empty()) {
+        if (!sheet.png.empty() && params.single.empty()) {
             write("contact_sheet.png", sheet.png);
         }
         run.at(0.95, "page");
-        write(order.page ? order.single : "ensemble.html",
-              ensemble_page(view, sheet, command_for_ensemble(params), run));
+        write(params.page ? params.single : "ensemble.html", ensemble_page(view, sheet, params.command, run));
     }
     run.at(1.0, "draw");
     out.commit();
