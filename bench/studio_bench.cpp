@@ -38,7 +38,7 @@ double process_seconds() {
 
 double stage_s(pipeline::Made const& made, std::string const& name) {
     double sum = 0.0;
-    for (pipeline::StageTime const& time : pipeline::timings_of(made)) {
+    for (StageTime const& time : pipeline::timings_of(made)) {
         sum += time.stage == name ? time.wall_s : 0.0;
     }
     return sum;

@@ -3,6 +3,7 @@
 #pragma once
 
 /// All public headers of the module.
+#include <thalweg/core/append.hpp>
 #include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/by_enum.hpp>
 #include <thalweg/core/cells.hpp>
@@ -26,6 +27,7 @@
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/parameters.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/core/same_grid.hpp>
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/core/tin.hpp>

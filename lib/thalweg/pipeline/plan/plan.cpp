@@ -39,20 +39,6 @@ bool grown_for_land(Plan const& plan) {
 
 } // namespace
 
-void StageLog::say(std::string const& words) const {
-    StageTime const& last = timings_s_.back();
-    run_.tell(last.stage, fmt::format("{:<56}{:6.1f} s", words, last.wall_s));
-}
-
-StageLog::~StageLog() {
-    if (std::uncaught_exceptions() > exceptions_) {
-        try {
-            run_.report(findings_);
-        } catch (...) { // the error that ends the work says more
-        }
-    }
-}
-
 bool has_coastlines(Plan const& plan) {
     NetworkRecipe const& rivers = *plan.recipe.network;
     std::vector<SecondaryLine> const& lines = plan.lines.secondary;

@@ -13,20 +13,11 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/river_files.hpp>
 #include <thalweg/core/run/run.hpp>
+#include <thalweg/core/run/stage_log.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
-
-/// What a stage took.
-struct StageTime {
-    std::string stage;
-    double wall_s = 0.0;
-    double cpu_s = 0.0; ///< of all its threads
-};
-
-/// Times of stages, in order.
-using Timings = std::vector<StageTime>;
 
 /// Where a forest may grow.
 struct ForestLand {

@@ -54,7 +54,7 @@ std::string toml_text(Value const& value) {
     return std::visit([](auto const& v) { return text_of(v); }, value);
 }
 
-std::string Range::text() const {
+std::string KeyRange::text() const {
     if (most >= endless) {
         return fmt::format("{} {}", open ? ">" : ">=", least);
     }
@@ -155,7 +155,7 @@ private:
         return x;
     }
     void require_in_range(double x) const {
-        Range const& range = key.row->allowed.range;
+        KeyRange const& range = key.row->allowed.range;
         refuse_if<BadParameter>(!range.holds(x), "{} is outside its range {}", x, range.text());
     }
     void require_fit() const {
@@ -304,7 +304,7 @@ Key make_key(Row const& row, Recipe& standard) {
     key.help.is_file = row.kind == KeyKind::file;
     key.folder = row.extra.folder != nullptr ? row.extra.folder : key.name() + "/";
     if (row.kind == KeyKind::integer || row.kind == KeyKind::number) {
-        Range const& range = row.allowed.range;
+        KeyRange const& range = row.allowed.range;
         key.range = range;
         key.help.least = range.least;
         key.help.most = range.most < endless ? std::optional(range.most) : std::nullopt;

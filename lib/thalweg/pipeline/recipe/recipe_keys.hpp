@@ -78,10 +78,10 @@ enum class KeyKind : std::uint8_t {
     words
 };
 
-inline constexpr bool left_open = true; ///< of a Range
+inline constexpr bool left_open = true; ///< of a KeyRange
 inline constexpr double endless = 9.0e15;
 
-struct Range {
+struct KeyRange {
     double least = 0.0;
     double most = 0.0;
     bool open = false; ///< least itself is not allowed
@@ -101,7 +101,7 @@ struct Word {
 
 /// What a value may be: a number in a range, one of several words, or what a form says.
 struct Allowed {
-    Range range = {};
+    KeyRange range = {};
     char const* form = "";                ///< in words
     bool (*fits)(Value const&) = nullptr; ///< false, or an error of its own: refused
     std::array<Word, 10> words = {};
@@ -173,10 +173,10 @@ struct Key {
     Row const* row = nullptr;
     Section const* part = nullptr;
     KeyHelp help;
-    Use use;                    ///< when it has an effect
-    std::optional<Range> range; ///< of a number
-    std::vector<int> numbers;   ///< by word of help.choices: the enumerator it stands for
-    std::string folder;         ///< of a file: where below inputs/ a copy of it lies, "mask/"
+    Use use;                       ///< when it has an effect
+    std::optional<KeyRange> range; ///< of a number
+    std::vector<int> numbers;      ///< by word of help.choices: the enumerator it stands for
+    std::string folder;            ///< of a file: where below inputs/ a copy of it lies, "mask/"
 
     /// Makes the section, or the item after the last, where it is not there.
     /// \throws BadParameter with the reason alone; the recipe is unchanged then
