@@ -122,7 +122,8 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
         });
     }
     found.laws = stage_log.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
-    found.relief = stage_log.stage("relief", [&] { return relief_of_terrain(plan, terrain, *found.statistics, run); });
+    found.relief =
+        stage_log.stage("relief", [&] { return relief_of_terrain(plan.recipe, terrain, *found.statistics, run); });
     warn_of_texture(plan, terrain, *found.relief, stage_log);
     return found;
 }

@@ -36,13 +36,13 @@ TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
     return relief_of_dem(ground, flow::route(ground, run), run);
 }
 
-TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measure::Statistics const& statistics,
+TerrainRelief relief_of_terrain(Recipe const& recipe, Terrain const& terrain, measure::Statistics const& statistics,
                                 Run const& run) {
     Raster<float> const& dem = terrain.surface->dem;
     TerrainRelief found{measure::relief(dem, *terrain.drainage, statistics, {}, run), std::nullopt};
-    double const asked = plan.recipe.surface ? plan.recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
+    double const asked = recipe.surface ? recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;
     double const mean_slope = (asked > 0.0 ? asked : found.land.slopes.mean_deg) * (portable::pi / 180.0);
-    if (plan.recipe.network && !std::isnan(mean_slope)) {
+    if (recipe.network && !std::isnan(mean_slope)) {
         std::vector<std::int64_t> cells = terrain.channels.cell; // side valleys grown by the terrain climb its slopes
         if (!terrain.equilibrium) {
             for (std::int64_t i = 0; i < terrain.valley.z.cells(); ++i) {

@@ -12,6 +12,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/relief/relief.hpp>
+#include <thalweg/pipeline/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -39,15 +40,14 @@ TerrainRelief relief_of_dem(Raster<float> const& dem, flow::FlowField const& dra
 /// \throws Error as measure::statistics and ground_cell
 TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run = {});
 
-struct Plan;
 struct Terrain;
 
 /// Computes the relief of a terrain's surface.
-/// \param plan of the terrain
+/// \param recipe of the terrain
 /// \param terrain with a surface
 /// \param statistics of the surface
-/// \return with perched cells if it has rivers, by the mean slope of the plan, else of the terrain
-TerrainRelief relief_of_terrain(Plan const& plan, Terrain const& terrain, measure::Statistics const& statistics,
+/// \return with perched cells if it has rivers, by the mean slope that it sets, else of the terrain
+TerrainRelief relief_of_terrain(Recipe const& recipe, Terrain const& terrain, measure::Statistics const& statistics,
                                 Run const& run = {});
 
 /// One index of relief, for report.json and the page.
