@@ -4,6 +4,7 @@
 from __future__ import annotations
 
 import os
+import pathlib
 import re
 import threading
 from dataclasses import dataclass
@@ -11,8 +12,8 @@ from typing import Any
 
 from osgeo import gdal, ogr
 from qgis.core import (NULL, QgsCoordinateReferenceSystem, QgsFeatureRequest, QgsFeatureSink, QgsField, QgsFields,
-                       QgsLayerTreeLayer, QgsMapLayer, QgsProcessingAlgorithm, QgsProcessingContext, QgsProcessingException,
-                       QgsProcessingFeatureSource, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
+                       QgsLayerTreeLayer, QgsMapLayer, QgsMeshLayer, QgsProcessingAlgorithm, QgsProcessingContext,
+                       QgsProcessingException, QgsProcessingFeatureSource, QgsProcessingFeatureSourceDefinition, QgsProcessingFeedback,
                        QgsProcessingLayerPostProcessorInterface,
                        QgsProcessingUtils, QgsProject, QgsProviderRegistry, QgsRasterLayer, QgsVectorFileWriter, QgsVectorLayer,
                        QgsWkbTypes)
@@ -287,6 +288,17 @@ def _raster_of(layer: QgsRasterLayer) -> RasterInput:
 HEIGHTS = {QgsWkbTypes.PolygonGeometry: 1, QgsWkbTypes.LineGeometry: 2, QgsWkbTypes.PointGeometry: 3}  # of layers of a run
 
 
+def load_style(layer: QgsMapLayer) -> bool:
+    """Load the style that lies in a layer's file or beside it, as FILE.qml. QGIS 3.40 does not find that of a mesh, whose source
+    has its driver before the path.
+
+    Return whether there is one."""
+    beside = pathlib.Path(re.sub(r'^\w+:"(.*)"$', r"\1", layer.source())).with_suffix(".qml")
+    is_beside = isinstance(layer, QgsMeshLayer) and beside.is_file()
+    _, loaded = layer.loadNamedStyle(str(beside)) if is_beside else layer.loadDefaultStyle()
+    return bool(loaded)
+
+
 class _AsMade(QgsProcessingLayerPostProcessorInterface):
     """Gives a new layer the style that lies in or beside its file, else one of its own, a CRS that its format has no place
     for, and its place among the layers of the run: those that hide most are at the bottom."""
@@ -302,8 +314,7 @@ class _AsMade(QgsProcessingLayerPostProcessorInterface):
     def postProcessLayer(self, layer: QgsMapLayer, context: QgsProcessingContext, feedback: QgsProcessingFeedback) -> None:
         if self.crs.isValid() and not layer.crs().isValid():
             layer.setCrs(self.crs)
-        _, has_style = layer.loadDefaultStyle()
-        if not has_style and self.style is not None:
+        if not load_style(layer) and self.style is not None:
             self.style(layer)
         layer.triggerRepaint()
         self.layer_id = layer.id()

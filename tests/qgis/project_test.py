@@ -17,6 +17,7 @@ from qgis.core import (Qgis, QgsApplication, QgsMapRendererParallelJob, QgsMapSe
                        QgsVectorLayer)
 from qgis.PyQt.QtCore import QSize  # noqa: E402
 from qgis.PyQt.QtGui import QImage, QPainter  # noqa: E402
+from thalweg_processing.layers import load_style  # noqa: E402
 
 WIDE = 700  # [px] of a picture
 complaints = []
@@ -195,7 +196,7 @@ class Layers(Case):
         dem = QgsRasterLayer(str(folder / "dem.tif"), "dem")
         self.assertEqual(dem.renderer().type(), "singlebandpseudocolor")
         mesh = QgsMeshLayer(str(folder / "tin.2dm"), "tin", "mdal")
-        mesh.loadDefaultStyle()  # later QGIS opens a mesh without the .qml beside it
+        self.assertTrue(load_style(mesh))  # later QGIS opens a mesh without the .qml beside it
         shader = mesh.rendererSettings().scalarSettings(0).colorRampShader()
         heights = sorted(float(line.split()[4]) for line in (folder / "tin.2dm").read_text().splitlines() if line.startswith("ND"))
         self.assertEqual((shader.minimumValue(), shader.maximumValue()), (heights[0], heights[-1]))

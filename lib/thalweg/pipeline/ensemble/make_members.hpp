@@ -27,7 +27,7 @@ struct Share {
 
 /// An ensemble to make, and where its members are kept.
 struct EnsembleOrder {
-    Ensemble ensemble;
+    Ensemble ensemble = {};
     std::vector<std::string> vary = {}; ///< what varies, as read_varied_key() takes it
     MemberFiles files = {};
     std::string folder = {};
