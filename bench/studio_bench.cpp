@@ -45,7 +45,7 @@ double stage_s(pipeline::Made const& made, std::string const& name) {
 }
 
 double fill_s(std::int64_t side) {
-    return stage_s(pipeline::make(pipeline::default_recipe_on(side, side)), "fill");
+    return stage_s(pipeline::make(recipe::default_recipe_on(side, side)), "fill");
 }
 
 /// Times of a job, from the call on.
@@ -94,7 +94,7 @@ studio::Document with(studio::Document const& document, char const* key, std::st
 /// first_over_fill256 leaves out where the seed is new.
 void follow(benchmark::State& state, char const* key, bool is_new_seed) {
     double const small_s = fill_s(256);
-    studio::Document document = studio::document_of(pipeline::write_recipe(pipeline::default_recipe()));
+    studio::Document document = studio::document_of(recipe::write_recipe(recipe::default_recipe()));
     Timed timed;
     timed.make(document);
     std::int64_t value = is_new_seed ? 100 : 60;
@@ -170,7 +170,7 @@ BENCHMARK(BM_studio_draw)->Arg(1024)->Unit(benchmark::kMillisecond)->UseRealTime
 /// The longest time [ms] from a new edit to the end of what ran, over 100 moments of a run of 1024 x 1024 cells;
 /// cpu_ms: of the process in that time, at the worst, in the stage that the label names.
 void BM_studio_stop(benchmark::State& state) {
-    studio::Document document = studio::document_of(pipeline::write_recipe(pipeline::default_recipe()));
+    studio::Document document = studio::document_of(recipe::write_recipe(recipe::default_recipe()));
     for (auto _ : state) {
         std::mutex guard;
         std::string stage;

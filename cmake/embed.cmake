@@ -1,6 +1,6 @@
 # SPDX-FileCopyrightText: the thalweg authors
 # SPDX-License-Identifier: GPL-3.0-or-later
-# Included: thalweg_embed(TARGET FILE HEADER FUNCTION) adds to a target the function of a header that gives the bytes of
+# Included: thalweg_embed(TARGET FILE HEADER SPACE FUNCTION) adds to a target the function of a header, in a namespace of thalweg, that gives the bytes of
 # a file; they are read again whenever the file changes. As a script: writes that .cpp file.
 if(CMAKE_SCRIPT_MODE_FILE)
   # Through hexadecimal digits any byte survives, and none has a meaning to CMake or C++ on the way.
@@ -14,7 +14,7 @@ if(CMAKE_SCRIPT_MODE_FILE)
 // Written by cmake/embed.cmake.
 #include <${HEADER}>
 
-namespace thalweg::pipeline {
+namespace thalweg::${SPACE} {
 
 std::string_view ${FUNCTION}() {
     static constexpr char bytes[] =
@@ -22,16 +22,16 @@ std::string_view ${FUNCTION}() {
     return {bytes, sizeof bytes - 1};
 }
 
-} // namespace thalweg::pipeline
+} // namespace thalweg::${SPACE}
 ")
   return()
 endif()
 
 set(THALWEG_EMBED ${CMAKE_CURRENT_LIST_FILE})
-function(thalweg_embed TARGET FILE HEADER FUNCTION)
+function(thalweg_embed TARGET FILE HEADER SPACE FUNCTION)
   set(OUT ${PROJECT_BINARY_DIR}/generated/${FUNCTION}.cpp)
   add_custom_command(OUTPUT ${OUT}
-    COMMAND ${CMAKE_COMMAND} -DFILE=${FILE} -DOUT=${OUT} -DHEADER=${HEADER} -DFUNCTION=${FUNCTION} -P ${THALWEG_EMBED}
+    COMMAND ${CMAKE_COMMAND} -DFILE=${FILE} -DOUT=${OUT} -DHEADER=${HEADER} -DSPACE=${SPACE} -DFUNCTION=${FUNCTION} -P ${THALWEG_EMBED}
     DEPENDS ${FILE} ${THALWEG_EMBED} COMMENT "Embedding ${FILE}" VERBATIM)
   set_source_files_properties(${OUT} PROPERTIES SKIP_UNITY_BUILD_INCLUSION ON) # clang-tidy reads units before it is written
   target_sources(${TARGET} PRIVATE ${OUT})

@@ -12,7 +12,7 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/recipe/frame.hpp>
 
 using namespace thalweg;
 
@@ -29,7 +29,7 @@ int main() {
 
     // Up to here there were cells of a lattice; a grid gives them a place on the ground, 30 m a cell unless told
     // otherwise.
-    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
+    recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
 
     // The skeleton is one cell wide; traced, it is a graph of arcs that run downstream.
     Mask const skeleton = network::thin(framed.mask);

@@ -35,17 +35,6 @@
 #include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/made_from.hpp>
-#include <thalweg/pipeline/plan/make_input.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
-#include <thalweg/pipeline/recipe/recipe_keys.hpp>
-#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/pipeline/report/page.hpp>

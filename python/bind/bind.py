@@ -28,8 +28,13 @@ MODULES = [
     "measure",
     "draw",
     "io",
+    "recipe",
     "pipeline",
 ]
+
+# The folder of a namespace, and how Python calls it, where these differ: make and ensemble are functions there.
+FOLDERS = {"exports": "export"}
+CALLED = {"exports": "export", "make": "terrain", "ensemble": "members"}
 
 # Functions that Python does not get, by regular expressions of SPACE::NAME; the first that fits gives the reason.
 LEFT_OUT = [
@@ -54,7 +59,7 @@ LEFT_OUT = [
         "a part of a stage",
     ),
     (r"measure::relief_range", "by the number of a metric, which relief_rows names"),
-    (r"geometry::put_in_order|pipeline::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
+    (r"geometry::put_in_order|recipe::(un)?set_key", "it changes its argument: see by_hand.cpp for what there is instead"),
     (r"io::write_geopackage", "see by_hand.cpp"),
 ]
 RUN = ["threads", "progress", "log", "device"]
@@ -87,7 +92,7 @@ DTYPES = {
 }
 TEXTS = {"std::string", "std::string_view", "char const*", "io::Source"}
 # What only the library makes: parts of a terrain that belong together.
-ONLY_MADE = {("pipeline", name) for name in ("Plan", "Planform", "Terrain", "Made", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
+ONLY_MADE = {("recipe", "Plan")} | {("pipeline", name) for name in ("Planform", "Terrain", "Made", "Assessment", "SurfaceMeasures", "Rivers", "RiverFile")}
 # By hand: by_hand.cpp binds it.
 BY_HAND = {("", "StreamNetwork"), ("draw", "Picture")}
 NOT_RECORDS = {
@@ -117,13 +122,18 @@ def arguments_of(type_: str) -> tuple[str, list[str]]:
     return (match[1], split_at(match[2], ",")) if match else (type_, [])
 
 
+def called(space: str) -> str:
+    """How Python calls the module of a namespace."""
+    return CALLED.get(space, space)
+
+
 def safe(name: str) -> str:
     return name + "_" if keyword.iskeyword(name) else name
 
 
 class Binder:
     def __init__(self, source: pathlib.Path) -> None:
-        self.headers: Headers = read_headers(source / "lib", ["core", *MODULES])
+        self.headers: Headers = read_headers(source / "lib", ["core", *(FOLDERS.get(m, m) for m in MODULES)])
         self.cite = self.citations((source / "docs" / "references.bib").read_text(encoding="utf-8"))
         self.structs = {(s.space, s.name): s for s in self.headers.structs}
         self.enumerations = {(e.space, e.name): e for e in self.headers.enumerations}
@@ -393,7 +403,7 @@ class Binder:
             return f"Literal[{', '.join(repr(w) for w in self.words_of(scope))}]" if into else "str"
         shown = scope[1].replace("::", ".")
         if scope[0] and scope[0] != module:
-            shown = f"_{scope[0]}.{shown}"  # no property has such a name
+            shown = f"_{called(scope[0])}.{shown}"  # no property has such a name
         if into and scope in self.records:
             if self.is_held_raster(scope):
                 return f"{shown} | RasterLike"
@@ -818,7 +828,7 @@ class Binder:
         struct = self.structs[scope]
         said = self.parsed(struct.comment)
         text = (
-            self.wrapped(str(said["said"])) or f"A value of thalweg.{'.'.join(filter(None, scope)).replace('::', '.')}."
+            self.wrapped(str(said["said"])) or f"A value of thalweg.{'.'.join(filter(None, (called(scope[0]), scope[1]))).replace('::', '.')}."
         ) + "\n\nAttributes\n----------\n"
         for _, field, type_ in self.fields_of(scope):
             if self.can_cross(type_):
@@ -831,7 +841,7 @@ class Binder:
         name = scope[1].rpartition("::")[2]
         outer = scope[1].rpartition("::")[0]
         parent = f'type_{outer.replace("::", "_")}' if outer and (scope[0], outer) in self.records else "module"
-        module = f"thalweg.{scope[0]}" if scope[0] else "thalweg._core"
+        module = f"thalweg.{called(scope[0])}" if scope[0] else "thalweg._core"
         text = (
             f'    auto type_{scope[1].replace("::", "_")} = add_record<{whole}>({parent}, "{name}", R"words({self.record_words(scope)})words", '
             f'"{module}");\n'
@@ -875,7 +885,7 @@ class Binder:
         return sorted((s for s in self.records if s[0] == space), key=lambda s: (s[1].count("::"), s[1]))
 
     def write_records_header(self) -> str:
-        text = "".join(f"#include <thalweg/{m}.hpp>\n" for m in ["core", *MODULES])
+        text = "".join(f"#include <thalweg/{FOLDERS.get(m, m)}.hpp>\n" for m in ["core", *MODULES])
         text += '\n#include "glue.hpp"\n\nnamespace thalweg::python {\n\n'
         for scope, enumeration in sorted(self.enumerations.items()):
             if (
@@ -905,7 +915,7 @@ class Binder:
         return f"#pragma once\n// Written by python/bind/bind.py.\n{text}\n}} // namespace thalweg::python\n"
 
     def write_module(self, space: str) -> str:
-        called = space or "core"
+        name = space or "core"
         text = f"""// Written by python/bind/bind.py.
 #include "records.hpp"
 #include "by_hand.hpp"
@@ -915,11 +925,11 @@ namespace thalweg::python {{
 """
         for scope in self.records_in(space):
             text += self.record_definition(scope)
-        text += f"void declare_{called}(py::module_& module) {{\n"
+        text += f"void declare_{name}(py::module_& module) {{\n"
         for scope in self.records_in(space):
             text += self.record_binding(scope)
             text += self.getters(scope)
-        text += f"    (void)module;\n}}\n\nvoid define_{called}(py::module_& module) {{\n    (void)module;\n"
+        text += f"    (void)module;\n}}\n\nvoid define_{name}(py::module_& module) {{\n    (void)module;\n"
         text += f"    using namespace thalweg{'::' + space if space else ''};\n"
         for overloads in self.grouped(space):
             words = self.docstring(overloads)
@@ -1014,10 +1024,9 @@ def main() -> None:
     by_hand = pathlib.Path(__file__).parent
     words = dict(re.findall(r'"(\w+)",\s*R"words\((.*?)\)words"', (by_hand / "by_hand.cpp").read_text(encoding="utf-8"), re.S))
     for space in ["", *MODULES]:
-        called = space or "core"
-        written[out / f"{called}.cpp"] = binder.write_module(space)
+        written[out / f"{space or 'core'}.cpp"] = binder.write_module(space)
         stub = binder.write_stub(space)
-        extra = by_hand / f"by_hand_{called}.pyi"
+        extra = by_hand / f"by_hand_{space or 'core'}.pyi"
         if extra.exists():
             for line in extra.read_text(encoding="utf-8").splitlines():
                 named = re.match(r"(?:class|def) (\w+)", line)
@@ -1025,7 +1034,7 @@ def main() -> None:
                 if not line.startswith("# SPDX"):
                     stub += (line.removesuffix(" ...") if said else line) + "\n"
                     stub += "".join(f"{one}\n" for one in stub_words(said, "    ")) if said else ""
-        others = sorted(m for m in MODULES if m != space and re.search(rf"\b_{m}\.", stub))
+        others = sorted(called(m) for m in MODULES if m != space and re.search(rf"\b_{called(m)}\.", stub))
         values = sorted({s[1] for s in [*binder.records, *BY_HAND] if s[0] == "" and "::" not in s[1]}) if space else []
         head = STUB_HEAD + "".join(f"from thalweg import {m} as _{m}\n" for m in others)
         used = [v for v in values if re.search(rf"(?<![\w.]){v}\b", stub)]
@@ -1033,7 +1042,7 @@ def main() -> None:
         if not space:
             top = sorted(set(re.findall(r"^(?:class|def) (\w+)", stub, re.MULTILINE)) - {"version"})
             head += f"\n__all__ = {top}\n"
-        written[out / "stubs" / ("_core.pyi" if not space else f"{space}.pyi")] = f"{head}\n{stub}"
+        written[out / "stubs" / ("_core.pyi" if not space else f"{called(space)}.pyi")] = f"{head}\n{stub}"
     (out / "stubs").mkdir(parents=True, exist_ok=True)
     for path, text in written.items():
         if not path.exists() or path.read_text(encoding="utf-8") != text:  # what did not change is not compiled again

@@ -463,7 +463,7 @@ IoError
         });
 }
 
-void define_pipeline_by_hand(py::module_& module) {
+void define_recipe_by_hand(py::module_& module) {
     add_function(module, "set_key", R"words(set_key(recipe, path, text)
 --
 
@@ -488,12 +488,12 @@ BadParameter
     for an unknown key, or a value outside its range
 )words",
                  [](Args& in) {
-                     Held<pipeline::Recipe> const recipe(in.required("recipe"), in.place("recipe"));
+                     Held<recipe::Recipe> const recipe(in.required("recipe"), in.place("recipe"));
                      auto const path = take<std::string>(in.required("path"), in.place("path"));
                      auto const text = take<std::string>(in.required("text"), in.place("text"));
                      return in.call([&] {
-                         pipeline::Recipe changed = *recipe;
-                         pipeline::set_key(changed, path, text);
+                         recipe::Recipe changed = *recipe;
+                         recipe::set_key(changed, path, text);
                          return changed;
                      });
                  });
@@ -519,14 +519,17 @@ BadParameter
     when there is no such key or section, or a recipe cannot be without it
 )words",
                  [](Args& in) {
-                     Held<pipeline::Recipe> const recipe(in.required("recipe"), in.place("recipe"));
+                     Held<recipe::Recipe> const recipe(in.required("recipe"), in.place("recipe"));
                      auto const path = take<std::string>(in.required("path"), in.place("path"));
                      return in.call([&] {
-                         pipeline::Recipe changed = *recipe;
-                         pipeline::unset_key(changed, path);
+                         recipe::Recipe changed = *recipe;
+                         recipe::unset_key(changed, path);
                          return changed;
                      });
                  });
+}
+
+void define_pipeline_by_hand(py::module_& module) {
     add_function(module, "report_json", R"words(report_json(made)
 --
 

@@ -55,7 +55,10 @@ void declare_stream_network(py::module_& module);
 void declare_picture(py::module_& module);
 /// io.write_geopackage
 void define_io_by_hand(py::module_& module);
-/// pipeline.set_key, unset_key, report_json
+/// recipe.set_key, unset_key
+void define_recipe_by_hand(py::module_& module);
+
+/// pipeline.report_json
 void define_pipeline_by_hand(py::module_& module);
 
 } // namespace thalweg::python

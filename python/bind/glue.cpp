@@ -328,6 +328,17 @@ py::array take_array(py::handle value, Place const& place, py::dtype const& type
     return numpy.attr("ascontiguousarray")(numbers, py::arg("dtype") = type);
 }
 
+namespace {
+
+/// Whether a function belongs to a module of the program, which says units itself.
+bool is_of_program(std::string_view function) {
+    constexpr std::string_view modules[] = {"recipe.",  "terrain.",  "report.",  "export.",
+                                            "members.", "commands.", "pipeline."};
+    return std::ranges::any_of(modules, [&](std::string_view module) { return function.starts_with(module); });
+}
+
+} // namespace
+
 std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py::dtype const& type) {
     // A plain array has the frame of the other rasters of the call.
     bool const has_place =
@@ -344,8 +355,7 @@ std::pair<py::array, Grid> take_raster(py::handle value, Place const& place, py:
         throw BadInput(fmt::format("{}: {} has {} x {} values, and its grid {} x {} cells", place.function, place.name,
                                    values.shape(1), values.shape(0), grid.width, grid.height));
     }
-    if (type.kind() == 'f' && !grid.crs.empty() && place.function.find("io.") != 0 &&
-        place.function.find("pipeline.") != 0) {
+    if (type.kind() == 'f' && !grid.crs.empty() && place.function.find("io.") != 0 && !is_of_program(place.function)) {
         from_package("thalweg._raster", "say_unit")(grid.crs, place.name);
     }
     return {std::move(values), std::move(grid)};

@@ -22,6 +22,7 @@ THALWEG_OF_MODULE(blend)
 THALWEG_OF_MODULE(measure)
 THALWEG_OF_MODULE(draw)
 THALWEG_OF_MODULE(io)
+THALWEG_OF_MODULE(recipe)
 THALWEG_OF_MODULE(pipeline)
 #undef THALWEG_OF_MODULE
 
@@ -34,7 +35,7 @@ struct Module {
     void (*define)(py::module_&);
 };
 
-constexpr std::array<Module, 12> modules = {{
+constexpr std::array<Module, 13> modules = {{
     {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
      define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
@@ -49,7 +50,8 @@ constexpr std::array<Module, 12> modules = {{
     {"measure", "Reports on DEMs and networks.", declare_measure, define_measure},
     {"draw", "Pictures.", declare_draw, define_draw},
     {"io", "Files.", declare_io, define_io},
-    {"pipeline", "Recipes, whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
+    {"recipe", "Recipes, their files, and what they set.", declare_recipe, define_recipe},
+    {"pipeline", "Whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
 }};
 
 } // namespace
@@ -85,7 +87,8 @@ PYBIND11_MODULE(_core, module) {
         modules[i].define(made[i]);
     }
     define_io_by_hand(made[10]);
-    define_pipeline_by_hand(made[11]);
+    define_recipe_by_hand(made[11]);
+    define_pipeline_by_hand(made[12]);
     module.attr("MODULES") = py::tuple(names);
     py::list values;
     for (auto const& [name, value] : module.attr("__dict__").cast<py::dict>()) {

@@ -60,7 +60,7 @@ def ensemble(recipe: object = None, /, members: int | None = None, *, seeds: Seq
 
     Parameters
     ----------
-    recipe : dict, str, path, GeoDataFrame, GeoSeries, Raster, DataArray, ndarray or pipeline.Recipe, optional
+    recipe : dict, str, path, GeoDataFrame, GeoSeries, Raster, DataArray, ndarray or recipe.Recipe, optional
         See make.
     members : int, optional
         Number of members; the seed of the first is the recipe's.

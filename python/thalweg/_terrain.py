@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from thalweg import _core, _networks, _show, pipeline
+from thalweg import _core, _networks, _show, recipe as recipes, pipeline
 from thalweg import flow as flows
 from thalweg._raster import Raster
 from thalweg._show import bad_input
@@ -183,7 +183,7 @@ class Terrain:
     @property
     def recipe_toml(self) -> str:
         """The recipe as TOML."""
-        return pipeline.write_recipe(_with_whole_paths(self.made.recipe))
+        return recipes.write_recipe(_with_whole_paths(self.made.recipe))
 
     @property
     def timings(self) -> dict[str, float]:
@@ -294,7 +294,7 @@ def make(recipe: object = None, /, *, output: str | os.PathLike[str] | Mapping[s
 
     Parameters
     ----------
-    recipe : dict, str, path, GeoDataFrame, GeoSeries, Raster, DataArray, ndarray or pipeline.Recipe, optional
+    recipe : dict, str, path, GeoDataFrame, GeoSeries, Raster, DataArray, ndarray or recipe.Recipe, optional
         A recipe as a dict of its sections, as TOML, or the path of one. Or rivers, for terrain around them: the path of a
         file, or a table of lines with a CRS. Or a DEM, for terrain as it has it: the path of a raster, or an array. Left
         out, or a dict of seed, grid and output alone: rivers over the whole grid and terrain around them. In a dict the
@@ -356,7 +356,7 @@ def rebuild(rivers: object, /, *, like: object = None, against: object = None, o
 
     Parameters
     ----------
-    rivers : str, path, GeoDataFrame, GeoSeries, dict or pipeline.Recipe
+    rivers : str, path, GeoDataFrame, GeoSeries, dict or recipe.Recipe
         Lines with heights, or a recipe that names them; see make.
     like : str, path, Raster, DataArray or ndarray, optional
         A DEM of any place, whose mean slope and texture the terrain gets; left out: they follow from the rivers.
@@ -377,11 +377,11 @@ def rebuild(rivers: object, /, *, like: object = None, against: object = None, o
     """
     files: list[_networks.TemporaryPath] = []
     asked = _recipe_of(rivers, {**keys, "surface.like": like, "output.against": against}, files)
-    return _made(pipeline.rebuild_recipe(asked), files, "rebuild", output, overwrite, threads=threads, progress=progress, log=log,
+    return _made(recipes.rebuild_recipe(asked), files, "rebuild", output, overwrite, threads=threads, progress=progress, log=log,
                  device=device)
 
 
-def _made(asked: pipeline.Recipe, files: list[_networks.TemporaryPath], who: str, output: str | os.PathLike[str] | None,
+def _made(asked: recipes.Recipe, files: list[_networks.TemporaryPath], who: str, output: str | os.PathLike[str] | None,
           overwrite: bool, **run: Any) -> Terrain:
     if output is not None and not overwrite and os.path.isdir(output) and os.listdir(output):
         raise bad_input(who, f"{os.fspath(output)} is not empty: set overwrite=True or name another folder")
@@ -418,57 +418,57 @@ def forecast(recipe: object = None, /, **keys: Any) -> dict[str, Any]:
         As make.
     """
     files: list[_networks.TemporaryPath] = []
-    found = pipeline.forecast(_recipe_of(recipe, keys, files))
+    found = recipes.forecast(_recipe_of(recipe, keys, files))
     _warn_of(found.findings, 2)
     return {name: getattr(found, name) for name in ("stages", "grid", "cells", "memory_bytes", "seconds", "findings")}
 
 
-def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> pipeline.Recipe:
+def _recipe_of(recipe: object, keys: Mapping[str, Any], files: list[_networks.TemporaryPath]) -> recipes.Recipe:
     over = dict(_values(keys, files))
     if isinstance(recipe, Mapping):
         given = dict(_values(recipe, files)) | over
         if not {str(key).split(".")[0] for key in recipe} <= BESIDE_TERRAIN:
             # One text, so that all faults are reported at once.
-            return pipeline.read_recipe(_toml_of(given), "recipe")
+            return recipes.read_recipe(_toml_of(given), "recipe")
         recipe, over = None, given
     return _set_all(_without_file(over) if recipe is None else _base_of(recipe, files), over)
 
 
-def _set_all(recipe: pipeline.Recipe, over: Mapping[str, Value]) -> pipeline.Recipe:
+def _set_all(recipe: recipes.Recipe, over: Mapping[str, Value]) -> recipes.Recipe:
     for path, value in over.items():
         if value == {}:
             raise _core.BadParameter(f"{path} = {{}}: over another recipe, name a key of the section")
-        recipe = pipeline.set_key(recipe, path, value if isinstance(value, str) else _value_in_toml(value))
+        recipe = recipes.set_key(recipe, path, value if isinstance(value, str) else _value_in_toml(value))
     return recipe
 
 
-def _with_whole_paths(recipe: pipeline.Recipe) -> pipeline.Recipe:
+def _with_whole_paths(recipe: recipes.Recipe) -> recipes.Recipe:
     """The recipe with names of files that hold in any folder."""
-    names_file = {key.path for key in pipeline.recipe_keys() if key.is_file}
-    for path, value in _values(tomllib.loads(pipeline.write_recipe(recipe)), []):
+    names_file = {key.path for key in recipes.recipe_keys() if key.is_file}
+    for path, value in _values(tomllib.loads(recipes.write_recipe(recipe)), []):
         if re.sub(r"^patch\.\d+", "patch", path) in names_file and value:
             whole = os.path.abspath(os.path.join(recipe.folder, str(value)))
             if os.path.exists(whole):  # else the address of a source elsewhere
-                recipe = pipeline.set_key(recipe, path, whole)
+                recipe = recipes.set_key(recipe, path, whole)
     return recipe
 
 
-def _without_file(over: Mapping[str, Value]) -> pipeline.Recipe:
+def _without_file(over: Mapping[str, Value]) -> recipes.Recipe:
     """The recipe that `thalweg make` uses without a file: a cluster where its keys are set, else rivers that suit the grid."""
     if over.get("network.source") == "dla" or any(path.startswith("network.dla.") for path in over):
-        return pipeline.cluster_recipe()
+        return recipes.cluster_recipe()
     sides = {path: value for path, value in over.items() if path in ("grid.width", "grid.height")}
-    grid = tomllib.loads(pipeline.write_recipe(_set_all(pipeline.default_recipe(), sides)))["grid"]
-    return pipeline.default_recipe_on(grid["width"], grid["height"])
+    grid = tomllib.loads(recipes.write_recipe(_set_all(recipes.default_recipe(), sides)))["grid"]
+    return recipes.default_recipe_on(grid["width"], grid["height"])
 
 
-def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> pipeline.Recipe:
-    if isinstance(recipe, pipeline.Recipe):
+def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> recipes.Recipe:
+    if isinstance(recipe, recipes.Recipe):
         return recipe
     if isinstance(recipe, str) and ("\n" in recipe or ("=" in recipe and not os.path.exists(recipe))):
-        return pipeline.read_recipe(recipe, "recipe")
+        return recipes.read_recipe(recipe, "recipe")
     if isinstance(recipe, (str, os.PathLike)):
-        return pipeline.recipe_from(os.fspath(recipe))
+        return recipes.recipe_from(os.fspath(recipe))
     if _networks.is_table(recipe):
         files.append(_networks.lines_from(recipe))
     elif _networks.is_raster(recipe):
@@ -476,7 +476,7 @@ def _base_of(recipe: object, files: list[_networks.TemporaryPath]) -> pipeline.R
     else:
         raise TypeError("make takes a recipe (dict, TOML or path), rivers (GeoDataFrame or path) or a DEM (Raster, array or "
                         f"path), not {type(recipe).__name__}")
-    return pipeline.recipe_from(str(files[-1]))
+    return recipes.recipe_from(str(files[-1]))
 
 
 def _values(sections: Mapping[Any, Any], files: list[_networks.TemporaryPath], prefix: str = "") -> Iterator[tuple[str, Value]]:

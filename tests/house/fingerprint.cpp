@@ -50,7 +50,7 @@
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/recipe/frame.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/random_fields.hpp>
@@ -618,7 +618,7 @@ int main(int count, char** words) {
     print_forest(run);
     network::Branch const branch = network::pick_branch(cluster);
     print("pick_branch", hash_of(branch.cells));
-    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
+    recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
     Mask const skeleton = network::thin(framed.mask, run);
     print("thin", hash_of(skeleton));
     StreamNetwork const traced = network::trace(skeleton, {framed.mouth}, run);

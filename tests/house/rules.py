@@ -8,16 +8,19 @@ import re
 import subprocess
 import sys
 
-# Which modules a module may include, besides itself. Stage modules meet in pipeline only.
+# Which modules a module may include, besides itself. Stage modules meet in those of the program, which include
+# those before them.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"], "pipeline": BELOW + STAGES,
-           "studio": BELOW + STAGES + ["pipeline", "serve"]}
+PROGRAM = ["recipe", "pipeline"]
+MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"],
+           "studio": BELOW + STAGES + PROGRAM + ["serve"]}
+MODULES.update({name: BELOW + STAGES + PROGRAM[:number] for number, name in enumerate(PROGRAM)})
 MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
 
 # The families of pipeline, in their order: each may include those before it.
-FAMILIES = ["recipe", "plan", "make", "report", "ensemble", "commands"]
+FAMILIES = ["make", "report", "ensemble", "commands"]
 
 # Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {
@@ -29,6 +32,7 @@ FOREIGN = {
     "draw": ["cairo", "fontconfig/", "png.h"],
     "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/", "laszip/", "boost/crc.hpp"],
     "serve": ["boost/asio/", "boost/beast/"],
+    "recipe": ["toml++/", "nlohmann/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "studio": ["nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/", "mpi.h"],
@@ -67,9 +71,9 @@ OTHER_DOOR = re.compile(r"GetMaskFlags|GetUnitType|(?<!GDAL_OF_VECTOR \| )GDAL_O
 DOORS = ("lib/thalweg/io/raster/opened_heights.cpp", "lib/thalweg/io/gdal/", "lib/thalweg/io/raster/web_tiles.cpp")
 # rapidcheck gives its verdict back; a test that does not look at it cannot fail.
 UNASKED = re.compile(r"^\s*rc::check\(")
-# A value of the pipeline that a function would change for its caller. Only the reader of recipes does so.
-CHANGED_VALUE = re.compile(r"(?<![\w<])(?:pipeline::)?(Recipe|Plan|Rivers|Terrain|Assessment|Made)& ?\w*[,)]")
-READER = "lib/thalweg/pipeline/recipe/"
+# A value that flows and that a function would change for its caller. Only the reader of recipes does so.
+CHANGED_VALUE = re.compile(r"(?<![\w<])(?:\w+::)?(Recipe|Plan|Rivers|Terrain|Assessment|Made)& ?\w*[,)]")
+READER = "lib/thalweg/recipe/"
 # What opens and closes a namespace, and a type defined in one, as clang-format writes them.
 NAMESPACE = re.compile(r"(?:inline )?namespace(?: ([\w:]+))? \{|\} // namespace")
 TYPE = re.compile(r"(?:struct|class|union|enum class|enum) (\w+)(?![\w:])[^;]*\{")
@@ -143,7 +147,7 @@ def check_include(name, module, quoted, header):
             return f"<{header}> lies above this file: the order is {', '.join(FAMILIES)}"
         if module == "tools" or target == module or target in MODULES[module]:
             return None
-        what = "stage modules meet in pipeline only" if target in STAGES and module in STAGES else "dependencies point one way"
+        what = "stage modules meet in the program's" if target in STAGES and module in STAGES else "dependencies point one way"
         return f"{module} includes <{header}>: {what}"
     if SYSTEM.match(header):
         return None
@@ -173,8 +177,8 @@ def check_source(name, lines):
                 yield number, fault
         if include and re.search(r"\.cpp$", include[2]):
             yield number, "a .cpp file is included"
-        if module in ("pipeline", "tools") and not name.startswith(READER) and (found := CHANGED_VALUE.search(code)):
-            yield number, f"{found[1]}&: values of the pipeline are not changed; take it by value or const and return one"
+        if module in (*PROGRAM, "tools") and not name.startswith(READER) and (found := CHANGED_VALUE.search(code)):
+            yield number, f"{found[1]}&: values that flow are not changed; take it by value or const and return one"
         if found := DISTRIBUTION.search(code):
             yield number, f"{found[0]}: distributions differ between libraries; use core/numbers/random.hpp"
         if module and (found := PREFIX.search(code)) and found[1] in MODULES and found[1] != module:

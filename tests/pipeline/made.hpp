@@ -15,7 +15,7 @@ namespace test {
 /// What a recipe makes whose files lie in a folder.
 inline thalweg::pipeline::Made made(std::string const& toml, std::string const& folder = "",
                                     thalweg::Run const& run = {}) {
-    thalweg::pipeline::Recipe recipe = thalweg::pipeline::read_recipe(toml, "test");
+    thalweg::recipe::Recipe recipe = thalweg::recipe::read_recipe(toml, "test");
     recipe.folder = folder;
     return thalweg::pipeline::make(recipe, run);
 }

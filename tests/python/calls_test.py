@@ -194,7 +194,7 @@ class Arguments(unittest.TestCase):
                 call()
 
     def test_seeds_keep_all_their_bits(self):
-        self.assertEqual(thalweg.pipeline.Recipe(seed=2**63 + 5).seed, 2**63 + 5)
+        self.assertEqual(thalweg.recipe.Recipe(seed=2**63 + 5).seed, 2**63 + 5)
         repr(thalweg.io.network_formats())
 
     def test_grids_can_be_copied(self):

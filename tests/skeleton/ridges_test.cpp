@@ -22,7 +22,7 @@
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/recipe/frame.hpp>
 
 namespace ridges_test {
 
@@ -62,7 +62,7 @@ Land tokunaga(std::uint64_t seed, int generator, int order) {
 /// A branch of a cluster: all vertices are centres of cells, whole circles full of them.
 Land dla(std::uint64_t seed) {
     network::Branch const branch = network::pick_branch(network::grow_dla({.particles = 6000, .seed = seed}));
-    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
+    recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
     StreamNetwork const traced = network::trace(network::thin(framed.mask), {framed.mouth});
     Grid const& grid = framed.mask.grid();
     return raised(network::prune(traced, {.length_m = 4 * grid.cell_m, .cell_m = grid.cell_m}).network, grid);

@@ -158,8 +158,8 @@ TEST_F(DocumentFolders, BeginWithADem) {
     write_ascii_grid(at("dem.asc"), {30, 20, 10, 500000, 4000000}, [](int c, int r) { return c + 0.3 * r; });
     new_document(at("d"), at("dem.asc"));
     DocumentFolder document(at("d"));
-    pipeline::Recipe const recipe = document.document().recipe;
-    EXPECT_EQ(recipe.surface->method, pipeline::Method::raster);
+    recipe::Recipe const recipe = document.document().recipe;
+    EXPECT_EQ(recipe.surface->method, recipe::Method::raster);
     EXPECT_EQ(recipe.surface->source, "inputs/source/dem.asc");
     EXPECT_EQ(recipe.grid.width, 30);
     EXPECT_EQ(recipe.grid.cell_m, 10.0);
@@ -167,9 +167,9 @@ TEST_F(DocumentFolders, BeginWithADem) {
     Raster<float> const dem = pipeline::make(recipe).terrain.surface->dem;
     EXPECT_EQ((dem[Cell{7, 5}]), 7.0F + 1.5F);
     document.edit({"coarser", {SetKey{"grid.cell", "20"}, UnsetKey{"grid.width"}, UnsetKey{"grid.height"}}});
-    EXPECT_EQ(pipeline::resolve(document.document().recipe).grid->width, 15);
+    EXPECT_EQ(recipe::resolve(document.document().recipe).grid->width, 15);
     document.edit({"the file's", {UnsetKey{"grid.cell"}}});
-    EXPECT_EQ(pipeline::resolve(document.document().recipe).grid->width, 30);
+    EXPECT_EQ(recipe::resolve(document.document().recipe).grid->width, 30);
     test::write(at("dem.toml"), "[surface]\nmethod = \"raster\"\nsource = \"dem.asc\"\n");
     new_document(at("e"), at("dem.toml"));
     EXPECT_EQ(DocumentFolder(at("e")).document().recipe.grid.cell_m, 10.0);
@@ -202,7 +202,7 @@ TEST_F(DocumentFolders, AreOpenInOneProcessAlone) {
 TEST_F(DocumentFolders, WhatMakeMakesOfTheRecipeIsTheSame) {
     new_document(at("d"));
     DocumentFolder document(at("d"));
-    document.edit({"", {ReplaceRecipe{pipeline::write_recipe(pipeline::default_recipe_on(64, 64))}}});
+    document.edit({"", {ReplaceRecipe{recipe::write_recipe(recipe::default_recipe_on(64, 64))}}});
     document.edit({"", {SetKey{"network.heights", "graded"}, SetKey{"seed", "3"}}});
     pipeline::run_make({at("d/recipe.toml"), at("by_make")});
     pipeline::Made const shown = pipeline::make(document.document().recipe);
@@ -236,7 +236,7 @@ TEST_F(DocumentFolders, AHistoryOpensWhereverItIsCut) {
 TEST_F(DocumentFolders, TheHistoryIsNewerThanARecipeThatWasOneOfItsStates) {
     std::string const folder = edited("d");
     std::string const recipe = bytes_of(folder + "/recipe.toml");
-    std::string const first = pipeline::write_recipe(pipeline::read_recipe(land, ""));
+    std::string const first = recipe::write_recipe(recipe::read_recipe(land, ""));
     test::write(folder + "/recipe.toml", first);
     EXPECT_EQ(seed_in(folder), 3U);
     EXPECT_EQ(bytes_of(folder + "/recipe.toml"), recipe);

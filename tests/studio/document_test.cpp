@@ -26,7 +26,7 @@ Edit set(std::string const& key, std::string const& value) {
 }
 
 Document forest() {
-    return document_of(pipeline::write_recipe(pipeline::default_recipe_on(64, 64)));
+    return document_of(recipe::write_recipe(recipe::default_recipe_on(64, 64)));
 }
 
 std::string after(Edit const& edit) {
@@ -72,7 +72,7 @@ rc::Gen<Edit> some_edit() {
 
 TEST(Document, ItsTextIsThatOfItsRecipe) {
     Document const document = forest();
-    EXPECT_EQ(document.toml, pipeline::write_recipe(document.recipe));
+    EXPECT_EQ(document.toml, recipe::write_recipe(document.recipe));
     EXPECT_EQ(document_of(document.toml).toml, document.toml);
     EXPECT_EQ(document_of("# by hand\n" + document.toml).toml, document.toml);
 }
@@ -129,7 +129,7 @@ TEST(Document, RefusesInTheWordsOfTheRecipe) {
 TEST(Document, EveryKeyIsSetOrRefusedAndTakenBack) {
     Document const first = forest();
     int accepted = 0;
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+    for (recipe::KeyHelp const& key : recipe::recipe_keys()) {
         std::vector<std::string> values = key.choices;
         values.push_back(key.is_file ? "inputs/1/x" : "1");
         for (std::string const& value : values) {
@@ -154,7 +154,7 @@ TEST(Document, AnInverseTakesAnEditBackByteForByte) {
                 Applied const back = apply(there.document, {"", {there.inverse}});
                 RC_ASSERT(back.document.toml == document.toml);
                 RC_ASSERT(apply(back.document, {"", {back.inverse}}).document.toml == there.document.toml);
-                RC_ASSERT(pipeline::write_recipe(there.document.recipe) == there.document.toml);
+                RC_ASSERT(recipe::write_recipe(there.document.recipe) == there.document.toml);
                 document = there.document;
             } catch (BadParameter const&) {
             }

@@ -508,9 +508,9 @@ TEST(Drawing, FilesHoldItBitForBit) {
     drawing.rivers[1].lambda = 3;
     drawing = after(drawing, DrawCoast{line_of({{2, 2}, {78, 2}})}).drawing;
     write_drawing(drawing, (folder.path() / "drawing.gpkg").string());
-    pipeline::Recipe recipe = pipeline::default_recipe_on(80, 60);
+    recipe::Recipe recipe = recipe::default_recipe_on(80, 60);
     recipe.folder = folder.path().string();
-    recipe.network->source = pipeline::Source::lines;
+    recipe.network->source = recipe::Source::lines;
     recipe.network->lines.path = "drawing.gpkg";
     ASSERT_TRUE(is_drawn(recipe));
     Drawing const read = read_drawing(recipe, grid);
@@ -525,7 +525,7 @@ TEST(Drawing, FilesHoldItBitForBit) {
 
 TEST(Drawing, FilesHoldLevelsAndHolesOfMasks) {
     io::TemporaryFolder const folder("drawing");
-    Document document = document_of(pipeline::write_recipe(pipeline::default_recipe_on(80, 60)));
+    Document document = document_of(recipe::write_recipe(recipe::default_recipe_on(80, 60)));
     Drawing const before = two_rivers();
     Drawing now = before;
     now.lakes = {{{line_of({{35, 40}, {45, 40}, {45, 50}}), line_of({{41, 42}, {44, 42}, {44, 45}})}, 120.5},
@@ -585,7 +585,7 @@ private:
 } // namespace
 
 TEST(Drawing, FilesHoldPinsAndRidges) {
-    Sheets sheets(pipeline::write_recipe(pipeline::default_recipe_on(80, 60)));
+    Sheets sheets(recipe::write_recipe(recipe::default_recipe_on(80, 60)));
     std::string const first = sheets.document.toml;
     Drawing now = sheets.drawing;
     now.pins = {{at(60.25, 20.7), 340.5}, {at(5, 5), -3.25}};
@@ -612,10 +612,10 @@ TEST(Drawing, FilesHoldPinsAndRidges) {
 }
 
 TEST(Drawing, OtherKeysOfTheSkeletonStay) {
-    pipeline::Recipe recipe = pipeline::default_recipe_on(80, 60);
-    recipe.surface->method = pipeline::Method::diffuse;
-    recipe.skeleton.emplace().ridges = pipeline::Ridges::voronoi;
-    Sheets sheets(pipeline::write_recipe(recipe));
+    recipe::Recipe recipe = recipe::default_recipe_on(80, 60);
+    recipe.surface->method = recipe::Method::diffuse;
+    recipe.skeleton.emplace().ridges = recipe::Ridges::voronoi;
+    Sheets sheets(recipe::write_recipe(recipe));
     std::string const first = sheets.document.toml;
     Drawing now = sheets.drawing;
     now.pins = {{at(60.25, 20.7), 340.5}};
@@ -635,7 +635,7 @@ TEST(Drawing, PointsOfAUsersFileArePins) {
                std::to_string(100 + i) + "\n";
     }
     test::write((folder.path() / "points.csv").string(), csv);
-    pipeline::Recipe recipe = pipeline::default_recipe_on(80, 60);
+    recipe::Recipe recipe = recipe::default_recipe_on(80, 60);
     recipe.folder = folder.path().string();
     recipe.skeleton.emplace().points = "points.csv";
     Drawing const read = read_drawing(recipe, grid);

@@ -104,7 +104,7 @@ private:
                         std::unique_lock lock(guard_);
                         changed_.wait(lock, [&] { return stage != held_; });
                     },
-                .rivers = [this](Job const& job, pipeline::Plan const&, pipeline::Planform const&,
+                .rivers = [this](Job const& job, recipe::Plan const&, pipeline::Planform const&,
                                  Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
                 .heights =
                     [this](Job const& job, Heights const& seen) {
@@ -162,7 +162,7 @@ testing::AssertionResult are_same(pipeline::Made const& a, pipeline::Made const&
         checks = a.assessment.checks[i].name == b.assessment.checks[i].name &&
                  test::same_bits(a.assessment.checks[i].value, b.assessment.checks[i].value);
     }
-    if (!checks || pipeline::write_recipe(a.recipe) != pipeline::write_recipe(b.recipe)) {
+    if (!checks || recipe::write_recipe(a.recipe) != recipe::write_recipe(b.recipe)) {
         return testing::AssertionFailure() << "other checks or recipe";
     }
     return testing::AssertionSuccess();

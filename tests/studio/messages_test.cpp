@@ -177,7 +177,7 @@ TEST(Messages, SayWhatIsDrawn) {
 TEST(Messages, GiveThePageEveryKey) {
     json const given = json::parse(page_parameters("land of somebody"));
     EXPECT_EQ(given["folder"], "land of somebody");
-    EXPECT_EQ(given["keys"].size(), pipeline::recipe_keys().size());
+    EXPECT_EQ(given["keys"].size(), recipe::recipe_keys().size());
     for (json const& key : given["keys"]) {
         EXPECT_FALSE(key["meaning"].get<std::string>().empty()) << key["path"];
         if (key["path"] == "network.dla.sticking") {

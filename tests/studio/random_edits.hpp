@@ -15,8 +15,8 @@
 #include <thalweg/studio/document.hpp>
 
 /// A value that a key may get; nothing: it is left alone here.
-inline std::optional<std::string> value_for(thalweg::pipeline::KeyHelp const& key,
-                                            std::optional<std::string> const& now, std::mt19937_64& random) {
+inline std::optional<std::string> value_for(thalweg::recipe::KeyHelp const& key, std::optional<std::string> const& now,
+                                            std::mt19937_64& random) {
     auto const uniform = [&](double low, double high) {
         return low + (high - low) * static_cast<double>(random() >> 11U) * 0x1p-53;
     };
@@ -49,11 +49,11 @@ inline std::pair<thalweg::studio::Edit, thalweg::studio::Document>
 random_edit(thalweg::studio::Document const& document, std::mt19937_64& random) {
     using namespace thalweg;
     using namespace thalweg::studio;
-    std::vector<pipeline::KeyHelp> const keys = pipeline::recipe_keys();
+    std::vector<recipe::KeyHelp> const keys = recipe::recipe_keys();
     for (;;) {
-        auto const values = pipeline::key_values(document.recipe);
-        pipeline::KeyValue const& one = values[random() % values.size()];
-        auto const key = std::ranges::find(keys, one.path, &pipeline::KeyHelp::path);
+        auto const values = recipe::key_values(document.recipe);
+        recipe::KeyValue const& one = values[random() % values.size()];
+        auto const key = std::ranges::find(keys, one.path, &recipe::KeyHelp::path);
         if (key == keys.end()) {
             continue;
         }

@@ -149,7 +149,7 @@ inline void kill_studio_while_editing(int kills, std::uint64_t seed) {
             EXPECT_TRUE(kept == answered || kept == answered + 1) << kept << " " << answered;
         }
         EXPECT_LE(kept, value);
-        pipeline::Recipe const& recipe = document.document().recipe;
+        recipe::Recipe const& recipe = document.document().recipe;
         if (is_drawn(recipe)) { // what is named is whole
             Drawing const kept_drawing = read_drawing(recipe, *grid_of(recipe));
             std::size_t const there = kept_drawing.rivers.size();

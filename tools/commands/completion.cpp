@@ -8,8 +8,8 @@
 #include <fmt/format.h>
 #include <fmt/ranges.h>
 
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 #include "commands/commands.hpp"
 #include "help/help.hpp"
@@ -182,7 +182,7 @@ std::string bash_completion(CommandHelp const& program) {
     }
     std::string keys;
     std::string values;
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+    for (recipe::KeyHelp const& key : recipe::recipe_keys()) {
         keys += fmt::format("{}{}=", keys.empty() ? "" : " ", key.path);
         if (!key.choices.empty()) {
             values += fmt::format("    {}) _thalweg_reply '{}' ;;\n", key.path, fmt::join(key.choices, " "));
@@ -252,7 +252,7 @@ complete -c thalweg -f
 std::string fish_completion(CommandHelp const& program) {
     std::string keys;
     std::string values;
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+    for (recipe::KeyHelp const& key : recipe::recipe_keys()) {
         keys += fmt::format("            printf '%s\\t%s\\n' {}= {}\n", key.path, fish_in_single_quotes(key.meaning));
         if (!key.choices.empty()) {
             values += fmt::format("        case '{}=*'\n            printf '%s\\n' {}={}\n", key.path, key.path,
@@ -369,7 +369,7 @@ std::string zsh_completion(CommandHelp const& program) {
     }
     std::string keys;
     std::string values;
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+    for (recipe::KeyHelp const& key : recipe::recipe_keys()) {
         keys += "    " + in_single_quotes(key.path + ":" + key.meaning) + "\n";
         if (!key.choices.empty()) {
             values += fmt::format("    {}) compadd -- {} ;;\n", key.path, fmt::join(key.choices, " "));

@@ -37,7 +37,7 @@ std::string time_in_words(double seconds) {
     return rounded < 120.0 ? fmt::format("{:.0f} s", rounded) : fmt::format("{:.0f} min", std::ceil(seconds / 60.0));
 }
 
-std::string as_json(pipeline::Forecast const& forecast) {
+std::string as_json(recipe::Forecast const& forecast) {
     nlohmann::ordered_json json{{"stages", forecast.stages}, {"grid", nullptr}};
     if (forecast.grid) {
         Grid const& grid = *forecast.grid;
@@ -52,7 +52,7 @@ std::string as_json(pipeline::Forecast const& forecast) {
 }
 
 /// A forecast as text, or as one JSON object: stages, grid (null: unknown), cells, memory_bytes, seconds.
-std::string forecast_in_words(pipeline::Forecast const& forecast, bool json) {
+std::string forecast_in_words(recipe::Forecast const& forecast, bool json) {
     if (json) {
         return as_json(forecast);
     }
@@ -120,7 +120,7 @@ int make_ensemble(MakeOptions& options, Session& session) {
         params.shares = (*share)[1];
     }
     if (options.dry_run) {
-        pipeline::Forecast const expected = pipeline::forecast_ensemble(params, session.run);
+        recipe::Forecast const expected = pipeline::forecast_ensemble(params, session.run);
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
@@ -185,8 +185,8 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
                         ranks));
     }
     if (options.dry_run) {
-        pipeline::Forecast const expected = rebuilds ? pipeline::forecast_rebuild(options.params, session.run)
-                                                     : pipeline::forecast_make(options.params, session.run);
+        recipe::Forecast const expected = rebuilds ? pipeline::forecast_rebuild(options.params, session.run)
+                                                   : pipeline::forecast_make(options.params, session.run);
         fmt::print("{}", forecast_in_words(expected, session.json));
         return Exit::done;
     }
@@ -208,7 +208,7 @@ int make(MakeOptions& options, bool rebuilds, Session& session) {
         }
         session.run.tell("check", fmt::format("{:<56}      {}", words, toned(Tone::good, "ok", stderr)));
     }
-    if (made.recipe.output.has(pipeline::OutputFiles::page)) {
+    if (made.recipe.output.has(recipe::OutputFiles::page)) {
         session.run.tell("open", fmt::format("{}   (no internet needed)",
                                              toned(Tone::name, options.params.output + "/report.html", stderr)));
     }

@@ -13,8 +13,8 @@
 #include <fmt/ranges.h>
 
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 #include "commands/commands.hpp"
 #include "help/help.hpp"
@@ -238,7 +238,7 @@ std::string command_page(CommandHelp const& command, CommandHelp const& program)
     return out + examples(command) + see_also(name + "1", program);
 }
 
-std::string key_text(pipeline::KeyHelp const& key) {
+std::string key_text(recipe::KeyHelp const& key) {
     std::string const out = fmt::format("{}.\n{}: {}.", key.meaning, key.type, key.range);
     std::string const standard = key.standard.empty() ? "" : fmt::format("\nDefault: {}.", key.standard);
     std::string const used_by = key.used_by.empty() ? "" : fmt::format("\nUsed with {}.", key.used_by);
@@ -260,7 +260,7 @@ std::string recipe_page(CommandHelp const& program) {
             "recipe.toml that make writes holds every key that was used, with its value, and no other.");
     out += section("KEYS");
     std::string at;
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+    for (recipe::KeyHelp const& key : recipe::recipe_keys()) {
         auto const dot = key.path.rfind('.');
         std::string const name = dot == std::string::npos ? key.path : key.path.substr(dot + 1);
         std::string const its_section = dot == std::string::npos ? "" : key.path.substr(0, dot);
@@ -272,7 +272,7 @@ std::string recipe_page(CommandHelp const& program) {
                       key_text(key));
     }
     out += section("EXAMPLES") + paragraph("The recipe that thalweg make uses without one:") + ".PP\n" +
-           verbatim(pipeline::write_recipe(pipeline::default_recipe()));
+           verbatim(recipe::write_recipe(recipe::default_recipe()));
     return out + see_also("thalweg-recipe5", program);
 }
 

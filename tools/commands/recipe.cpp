@@ -12,7 +12,7 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/pipeline/commands/make.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 #include "commands/commands.hpp"
 #include "commands/options.hpp"
@@ -21,7 +21,7 @@ namespace thalweg::tools {
 
 namespace {
 
-using pipeline::KeyHelp;
+using recipe::KeyHelp;
 
 std::string section_of(std::string const& path) {
     auto const dot = path.rfind('.');
@@ -47,7 +47,7 @@ template <class Wanted> std::vector<KeyHelp> keys_where(std::vector<KeyHelp> con
 /// The keys that a word selects: all for "", one for its path, all of a section for the section's name (with or without
 /// brackets), or all with that name in any section. Throws BadParameter with a suggestion for another word.
 std::vector<KeyHelp> keys_named(std::string const& word) {
-    std::vector<KeyHelp> const all = pipeline::recipe_keys();
+    std::vector<KeyHelp> const all = recipe::recipe_keys();
     std::string const name = without_brackets(word);
     if (name.empty()) {
         return all;
@@ -157,9 +157,9 @@ Command add_recipe(CLI::App& app, Session& session) {
                "  thalweg recipe --for samples/walker_nhdplus.gpkg > walker.toml\n");
     return [dump, rivers, source_crs, key, &session] {
         if (!rivers->empty()) {
-            fmt::print("{}", pipeline::write_recipe(pipeline::recipe_for(*rivers, *source_crs, session.run)));
+            fmt::print("{}", recipe::write_recipe(pipeline::recipe_for(*rivers, *source_crs, session.run)));
         } else if (*dump) {
-            fmt::print("{}", pipeline::write_recipe(pipeline::default_recipe()));
+            fmt::print("{}", recipe::write_recipe(recipe::default_recipe()));
         } else {
             print_keys(*key, session);
         }

@@ -97,11 +97,11 @@ void print_relief(pipeline::TerrainRelief const& found) {
     }
 }
 
-void print_recipe(pipeline::DemRecipe const& made) {
+void print_recipe(recipe::DemRecipe const& made) {
     for (std::string const& note : made.notes) {
         fmt::print("# {}\n", printable(note));
     }
-    fmt::print("{}", pipeline::write_recipe(made.recipe));
+    fmt::print("{}", recipe::write_recipe(made.recipe));
 }
 
 int stats(pipeline::StatsParams const& params, Session const& session) {

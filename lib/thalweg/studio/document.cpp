@@ -12,12 +12,12 @@
 
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/studio/internal/journal.hpp>
 
 namespace thalweg::studio {
 
-using pipeline::Recipe;
+using recipe::Recipe;
 
 bool lies_in_inputs(std::string const& name) {
     std::filesystem::path const path(name);
@@ -30,7 +30,7 @@ namespace {
 constexpr char const* file_name = "recipe.toml";
 
 void require_own_files(Recipe const& recipe) {
-    for (std::string const& name : pipeline::file_names(recipe)) {
+    for (std::string const& name : recipe::file_names(recipe)) {
         refuse_if<BadParameter>(
             !lies_in_inputs(name),
             "studio.apply: {}: the files of a document lie below inputs/: take it into the document", name);
@@ -40,9 +40,9 @@ void require_own_files(Recipe const& recipe) {
 /// The recipe as a file says it, without keys that have no effect: those that others need to have one go first.
 std::string settled(Recipe const& recipe) {
     constexpr int most_rounds = 16;
-    std::string toml = pipeline::write_recipe(recipe);
+    std::string toml = recipe::write_recipe(recipe);
     for (int round = 0; round < most_rounds; ++round) {
-        std::string again = pipeline::write_recipe(pipeline::read_recipe(toml, file_name));
+        std::string again = recipe::write_recipe(recipe::read_recipe(toml, file_name));
         if (again == toml) {
             break;
         }
@@ -123,7 +123,7 @@ public:
 
     void operator()(SetKey const& step) {
         try {
-            pipeline::set_key(recipe_, step.key, step.value);
+            recipe::set_key(recipe_, step.key, step.value);
         } catch (BadParameter const& fault) {
             throw BadParameter(fmt::format("studio.apply: {}: {}", step.key, fault.what()));
         }
@@ -131,7 +131,7 @@ public:
         is_settled_ = false;
     }
     void operator()(UnsetKey const& step) {
-        pipeline::unset_key(recipe_, step.key);
+        recipe::unset_key(recipe_, step.key);
         bool const renumbers = step.key.starts_with("patch.");
         std::erase_if(set_, [&](std::string const& key) {
             return key == step.key || key.starts_with(step.key + ".") || (renumbers && key.starts_with("patch."));
@@ -144,14 +144,14 @@ public:
         (*this)(SetKey{step.key, step.file});
     }
     void operator()(ReplaceRecipe const& step) {
-        recipe_ = pipeline::read_recipe(step.toml, file_name);
-        pipeline::check_recipe(recipe_);
+        recipe_ = recipe::read_recipe(step.toml, file_name);
+        recipe::check_recipe(recipe_);
         set_.clear();
         is_settled_ = false;
     }
     void operator()(ReplaceLines const& step) {
         toml_ = with_lines(toml(), step);
-        recipe_ = pipeline::read_recipe(toml_, file_name);
+        recipe_ = recipe::read_recipe(toml_, file_name);
         set_.clear();
         is_settled_ = true;
     }
@@ -160,11 +160,11 @@ public:
 
     Document document() const {
         Document document{toml(), {}, 0};
-        document.recipe = pipeline::read_recipe(document.toml, file_name);
+        document.recipe = recipe::read_recipe(document.toml, file_name);
         for (std::string const& key : set_) {
-            pipeline::require_effect(document.recipe, key);
+            recipe::require_effect(document.recipe, key);
         }
-        pipeline::check_recipe(document.recipe);
+        recipe::check_recipe(document.recipe);
         require_own_files(document.recipe);
         return document;
     }

@@ -7,14 +7,14 @@
 #include <variant>
 #include <vector>
 
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::studio {
 
 /// What is edited: a recipe that check_recipe() accepts and whose files all lie below inputs/ of its folder.
 struct Document {
     std::string toml;          ///< the recipe as recipe.toml holds it
-    pipeline::Recipe recipe;   ///< the same, read
+    recipe::Recipe recipe;     ///< the same, read
     std::int64_t revision = 0; ///< grows by 1 with every edit, undo and redo
 };
 

@@ -14,8 +14,8 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/plan/make_input.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/make_input.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/studio/drawing_files.hpp>
 #include <thalweg/studio/internal/journal.hpp>
 
@@ -36,13 +36,13 @@ constexpr std::int64_t largest_history = 1 << 30;
 }
 
 /// A recipe as the user's words or a folder of make give it.
-pipeline::Recipe first_recipe(std::string const& input) {
+recipe::Recipe first_recipe(std::string const& input) {
     if (input.empty()) {
-        return pipeline::default_recipe();
+        return recipe::default_recipe();
     }
     std::string const made = (fs::path(input) / recipe_name).string();
     std::error_code ignored;
-    return pipeline::recipe_from(fs::is_regular_file(made, ignored) ? made : input);
+    return recipe::recipe_from(fs::is_regular_file(made, ignored) ? made : input);
 }
 
 /// Locks a document for this process. Throws BadInput where another has it.
@@ -76,7 +76,7 @@ void forget_after(std::string const& path, std::int64_t bytes) {
 void require_no_way_out(std::string const& folder, Document const& document) {
     std::error_code error;
     std::string const inputs = (fs::canonical(folder, error) / "inputs").string() + "/";
-    for (std::string const& name : pipeline::file_names(document.recipe)) {
+    for (std::string const& name : recipe::file_names(document.recipe)) {
         fs::path const place = fs::canonical(fs::path(folder) / name, error);
         refuse_if<BadInput>(!error && !place.string().starts_with(inputs),
                             "studio.document_folder: {} of {} leads out of inputs/ by a link: replace it by a copy",
@@ -102,13 +102,13 @@ std::string free_name(fs::path const& path) {
 
 void new_document(std::string const& folder, std::string const& input, Run const& run) {
     io::OutputFolder out(folder);
-    pipeline::Recipe recipe = first_recipe(input);
-    pipeline::UserFiles const files(recipe, run);
+    recipe::Recipe recipe = first_recipe(input);
+    recipe::UserFiles const files(recipe, run);
     if (recipe.grid.cell_m == 0.0) { // to be chosen from rivers, which no recipe file can say, or from a DEM
-        recipe = pipeline::settled_recipe(recipe, run);
+        recipe = recipe::settled_recipe(recipe, run);
     }
-    pipeline::check_recipe(recipe);
-    Document const document = document_of(pipeline::write_recipe(pipeline::keep_inputs(recipe, out)));
+    recipe::check_recipe(recipe);
+    Document const document = document_of(recipe::write_recipe(recipe::keep_inputs(recipe, out)));
     io::write_text(out.path(recipe_name), document.toml);
     io::write_text(out.path(history_name), line_of_beginning(document.toml));
     out.commit();
@@ -117,7 +117,7 @@ void new_document(std::string const& folder, std::string const& input, Run const
 void new_sheet(std::string const& folder) {
     Grid const grid{512, 512, 30.0, 500000.0, 5000000.0, "EPSG:32631"};
     io::OutputFolder out(folder);
-    Document const usual = document_of(pipeline::write_recipe(pipeline::default_recipe()));
+    Document const usual = document_of(recipe::write_recipe(recipe::default_recipe()));
     Edit const edit = empty_sheet(usual, grid,
                                   [&](std::string const& key, std::string const& name,
                                       std::function<void(std::string const& path)> const& write) {
@@ -290,7 +290,7 @@ std::string DocumentFolder::free_input() const {
 TakeInput DocumentFolder::take(std::string const& key, std::string const& path, Run const& run) const {
     std::string const below = free_input();
     io::OutputFolder out((fs::path(folder_) / below).string());
-    std::string const name = pipeline::keep_user_file(path, out, run);
+    std::string const name = recipe::keep_user_file(path, out, run);
     out.commit();
     return {key, fmt::format("{}/{}", below, name)};
 }

@@ -24,7 +24,7 @@
 namespace thalweg::studio {
 namespace {
 
-using pipeline::Recipe;
+using recipe::Recipe;
 
 constexpr std::array own_columns{"rosgen", "lambda", "natural", "fid"};
 constexpr char const* coastline = "coastline";
@@ -107,8 +107,8 @@ void join_outlets(std::vector<DrawnRiver>& rivers, double near_m) {
 }
 
 void read_rivers_into(Drawing& drawing, Recipe const& recipe, Run const& run) {
-    pipeline::NetworkRecipe const& wanted = *recipe.network;
-    drawing.has_side_streams = wanted.source == pipeline::Source::tokunaga;
+    recipe::NetworkRecipe const& wanted = *recipe.network;
+    drawing.has_side_streams = wanted.source == recipe::Source::tokunaga;
     std::string const& name = drawing.has_side_streams ? wanted.tokunaga.strokes : wanted.lines.path;
     io::ReadRiversParams params{.path = file_of(recipe, name), .crs = drawing.grid.crs};
     params.layer = drawing.has_side_streams ? wanted.tokunaga.layer : wanted.lines.layer;
@@ -175,14 +175,14 @@ bool is_drawn(Recipe const& recipe) {
     if (!recipe.network) {
         return false;
     }
-    pipeline::NetworkRecipe const& wanted = *recipe.network;
-    return (wanted.source == pipeline::Source::tokunaga && !wanted.tokunaga.strokes.empty()) ||
-           (wanted.source == pipeline::Source::lines &&
+    recipe::NetworkRecipe const& wanted = *recipe.network;
+    return (wanted.source == recipe::Source::tokunaga && !wanted.tokunaga.strokes.empty()) ||
+           (wanted.source == recipe::Source::lines &&
             std::filesystem::path(wanted.lines.path).filename() == drawing_name);
 }
 
 std::optional<Grid> grid_of(Recipe const& recipe) {
-    pipeline::GridRecipe const& wanted = recipe.grid;
+    recipe::GridRecipe const& wanted = recipe.grid;
     if (wanted.width <= 0 || wanted.height <= 0 || !wanted.origin || !(wanted.cell_m > 0.0) || wanted.crs.empty()) {
         return std::nullopt;
     }
@@ -388,7 +388,7 @@ void write_ridges(Drawing const& drawing, std::string const& path) {
 /// Unsets those of some keys that a recipe has.
 template <std::size_t Count>
 void unset(std::vector<Step>& steps, Recipe const& recipe, std::array<char const*, Count> const& paths) {
-    for (pipeline::KeyValue const& key : pipeline::key_values(recipe)) {
+    for (recipe::KeyValue const& key : recipe::key_values(recipe)) {
         if (key.text && std::ranges::find(paths, key.path) != paths.end()) {
             steps.emplace_back(UnsetKey{key.path});
         }
@@ -407,7 +407,7 @@ void turn_into_lines(std::vector<Step>& steps, Recipe const& recipe) {
                                                         "network.tokunaga.strokes"};
     static constexpr std::array of_files{"file", "soft", "fixed", "ends"};
     unset(steps, recipe, passing);
-    for (pipeline::KeyValue const& key : pipeline::key_values(recipe)) {
+    for (recipe::KeyValue const& key : recipe::key_values(recipe)) {
         if (key.path == "network.heights" && key.text && std::ranges::find(of_files, *key.text) != of_files.end()) {
             steps.emplace_back(UnsetKey{key.path});
         }
@@ -463,8 +463,8 @@ void set_rivers(std::vector<Step>& steps, Document const& document, Drawing cons
 }
 
 void drop_key(std::vector<Step>& steps, Document const& document, std::string const& key) {
-    auto const keys = pipeline::key_values(document.recipe);
-    auto const now = std::ranges::find(keys, key, &pipeline::KeyValue::path);
+    auto const keys = recipe::key_values(document.recipe);
+    auto const now = std::ranges::find(keys, key, &recipe::KeyValue::path);
     if (now != keys.end() && now->text) {
         steps.emplace_back(UnsetKey{key});
     }
@@ -513,7 +513,7 @@ void set_ridges(std::vector<Step>& steps, Document const& document, Drawing cons
 
 /// Takes [skeleton], which the first pin or ridge brought, out with the last one, where it says nothing else.
 void drop_skeleton(std::vector<Step>& steps, Document const& document, Drawing const& drawing) {
-    std::optional<pipeline::SkeletonRecipe> const& now = document.recipe.skeleton;
+    std::optional<recipe::SkeletonRecipe> const& now = document.recipe.skeleton;
     bool const has_files = now && (!now->points.empty() || !now->ridge_lines.empty());
     if (!has_files || !drawing.pins.empty() || !drawing.ridges.empty()) {
         return;
@@ -521,10 +521,10 @@ void drop_skeleton(std::vector<Step>& steps, Document const& document, Drawing c
     auto const without_files = [](Recipe recipe) {
         recipe.skeleton->points.clear();
         recipe.skeleton->ridge_lines.clear();
-        return pipeline::write_recipe(recipe);
+        return recipe::write_recipe(recipe);
     };
     Recipe usual = document.recipe;
-    usual.skeleton = pipeline::SkeletonRecipe{};
+    usual.skeleton = recipe::SkeletonRecipe{};
     if (without_files(document.recipe) == without_files(usual)) {
         steps.emplace_back(UnsetKey{"skeleton"});
     }

@@ -7,7 +7,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe.hpp>
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/drawing.hpp>
 
@@ -17,17 +17,17 @@ namespace thalweg::studio {
 inline constexpr char const* drawing_name = "drawing.gpkg";
 
 /// Whether the rivers of a recipe are drawn lines: network.lines.path names a drawing, or there are strokes.
-bool is_drawn(pipeline::Recipe const& recipe);
+bool is_drawn(recipe::Recipe const& recipe);
 
 /// The grid that a recipe says in full, with corner and CRS.
-std::optional<Grid> grid_of(pipeline::Recipe const& recipe);
+std::optional<Grid> grid_of(recipe::Recipe const& recipe);
 
 /// Reads what is drawn.
 /// \param recipe its files are read
 /// \param grid of the recipe's terrain
 /// \return rivers and coasts where is_drawn(), else none; lakes; masks that are polygons; pins and ridges
 /// \throws Error as io::read_rivers(), io::read_polygons() and io::read_points()
-Drawing read_drawing(pipeline::Recipe const& recipe, Grid const& grid, Run const& run = {});
+Drawing read_drawing(recipe::Recipe const& recipe, Grid const& grid, Run const& run = {});
 
 /// The rivers of a terrain as if they were drawn, an arc a river, and the coasts of its land.
 /// \param attributes of the file that they come from, by feature

@@ -7,7 +7,7 @@
 #include <utility>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
 
 namespace thalweg::studio {
 namespace {
@@ -126,7 +126,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
     run.kept = &kept_;
     try {
         run.check();
-        std::string const made_from = "made\n" + job.toml + pipeline::state_of_files(job.recipe);
+        std::string const made_from = "made\n" + job.toml + recipe::state_of_files(job.recipe);
         auto made = std::static_pointer_cast<pipeline::Made const>(kept_.find(made_from));
         if (made) {
             findings = pipeline::findings_of(*made);
@@ -140,7 +140,7 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
             }
         } else {
             auto const fresh = std::make_shared<pipeline::Made>();
-            fresh->plan = pipeline::resolve(job.recipe, run);
+            fresh->plan = recipe::resolve(job.recipe, run);
             fresh->planform = pipeline::make_planform(fresh->plan, run);
             tell(watcher_.found, job, findings);
             if (job.recipe.network) {

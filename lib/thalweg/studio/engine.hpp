@@ -19,15 +19,15 @@
 #include <thalweg/core/run/kept.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::studio {
 
 /// A recipe to be made.
 struct Job {
     std::int64_t revision = 0; ///< of the document
-    pipeline::Recipe recipe = {};
+    recipe::Recipe recipe = {};
     std::string toml = {};   ///< the recipe as text
     std::int64_t number = 0; ///< from 1, by the engine: of two jobs the later has the larger one
     std::chrono::steady_clock::time_point asked = {}; ///< by the engine
@@ -47,7 +47,7 @@ struct Watcher {
     /// \param findings all of the job so far, again after each stage that may find something
     std::function<void(Job const&, std::vector<Finding> const& findings)> found = {};
     /// Before their land. \param run of the job
-    std::function<void(Job const&, pipeline::Plan const&, pipeline::Planform const&, Run const& run)> rivers = {};
+    std::function<void(Job const&, recipe::Plan const&, pipeline::Planform const&, Run const& run)> rivers = {};
     std::function<void(Job const&, Heights const&)> heights = {};
     std::function<void(Job const&, pipeline::Made const&)> made = {}; ///< not yet measured
     /// The end of a job.

@@ -16,8 +16,8 @@
 #include <thalweg/core/bounded_json.hpp>
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::studio {
 namespace {
@@ -299,7 +299,7 @@ std::int64_t id_of(std::string_view text) {
 
 std::string page_parameters(std::string const& folder) {
     ordered_json keys = ordered_json::array();
-    for (pipeline::KeyHelp const& key : pipeline::recipe_keys()) {
+    for (recipe::KeyHelp const& key : recipe::recipe_keys()) {
         keys.push_back({{"path", key.path},
                         {"type", key.type},
                         {"range", key.range},
@@ -318,7 +318,7 @@ std::string page_parameters(std::string const& folder) {
 std::string document_message(Document const& document, History const& history, std::string const& command) {
     ordered_json values = ordered_json::object();
     std::vector<std::string> sections;
-    for (pipeline::KeyValue const& value : pipeline::key_values(document.recipe)) {
+    for (recipe::KeyValue const& value : recipe::key_values(document.recipe)) {
         values[value.path] = value.text ? ordered_json(*value.text) : ordered_json(nullptr);
         std::string const section = value.path.substr(0, value.path.rfind('.'));
         if (section != value.path && (sections.empty() || sections.back() != section)) {

@@ -60,11 +60,11 @@ struct ShownRivers {
     std::int64_t told = 0;    ///< number of the job whose rivers the pages have
 };
 
-bool has_random_points(pipeline::Recipe const& recipe) {
+bool has_random_points(recipe::Recipe const& recipe) {
     return recipe.skeleton && recipe.skeleton->scatter > 0;
 }
 
-std::string mask_of(pipeline::Recipe const& recipe) {
+std::string mask_of(recipe::Recipe const& recipe) {
     return recipe.surface ? recipe.surface->mask : "";
 }
 
@@ -98,7 +98,7 @@ private:
 
     std::optional<serve::Answer> answer(std::string const& path) {
         if (path.empty()) {
-            pipeline::LivePage page = pipeline::live_page(pipeline::title_of(folder_.document().recipe),
+            pipeline::LivePage page = pipeline::live_page(recipe::title_of(folder_.document().recipe),
                                                           page_parameters(fs::absolute(params_.folder).string()));
             return serve::Answer{std::move(page.html), "text/html; charset=utf-8", std::move(page.policy)};
         }
@@ -240,12 +240,12 @@ private:
 
     /// What the names of files say of a drawing.
     std::string files_of_drawing() const {
-        pipeline::Recipe const& recipe = folder_.document().recipe;
+        recipe::Recipe const& recipe = folder_.document().recipe;
         if (!is_drawn(recipe) || !grid_of(recipe)) {
             return "";
         }
         Grid const grid = *grid_of(recipe);
-        auto const skeleton = recipe.skeleton.value_or(pipeline::SkeletonRecipe{});
+        auto const skeleton = recipe.skeleton.value_or(recipe::SkeletonRecipe{});
         return fmt::format(
             "{}\n{}\n{}\n{}\n{}\n{}\n{} {} {} {} {} {}", recipe.network->lines.path, recipe.network->tokunaga.strokes,
             recipe.surface ? recipe.surface->equilibrium.lakes : std::string(), mask_of(recipe), skeleton.points,
@@ -257,7 +257,7 @@ private:
         if (drawing_) {
             return *drawing_;
         }
-        pipeline::Recipe const& recipe = folder_.document().recipe;
+        recipe::Recipe const& recipe = folder_.document().recipe;
         ShownRivers rivers;
         {
             std::scoped_lock const lock(guard_);
@@ -270,7 +270,7 @@ private:
         return drawing_shown(recipe, rivers);
     }
 
-    static Drawing drawing_shown(pipeline::Recipe const& recipe, ShownRivers const& rivers) {
+    static Drawing drawing_shown(recipe::Recipe const& recipe, ShownRivers const& rivers) {
         Drawing drawing = read_drawing(recipe, rivers.grid);
         if (!is_drawn(recipe)) {
             Drawing shown = drawing_of(rivers.grid, rivers.network, rivers.land, rivers.attributes);
@@ -297,7 +297,7 @@ private:
             drawing_.reset();
             drawing_files_ = std::move(files);
         }
-        pipeline::Recipe const& recipe = folder_.document().recipe;
+        recipe::Recipe const& recipe = folder_.document().recipe;
         if (!drawing_ && !drawing_files_.empty()) {
             try {
                 drawing_ = read_drawing(recipe, *grid_of(recipe));
@@ -393,7 +393,7 @@ private:
     Watcher watcher() {
         return {.at = [this](Job const& job, std::string_view stage, double share) { tell_share(job, stage, share); },
                 .found = [this](Job const& job, std::vector<Finding> const& found) { show_findings(job, found); },
-                .rivers = [this](Job const& job, pipeline::Plan const& plan, pipeline::Planform const& planform,
+                .rivers = [this](Job const& job, recipe::Plan const& plan, pipeline::Planform const& planform,
                                  Run const& run) { show_rivers(job, plan, planform, run); },
                 .heights = [this](Job const& job, Heights const& heights) { show_heights(job, heights); },
                 .made = [this](Job const& job, pipeline::Made const& made) { show_scene(job, "land", made); },
@@ -431,7 +431,7 @@ private:
         }
     }
 
-    void show_rivers(Job const& job, pipeline::Plan const& plan, pipeline::Planform const& planform, Run const& run) {
+    void show_rivers(Job const& job, recipe::Plan const& plan, pipeline::Planform const& planform, Run const& run) {
         constexpr std::int64_t side = 256;
         std::string scene = scene_message(
             job, "rivers", pipeline::live_scene(pipeline::rivers_to_be(plan, planform), job.toml, command(), run));

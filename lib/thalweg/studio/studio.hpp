@@ -21,7 +21,7 @@ struct StudioParams {
 
 /// The document that a user means.
 /// \param input the folder of a document; or what new_document() begins with; "": the folder, or ./studio, where it is
-/// a document, else pipeline::default_recipe()
+/// a document, else recipe::default_recipe()
 /// \param folder where a new document begins; "": ./studio, ./studio-2, … whichever is free
 /// \param is_blank a new document is an empty sheet, and no input is given
 /// \return the folder of a document, which is there now

@@ -40,7 +40,7 @@ TEST(Error, TheFunctionIsKeptApart) {
 }
 
 TEST(Error, AFileNamedLikeAFunctionStays) {
-    EXPECT_EQ(parts("pipeline.read_recipe: network.toml: line 1: x\nnetwork.toml: line 2: y").what,
+    EXPECT_EQ(parts("recipe.read_recipe: network.toml: line 1: x\nnetwork.toml: line 2: y").what,
               "network.toml: line 1: x\nnetwork.toml: line 2: y");
 }
 

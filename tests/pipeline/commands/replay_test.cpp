@@ -17,6 +17,7 @@
 namespace replay_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -14,6 +14,7 @@
 namespace ensemble_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

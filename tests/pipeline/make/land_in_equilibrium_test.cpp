@@ -22,7 +22,7 @@
 #include <thalweg/measure/relief/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/make_input.hpp>
+#include <thalweg/recipe/make_input.hpp>
 
 #include "ascii_grid.hpp"
 #include "made.hpp"
@@ -30,6 +30,7 @@
 namespace land_in_equilibrium_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -22,6 +22,7 @@
 namespace land_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -18,6 +18,7 @@
 namespace laws_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

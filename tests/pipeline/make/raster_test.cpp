@@ -18,14 +18,15 @@
 
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/plan/make_input.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/make_input.hpp>
 
 #include "made.hpp"
 
 namespace raster_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -369,7 +369,7 @@ struct Logged {
 };
 
 Logged make_lines(ScratchFolder const& folder, std::string const& keys = "") {
-    pipeline::Recipe recipe = pipeline::read_recipe(
+    recipe::Recipe recipe = recipe::read_recipe(
         "[grid]\ncell = 60\n[network]\nsource = \"lines\"\n[network.lines]\npath = \"rivers.geojson\"\n" + keys,
         "test");
     recipe.folder = folder.path().string();

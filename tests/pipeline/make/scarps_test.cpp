@@ -14,6 +14,7 @@
 namespace scarps_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

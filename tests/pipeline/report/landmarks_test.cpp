@@ -55,10 +55,10 @@ TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
 }
 
 TEST(Landmarks, ARecipeNamesTheSeaOfTerrainInEquilibrium) {
-    Recipe recipe;
+    recipe::Recipe recipe;
     EXPECT_FALSE(sea_of(recipe).has_value());
     recipe.surface.emplace();
-    recipe.surface->method = Method::equilibrium;
+    recipe.surface->method = recipe::Method::equilibrium;
     for (auto const& [edge, has_sea, is_around] : {std::tuple{surface::Edge::open, false, false},
                                                    {surface::Edge::mainland, true, false},
                                                    {surface::Edge::coast, true, true}}) {
@@ -66,7 +66,7 @@ TEST(Landmarks, ARecipeNamesTheSeaOfTerrainInEquilibrium) {
         EXPECT_EQ(sea_of(recipe).has_value(), has_sea);
         EXPECT_EQ(sea_of(recipe).value_or(Sea{}).is_around, is_around);
     }
-    recipe.surface->method = Method::dilate;
+    recipe.surface->method = recipe::Method::dilate;
     EXPECT_FALSE(sea_of(recipe).has_value());
 }
 

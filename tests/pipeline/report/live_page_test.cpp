@@ -20,6 +20,7 @@
 namespace live_page_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 
 namespace {

@@ -29,6 +29,7 @@
 namespace page_test {
 
 using namespace thalweg;
+using namespace thalweg::recipe;
 using namespace thalweg::pipeline;
 using nlohmann::json;
 

@@ -20,7 +20,7 @@
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
+#include <thalweg/recipe/frame.hpp>
 #include <thalweg/surface/diffusion/internal/diffusion.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 
@@ -58,7 +58,7 @@ Skeleton skeleton_of(Valley const& valley) {
 /// A valley of the first paper: the longest branch of a cluster grown at random, raised upstream.
 Valley grown() {
     network::Branch const branch = network::pick_branch(network::grow_dla({.particles = 8000}));
-    pipeline::FramedBranch const framed = pipeline::frame_branch(branch, {});
+    recipe::FramedBranch const framed = recipe::frame_branch(branch, {});
     StreamNetwork const traced = network::trace(network::thin(framed.mask), {framed.mouth});
     double const cell_m = framed.mask.grid().cell_m;
     StreamNetwork const pruned = network::prune(traced, {.length_m = 8 * cell_m, .cell_m = cell_m}).network;

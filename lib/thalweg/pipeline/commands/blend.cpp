@@ -16,8 +16,8 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -38,7 +38,7 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
         content.path);
     RiverLines const rivers = io::read_rivers({content.path, content.layer, "rosgen", {}, grid.crs}, run);
     io::same_crs(rivers.crs, grid.crs, "pipeline.run_blend: " + content.path, "the target");
-    Mask kept = cells_under(network::clip_lines(rivers, grid), grid, content.path);
+    Mask kept = recipe::cells_under(network::clip_lines(rivers, grid), grid, content.path);
     refuse_if<BadInput>(std::ranges::find(kept.values(), 1) == kept.values().end(),
                         "pipeline.run_blend: no line of {} crosses the target, which reaches from ({:.3f}, {:.3f}) to "
                         "({:.3f}, {:.3f})",

@@ -20,10 +20,10 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/commands/internal/repair_network.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/check_recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -222,7 +222,7 @@ RiverRasters rasters_beside(std::string const& network) {
     }
     RiverRasters rasters{beside("network.tif"), beside("lakes.tif"), false};
     try {
-        rasters.waive = replaces_rivers(read_recipe(io::read_text(recipe, 2 << 20), recipe));
+        rasters.waive = recipe::replaces_rivers(recipe::read_recipe(io::read_text(recipe, 2 << 20), recipe));
     } catch (Error const&) { // not our recipe: every cell counts
         return {};
     }
@@ -321,7 +321,7 @@ CheckResult run_check(CheckParams const& params, Run const& run) {
     if (fix) {
         StageLog stage_log(run);
         Raster<float> const dem =
-            read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.reading, stage_log, run);
+            recipe::read_dem_in(params.dem, network.crs, "pipeline.run_check: --dem", params.reading, stage_log, run);
         append(checked.notes, stage_log.take_findings());
         RepairedNetwork const mended =
             repair_network(network, topology, {params.near_m, dem.cells() > 0 ? &dem : nullptr, params.main}, run);

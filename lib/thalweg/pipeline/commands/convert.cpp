@@ -27,8 +27,8 @@
 #include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/frame.hpp>
 
 namespace thalweg::pipeline {
 
@@ -135,9 +135,9 @@ Grid grid_of(StreamNetwork const& plan, ConvertParams const& params, Raster<floa
         }
         lines.lines.push_back(std::move(line));
     }
-    GridRecipe wanted;
+    recipe::GridRecipe wanted;
     wanted.cell_m = params.cell_m;
-    return frame_lines(lines, wanted);
+    return recipe::frame_lines(lines, wanted);
 }
 
 /// The stem common to the files of one network: NAME of NAME_arcs.dbf.

@@ -14,7 +14,7 @@
 #include <thalweg/io/mesh/tin.hpp>
 #include <thalweg/io/raster/polygons.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 
@@ -38,7 +38,7 @@ DeformedDem deform_dem(DeformParams const& params, Run const& run) {
     run.report(read.findings);
     Raster<float> const& target = read.dem;
     Grid const& grid = target.grid();
-    Mask const region = read_part(params.mask, grid, run);
+    Mask const region = recipe::read_part(params.mask, grid, run);
     std::vector<blend::Handle> handles;
     for (Vec3 const& h : params.handles) {
         Cell const cell = grid.cell_of({h.x, h.y});

@@ -14,8 +14,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/commands/internal/make.hpp>
 #include <thalweg/pipeline/ensemble/ensemble.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
@@ -72,7 +72,7 @@ void require_possible(Ensemble const& ensemble) {
     std::exception_ptr first;
     for (std::int64_t i = 0; i < std::min(ensemble.members, most_tried); ++i) {
         try {
-            check_recipe(recipe_of(ensemble, member_of(ensemble, i)));
+            recipe::check_recipe(recipe_of(ensemble, member_of(ensemble, i)));
             return;
         } catch (Error const&) {
             first = first ? first : std::current_exception();
@@ -100,17 +100,17 @@ EnsembleOrder ensemble_asked(EnsembleParams const& params) {
             "--vary {}: the key varies twice", text);
         ensemble.vary.push_back(std::move(vary));
     }
-    OutputRecipe& output = ensemble.recipe.output;
+    recipe::OutputRecipe& output = ensemble.recipe.output;
     if (!output.files) {
-        output.files = {OutputFiles::dem, OutputFiles::network};
+        output.files = {recipe::OutputFiles::dem, recipe::OutputFiles::network};
     }
     asked.files.members_a_shard = params.members_a_shard;
     asked.files.folders = params.members_a_shard == 0 && !only_table;
     refuse_if<BadParameter>(params.members_a_shard > 0 &&
                                 (only_table || std::ranges::any_of(*output.files,
-                                                                   [](OutputFiles file) {
-                                                                       return file != OutputFiles::dem &&
-                                                                              file != OutputFiles::network;
+                                                                   [](recipe::OutputFiles file) {
+                                                                       return file != recipe::OutputFiles::dem &&
+                                                                              file != recipe::OutputFiles::network;
                                                                    })),
                             "--shards: a tar file holds dem and network of each member, no other files");
     require_possible(ensemble);
@@ -119,7 +119,7 @@ EnsembleOrder ensemble_asked(EnsembleParams const& params) {
 
 EnsembleResult of_first_rank(EnsembleParams const& params, Ranks* ranks, Run const& run) {
     EnsembleOrder asked;
-    std::optional<UserFiles> files;
+    std::optional<recipe::UserFiles> files;
     try {
         asked = ensemble_asked(params);
         files.emplace(asked.ensemble.recipe, run);
@@ -158,11 +158,11 @@ EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run c
     return ranks.rank() == 0 ? of_first_rank(params, &ranks, own) : of_other_rank(ranks, params, own);
 }
 
-Forecast forecast_ensemble(EnsembleParams const& params, Run const& run) {
+recipe::Forecast forecast_ensemble(EnsembleParams const& params, Run const& run) {
     EnsembleOrder asked = ensemble_asked(params);
     Ensemble& ensemble = asked.ensemble;
-    UserFiles const files(ensemble.recipe, run);
-    Forecast out = forecast(recipe_of(ensemble, member_of(ensemble, 0)), run);
+    recipe::UserFiles const files(ensemble.recipe, run);
+    recipe::Forecast out = recipe::forecast(recipe_of(ensemble, member_of(ensemble, 0)), run);
     auto const workers = std::min<std::int64_t>(params.members, threads_of(run));
     out.memory_bytes *= workers;
     out.seconds *= static_cast<double>(params.members);

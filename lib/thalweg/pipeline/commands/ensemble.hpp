@@ -11,7 +11,7 @@
 #include <thalweg/pipeline/commands/make.hpp>
 #include <thalweg/pipeline/ensemble/make_members.hpp>
 #include <thalweg/pipeline/ensemble/ranks.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -46,6 +46,6 @@ EnsembleResult run_ensemble_on(Ranks& ranks, EnsembleParams const& params, Run c
 /// Runs `thalweg make --ensemble --dry-run`: plans member 0, and writes nothing.
 /// \return memory of all workers, time of all members on one core
 /// \throws Error as run_ensemble()
-Forecast forecast_ensemble(EnsembleParams const& params, Run const& run = {});
+recipe::Forecast forecast_ensemble(EnsembleParams const& params, Run const& run = {});
 
 } // namespace thalweg::pipeline

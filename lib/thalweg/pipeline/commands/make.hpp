@@ -9,8 +9,8 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -36,7 +36,7 @@ Made run_make(MakeParams const& params, Run const& run = {});
 /// Runs `thalweg make --dry-run`: plans the same work, and writes nothing.
 /// \return the forecast
 /// \throws Error as run_make()
-Forecast forecast_make(MakeParams const& params, Run const& run = {});
+recipe::Forecast forecast_make(MakeParams const& params, Run const& run = {});
 
 /// Options of run_rebuild().
 struct RebuildFromParams : MakeParams {
@@ -56,13 +56,13 @@ Made run_rebuild(RebuildFromParams const& params, Run const& run = {});
 /// Runs `thalweg rebuild --dry-run`: plans the same work, and writes nothing.
 /// \return the forecast
 /// \throws Error as run_rebuild()
-Forecast forecast_rebuild(RebuildFromParams const& params, Run const& run = {});
+recipe::Forecast forecast_rebuild(RebuildFromParams const& params, Run const& run = {});
 
 /// Runs `thalweg recipe --for`: settles the recipe that make uses for rivers or a DEM.
 /// \param rivers as for data_recipe()
 /// \param source_crs of rivers whose file has no CRS; "": none
 /// \return as settled_recipe()
 /// \throws BadInput as settled_recipe(), and for a path that is not UTF-8
-Recipe recipe_for(std::string const& rivers, std::string const& source_crs = {}, Run const& run = {});
+recipe::Recipe recipe_for(std::string const& rivers, std::string const& source_crs = {}, Run const& run = {});
 
 } // namespace thalweg::pipeline

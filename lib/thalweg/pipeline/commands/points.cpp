@@ -13,7 +13,7 @@
 #include <thalweg/io/network/read_rivers.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 
@@ -32,7 +32,7 @@ Mask ridges_of(std::string const& path, Grid const& grid, Run const& run) {
     if (!io::has_layer(path, "ridges")) {
         return Mask(grid);
     }
-    return cells_under(io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run), grid, path);
+    return recipe::cells_under(io::read_rivers({.path = path, .layer = "ridges", .crs = grid.crs}, run), grid, path);
 }
 
 // Takes the terrain by value: a large one should not be copied.
@@ -62,7 +62,7 @@ PointsResult run_points(PointsParams const& params, Run const& run) {
     io::DemFile read = io::read_dem_file(is_folder ? (folder / "dem.tif").string() : params.path, params.reading, run);
     run.report(read.findings);
     Raster<float> land = std::move(read.dem);
-    require_metres(land.grid(), params.path, "pipeline.run_points");
+    recipe::require_metres(land.grid(), params.path, "pipeline.run_points");
     PointsResult made{0, land.grid().crs, std::move(read.findings)};
     if (params.of == PointsOf::skeleton) {
         SkeletonOfLand const drawn = skeleton_of(std::move(land), folder, run);

@@ -23,7 +23,7 @@
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/given.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -232,7 +232,7 @@ private:
                 fmt::format("arc {}: heights of {} count as missing and are interpolated ({} in all, the first at "
                             "({}, {}))",
                             number, checked.zeros > 0 ? "0" : "-9999 m", checked.vertices, checked.at.x, checked.at.y));
-            result_.rivers = network::with_all_heights(std::move(result_.rivers), NetworkRecipe{}.slope);
+            result_.rivers = network::with_all_heights(std::move(result_.rivers), recipe::NetworkRecipe{}.slope);
             for (RiverLine& line : result_.rivers.lines) {
                 fill_line(line.vertices, nullptr, nullptr); // with 0 where the file has none but placeholders
             }

@@ -7,8 +7,8 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -23,7 +23,7 @@ constexpr std::int64_t largest_file = std::int64_t{1} << 40;
 ReplayResult run_replay(ReplayParams const& params, Run const& run) {
     std::string const& folder = params.folder;
     std::string const recipe_file = folder + "/recipe.toml";
-    Recipe recipe = read_recipe(io::read_text(recipe_file, 2 << 20), recipe_file);
+    recipe::Recipe recipe = recipe::read_recipe(io::read_text(recipe_file, 2 << 20), recipe_file);
     recipe.folder = folder;
     io::TemporaryFolder const aside("thalweg-replay");
     std::string const again = (aside.path() / "again").string();

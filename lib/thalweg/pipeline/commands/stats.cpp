@@ -97,7 +97,7 @@ StatsResult run_stats(StatsParams const& params, Run const& run) {
         }
     }
     if (params.recipe) {
-        found.recipe = recipe_of_dem(dem, found.statistics, params.path);
+        found.recipe = recipe::recipe_of_dem(dem, found.statistics, params.path);
     }
     return found;
 }

@@ -13,7 +13,7 @@
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
-#include <thalweg/pipeline/recipe/recipe_of_dem.hpp>
+#include <thalweg/recipe/recipe_of_dem.hpp>
 
 namespace thalweg::pipeline {
 
@@ -34,7 +34,7 @@ struct StatsResult {
     std::optional<DemLaws> laws = {};
     std::optional<LineLaws> lines = {}; ///< laws of lines: then there is no DEM, and grid and statistics are empty
     std::optional<TerrainRelief> relief = {};
-    std::optional<DemRecipe> recipe = {};
+    std::optional<recipe::DemRecipe> recipe = {};
     std::vector<Finding> findings = {}; ///< how the DEM was read
 };
 

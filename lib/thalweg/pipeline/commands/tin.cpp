@@ -24,7 +24,7 @@
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
 #include <thalweg/network/import/river_heights.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
 #include <thalweg/surface/tin/level_areas.hpp>
 
 namespace thalweg::pipeline {
@@ -88,10 +88,10 @@ Breaklines read_lines(std::string const& path, TinParams const& params, std::str
     Breaklines read{{}, rivers.crs};
     network::WithoutPlaceholders checked = network::without_placeholders(std::move(rivers));
     if (checked.vertices > 0) {
-        read.findings.push_back(placeholder_finding(checked));
+        read.findings.push_back(recipe::placeholder_finding(checked));
         run.report(read.findings);
     }
-    rivers = network::with_all_heights(std::move(checked.lines), NetworkRecipe{}.slope);
+    rivers = network::with_all_heights(std::move(checked.lines), recipe::NetworkRecipe{}.slope);
     for (RiverLine& line : rivers.lines) {
         read.lines.push_back(std::move(line.vertices));
     }
@@ -103,7 +103,7 @@ TinResult of_dem(std::string const& path, TinParams const& params, Run const& ru
     io::DemFile const read = io::read_dem_file(path, params.reading, run);
     run.report(read.findings);
     Raster<float> const& dem = read.dem;
-    require_metres(dem.grid(), path, "pipeline.run_tin");
+    recipe::require_metres(dem.grid(), path, "pipeline.run_tin");
     auto simplified = geometry::tin_of_dem(dem, {error_m}, run);
     TinResult made;
     made.tin = std::move(simplified.tin);

@@ -23,7 +23,7 @@
 #include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -348,8 +348,9 @@ draw::Picture responses_to(DrawnKey const& key, EnsembleView const& view, Look c
 } // namespace
 
 std::string unit_of_key(std::string const& key) {
-    std::vector<KeyHelp> const keys = recipe_keys();
-    auto const found = std::find_if(keys.begin(), keys.end(), [&](KeyHelp const& help) { return help.path == key; });
+    std::vector<recipe::KeyHelp> const keys = recipe::recipe_keys();
+    auto const found =
+        std::find_if(keys.begin(), keys.end(), [&](recipe::KeyHelp const& help) { return help.path == key; });
     return found == keys.end() ? "" : found->unit;
 }
 

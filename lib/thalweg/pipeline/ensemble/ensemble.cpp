@@ -17,7 +17,7 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/ensemble/internal/table.hpp>
-#include <thalweg/pipeline/recipe/recipe_keys.hpp>
+#include <thalweg/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 
@@ -68,8 +68,9 @@ std::vector<std::string> listed(std::string_view text) {
     return values;
 }
 
-bool is_number(KeyKind kind) {
-    return kind == KeyKind::number || kind == KeyKind::integer || kind == KeyKind::integer_or_word;
+bool is_number(recipe::KeyKind kind) {
+    return kind == recipe::KeyKind::number || kind == recipe::KeyKind::integer ||
+           kind == recipe::KeyKind::integer_or_word;
 }
 
 /// "network.prune" of "network.prune", "patch.rotate" of "patch.2.rotate".
@@ -143,8 +144,8 @@ VariedKey read_varied_key(std::string const& text) {
     refuse_if<BadParameter>(equals == std::string::npos || equals == 0, "--vary {}: {}", text, form);
     VariedKey vary{.key = std::string(trimmed(std::string_view(text).substr(0, equals)))};
     std::string_view const value = trimmed(std::string_view(text).substr(equals + 1));
-    Key const* const key = find_key(without_item(vary.key));
-    refuse_if<BadParameter>(key == nullptr, "--vary {}: {}", text, unknown_key(vary.key));
+    recipe::Key const* const key = recipe::find_key(without_item(vary.key));
+    refuse_if<BadParameter>(key == nullptr, "--vary {}: {}", text, recipe::unknown_key(vary.key));
     refuse_if<BadParameter>(vary.key == "seed", "--vary {}: every member has a seed of its own: use --seeds A-B", text);
     refuse_if<BadParameter>(value.empty(), "--vary {}: {}", text, form);
     std::size_t const dots = value.find("..");
@@ -155,7 +156,7 @@ VariedKey read_varied_key(std::string const& text) {
                                 text, vary.key, vary.key);
         refuse_if<BadParameter>(*low > *high, "--vary {}: {} is above {}", text, *low, *high);
         vary.between = {*low, *high};
-        vary.is_integer = key->row->kind != KeyKind::number;
+        vary.is_integer = key->row->kind != recipe::KeyKind::number;
         return vary;
     }
     refuse_if<BadParameter>(dots != std::string_view::npos && is_number(key->row->kind),
@@ -173,12 +174,12 @@ Member member_of(Ensemble const& ensemble, std::int64_t number) {
     return member;
 }
 
-Recipe recipe_of(Ensemble const& ensemble, Member const& member) {
-    Recipe recipe = ensemble.recipe;
+recipe::Recipe recipe_of(Ensemble const& ensemble, Member const& member) {
+    recipe::Recipe recipe = ensemble.recipe;
     recipe.seed = member.seed;
     for (auto const& [key, value] : member.keys) {
         try {
-            set_key(recipe, key, value);
+            recipe::set_key(recipe, key, value);
         } catch (BadParameter const& fault) {
             throw BadParameter(fmt::format("{} = {}: {}", key, value, fault.what()));
         }

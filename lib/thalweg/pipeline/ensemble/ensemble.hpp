@@ -11,8 +11,8 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/make.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -34,7 +34,7 @@ VariedKey read_varied_key(std::string const& text);
 
 /// Terrains by one recipe, which differ in the seed and in what varies.
 struct Ensemble {
-    Recipe recipe;            ///< of member 0, without what varies
+    recipe::Recipe recipe;    ///< of member 0, without what varies
     std::int64_t members = 1; ///< [1, ...]
     std::vector<VariedKey> vary = {};
 };
@@ -53,7 +53,7 @@ Member member_of(Ensemble const& ensemble, std::int64_t number);
 
 /// \return the recipe of a member
 /// \throws BadParameter when a value is not one that its key may have
-Recipe recipe_of(Ensemble const& ensemble, Member const& member);
+recipe::Recipe recipe_of(Ensemble const& ensemble, Member const& member);
 
 /// What became of a member.
 enum class MemberState : std::uint8_t {

@@ -17,7 +17,7 @@
 
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/pipeline/ensemble/internal/member_store.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 

@@ -29,9 +29,9 @@
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
@@ -177,8 +177,8 @@ MemberStore::MemberStore(std::string const& folder, Ensemble ensemble, std::vect
     } else {
         open_folder(vary, share, run);
     }
-    ensemble_.recipe = read_recipe(io::read_text((fs::path(folder_) / "recipe.toml").string(), largest_input),
-                                   "recipe.toml of the ensemble");
+    ensemble_.recipe = recipe::read_recipe(io::read_text((fs::path(folder_) / "recipe.toml").string(), largest_input),
+                                           "recipe.toml of the ensemble");
     ensemble_.recipe.folder = folder_;
     std::vector<std::string> old;
     for (char const* const name : {"table.csv", "timings.csv"}) {
@@ -282,8 +282,8 @@ void MemberStore::keep(int lock) {
 void MemberStore::start(std::vector<std::string> const& vary, Run const& run) {
     fs::path const folder(folder_);
     io::OutputFolder out(folder_, io::Existing::add);
-    Recipe const kept = keep_inputs(ensemble_.recipe, out);
-    io::write_text(out.path("recipe.toml"), write_recipe(kept));
+    recipe::Recipe const kept = recipe::keep_inputs(ensemble_.recipe, out);
+    io::write_text(out.path("recipe.toml"), recipe::write_recipe(kept));
     io::write_text(out.path("ensemble.json"), description_of(ensemble_, vary, files_));
     std::error_code error;
     if (!fs::exists(folder / "recipe.toml", error)) {
@@ -461,15 +461,15 @@ std::string MemberStore::staged_part(MadeMember const& made, std::string const& 
     std::string const key = fmt::format("{:08}", made.row.member.number);
     std::string entries;
     if (made.made) {
-        OutputRecipe const& output = made.made->recipe.output;
+        recipe::OutputRecipe const& output = made.made->recipe.output;
         auto const add = [&](char const* ending, std::string const& file) {
             entries += io::tar_entry(fmt::format("{}.{}", key, ending), io::read_text(file, largest_input));
         };
-        if (made.made->terrain.surface && output.has(OutputFiles::dem)) {
+        if (made.made->terrain.surface && output.has(recipe::OutputFiles::dem)) {
             io::write_dem(made.made->terrain.surface->dem, work + "/dem.tif", run);
             add("dem.tif", work + "/dem.tif");
         }
-        if (made.made->recipe.network && output.has(OutputFiles::network)) {
+        if (made.made->recipe.network && output.has(recipe::OutputFiles::network)) {
             io::write_grey_png(as_shares(river_mask(made.made->terrain.valley)), work + "/rivers.png", 8, run);
             add("rivers.png", work + "/rivers.png");
         }

@@ -146,7 +146,7 @@ HeightPairs pairs_of(Raster<float> const& dem, Raster<float> const& terrain, Mas
 
 } // namespace
 
-Against compare_with_dem(Plan const& plan, Terrain const& terrain, Run const& run) {
+Against compare_with_dem(recipe::Plan const& plan, Terrain const& terrain, Run const& run) {
     constexpr std::int64_t least_cells = 100;
     std::string const& name = plan.recipe.output.against;
     Raster<float> const& own = terrain.surface->dem;

@@ -11,7 +11,7 @@
 #include <thalweg/measure/likeness/likeness.hpp>
 #include <thalweg/measure/relief/hypsometry.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -56,7 +56,7 @@ struct Against {
 /// slope.
 /// \pre the plan has a DEM to compare with, and the terrain rivers and a surface
 /// \throws BadInput when fewer than 100 cells of the grid can be compared
-Against compare_with_dem(Plan const& plan, Terrain const& terrain, Run const& run = {});
+Against compare_with_dem(recipe::Plan const& plan, Terrain const& terrain, Run const& run = {});
 
 /// \internal
 /// In one line: "r 0.984, above rivers 0.76, ..., beside a cone ...".

@@ -14,8 +14,8 @@
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/check_recipe.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
@@ -41,13 +41,13 @@ Check none_of(char const* name, std::int64_t count) {
 }
 
 /// What the rivers claim of the surface.
-measure::Claims claims_of(Plan const& plan, Terrain const& terrain) {
+measure::Claims claims_of(recipe::Plan const& plan, Terrain const& terrain) {
     measure::Claims claims;
     claims.ds_area_m2 = terrain.areas.ds_area_m2;
     claims.still = either(still_cells(measure::as_file(terrain.rivers.network, terrain.rivers.orders), terrain.grid),
                           lake_cells(terrain.channels));
     claims.drawn = river_mask(terrain.valley);
-    if (replaces_rivers(plan.recipe)) {
+    if (recipe::replaces_rivers(plan.recipe)) {
         claims.honoured = claims.drawn;
     }
     return claims;
@@ -61,7 +61,7 @@ std::vector<Check> drainage_checks(SurfaceMeasures const& found, flow::FlowField
 }
 
 /// Checks of the surface: first of what the recipe asks, then that it kept the rivers' heights and drains.
-std::vector<Check> surface_checks(Plan const& plan, Terrain const& terrain, SurfaceMeasures const& found) {
+std::vector<Check> surface_checks(recipe::Plan const& plan, Terrain const& terrain, SurfaceMeasures const& found) {
     std::vector<Check> checks = terrain.checks;
     if (terrain.surface && plan.recipe.network) {
         checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, terrain.surface->dem)));
@@ -73,12 +73,14 @@ std::vector<Check> surface_checks(Plan const& plan, Terrain const& terrain, Surf
 }
 
 /// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
-void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief const& relief, StageLog& stage_log) {
+void warn_of_texture(recipe::Plan const& plan, Terrain const& terrain, TerrainRelief const& relief,
+                     StageLog& stage_log) {
     constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
     if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
         return;
     }
-    std::string const outside = unusual_relief(relief_rows(relief), plan.recipe.network->source == Source::lines);
+    std::string const outside =
+        unusual_relief(relief_rows(relief), plan.recipe.network->source == recipe::Source::lines);
     if (!outside.empty()) {
         stage_log.find({.kind = "unusual_relief",
                         .text = "measures of the relief lie outside those of the reference DEMs: " + outside,
@@ -87,7 +89,7 @@ void warn_of_texture(Plan const& plan, Terrain const& terrain, TerrainRelief con
 }
 
 /// Measures a surface, with the rivers on it.
-SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& stage_log, Run const& run) {
+SurfaceMeasures of_surface(recipe::Plan const& plan, Terrain const& terrain, StageLog& stage_log, Run const& run) {
     flow::FlowField const& drainage = *terrain.drainage;
     Raster<float> const& dem = terrain.surface->dem;
     StreamNetwork const& network = terrain.rivers.network.planform;
@@ -96,12 +98,12 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
     found.hypsometry = measure::hypsometry(dem, run);
     found.pits = drainage.pits;
     found.pit_volume_m3 = drainage.pit_volume_m3;
-    if (finds_catchments(plan.recipe)) {
+    if (recipe::finds_catchments(plan.recipe)) {
         found.catchments =
             stage_log.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
     }
     if (plan.recipe.network) {
-        if (plan.recipe.network->inland == InlandEnds::sink) {
+        if (plan.recipe.network->inland == recipe::InlandEnds::sink) {
             found.sinks = inland_ends(network, dem);
         }
         found.certificate = stage_log.stage("certify", [&] {
@@ -116,7 +118,7 @@ SurfaceMeasures of_surface(Plan const& plan, Terrain const& terrain, StageLog& s
             fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
                         100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
     }
-    if (measures_areas(plan.recipe)) {
+    if (recipe::measures_areas(plan.recipe)) {
         found.water_areas = stage_log.stage("areas", [&] {
             return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
         });
@@ -187,7 +189,7 @@ void warn_of_coarse_cells(Terrain const& terrain, StageLog& stage_log, Run const
 }
 
 /// The check given_length; notes the account of the input's length, and warns where more than 1 % of it is missing.
-Check length_check(Plan const& plan, GivenLength const& given, Grid const& grid, StageLog& stage_log) {
+Check length_check(recipe::Plan const& plan, GivenLength const& given, Grid const& grid, StageLog& stage_log) {
     constexpr double worth_a_word = 0.99;
     double const share = given.share();
     double const least = plan.recipe.network->lines.keep;
@@ -218,7 +220,7 @@ Check length_check(Plan const& plan, GivenLength const& given, Grid const& grid,
     return {"given_length", share, least, share >= least, Bound::at_least};
 }
 
-void warn_of_heights(Plan const& plan, GivenHeights const& given, StageLog& stage_log) {
+void warn_of_heights(recipe::Plan const& plan, GivenHeights const& given, StageLog& stage_log) {
     stage_log.find({.kind = "heights",
                     .amount = given.largest_m,
                     .text = line_of(given),
@@ -298,7 +300,7 @@ bool Assessment::passed() const {
     return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
 }
 
-Assessment assess(Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
+Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
     StageLog stage_log(run);
     Assessment found{terrain.surface ? of_surface(plan, terrain, stage_log, run)
                                      : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};

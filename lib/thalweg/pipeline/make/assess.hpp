@@ -18,7 +18,7 @@
 #include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -62,6 +62,6 @@ struct Assessment : SurfaceMeasures {
 /// \param planform rivers made of it
 /// \param terrain what came of them
 /// \return measures and checks
-Assessment assess(Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run = {});
+Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -10,7 +10,7 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -126,7 +126,7 @@ BlendedDem blend_into(Raster<float> const& target, Mask keep, BlendIntoParams co
     placing.scale = params.scale;
     placing.gain = params.gain;
     placing.window = source.window;
-    placing.part = read_part(params.mask, grid, run);
+    placing.part = recipe::read_part(params.mask, grid, run);
     BlendedDem made;
     made.is_warped = source.is_warped;
     made.findings = source.findings;

@@ -112,7 +112,7 @@ RidgeOff ridge_off(RiverLine const& ridge, Terrain const& terrain) {
 
 } // namespace
 
-std::vector<surface::FeatureCell> feature_cells(Plan const& plan, Grid const& grid) {
+std::vector<surface::FeatureCell> feature_cells(recipe::Plan const& plan, Grid const& grid) {
     std::map<std::int64_t, surface::FeatureCell> cells;
     for (RiverLine const& ridge : plan.ridge_lines.lines) {
         for (CellOfLine const& c : cells_of_line(ridge.vertices, grid)) {
@@ -135,7 +135,7 @@ std::vector<surface::FeatureCell> feature_cells(Plan const& plan, Grid const& gr
     return out;
 }
 
-RidgeLines ridges_with_heights(Plan const& plan, Valley const& valley, Run const& run) {
+RidgeLines ridges_with_heights(recipe::Plan const& plan, Valley const& valley, Run const& run) {
     RidgeLines ridges = as_ridges(plan.ridge_lines);
     Grid const& grid = valley.z.grid();
     Mask rivers(grid);
@@ -144,7 +144,7 @@ RidgeLines ridges_with_heights(Plan const& plan, Valley const& valley, Run const
     }
     bool const open = std::ranges::any_of(ridges.lines, [](RidgeLine const& r) { return std::isnan(r.line[0].z); });
     Raster<std::int64_t> const nearest = open ? nearest_cells(rivers, run) : Raster<std::int64_t>{};
-    SkeletonRecipe const& wanted = *plan.recipe.skeleton;
+    recipe::SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     double const most_m =
         wanted.ridge_farthest_m > 0.0 ? wanted.ridge_farthest_m : std::numeric_limits<double>::infinity();
     for (RidgeLine& ridge : ridges.lines) {
@@ -185,7 +185,7 @@ FeaturePoints as_points(RidgeLines const& ridges, Grid const& grid) {
     return points;
 }
 
-RidgeLines ridges_on(Plan const& plan, Raster<float> const& dem) {
+RidgeLines ridges_on(recipe::Plan const& plan, Raster<float> const& dem) {
     RidgeLines ridges = as_ridges(plan.ridge_lines);
     for (RidgeLine& ridge : ridges.lines) {
         for (Vec3& v : ridge.line) {
@@ -200,7 +200,7 @@ std::int64_t GivenFeatures::missed() const {
                                  [this](PointOff const& p) { return !(std::fabs(p.z_m - p.asked_m) <= tolerance_m); });
 }
 
-std::optional<GivenFeatures> given_features(Plan const& plan, Terrain const& terrain) {
+std::optional<GivenFeatures> given_features(recipe::Plan const& plan, Terrain const& terrain) {
     if (!plan.recipe.network || !terrain.surface || (plan.points.points.empty() && plan.ridge_lines.lines.empty())) {
         return std::nullopt;
     }

@@ -9,7 +9,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -47,7 +47,7 @@ struct GivenFeatures {
 /// \param plan with rivers
 /// \param terrain of it, which drains
 /// \return nothing where the plan has neither
-std::optional<GivenFeatures> given_features(Plan const& plan, Terrain const& terrain);
+std::optional<GivenFeatures> given_features(recipe::Plan const& plan, Terrain const& terrain);
 
 /// \internal
 /// Formats the comparison.

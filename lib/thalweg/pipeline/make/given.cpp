@@ -11,7 +11,7 @@
 #include <fmt/format.h>
 
 #include <thalweg/core/vec.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -128,8 +128,8 @@ char const* words_of(LeftOut cause) {
     return words[static_cast<std::size_t>(cause)].text;
 }
 
-std::optional<GivenLength> given_length(Plan const& plan, Planform const& planform, Terrain const& terrain) {
-    if (!plan.recipe.network || plan.recipe.network->source != Source::lines) {
+std::optional<GivenLength> given_length(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain) {
+    if (!plan.recipe.network || plan.recipe.network->source != recipe::Source::lines) {
         return std::nullopt;
     }
     RiverFile const& file = planform.file;
@@ -209,9 +209,11 @@ void sum_up(std::map<std::int64_t, std::vector<double>>& off_m, GivenHeights& gi
 
 } // namespace
 
-std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& planform, Terrain const& terrain) {
-    auto const asks = [&](Heights heights) { return plan.recipe.network && plan.recipe.network->heights == heights; };
-    bool const taken = asks(Heights::file) || asks(Heights::soft) || asks(Heights::fixed);
+std::optional<GivenHeights> given_heights(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain) {
+    auto const asks = [&](recipe::Heights heights) {
+        return plan.recipe.network && plan.recipe.network->heights == heights;
+    };
+    bool const taken = asks(recipe::Heights::file) || asks(recipe::Heights::soft) || asks(recipe::Heights::fixed);
     if (!taken || !plan.lines.has_z || !planform.file_heights || !terrain.surface) {
         return std::nullopt;
     }
@@ -260,7 +262,7 @@ std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& plan
     return given;
 }
 
-std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform, Terrain const& terrain) {
+std::optional<GivenAreas> given_areas(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain) {
     std::map<std::int64_t, double> area_of; // by feature
     for (auto const* lines : {&plan.lines.lines, &plan.lines.channels}) {
         for (RiverLine const& line : *lines) {

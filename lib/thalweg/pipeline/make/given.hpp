@@ -13,7 +13,7 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -55,7 +55,7 @@ char const* words_of(LeftOut cause);
 /// \param planform rivers made of it
 /// \param terrain made of them
 /// \return nothing where rivers are not read from lines
-std::optional<GivenLength> given_length(Plan const& plan, Planform const& planform, Terrain const& terrain);
+std::optional<GivenLength> given_length(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// How far the DEM is from the heights of one feature of a file.
 struct RiverOff {
@@ -83,7 +83,7 @@ struct GivenHeights {
 /// \param planform rivers made of it
 /// \param terrain made of them
 /// \return nothing where the network does not take all heights of a file, or there is no DEM
-std::optional<GivenHeights> given_heights(Plan const& plan, Planform const& planform, Terrain const& terrain);
+std::optional<GivenHeights> given_heights(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// Drainage areas at the lower ends of a file's lines, compared with the terrain's. Ratios: terrain / file.
 struct GivenAreas {
@@ -98,7 +98,7 @@ struct GivenAreas {
 /// \param planform rivers made of it
 /// \param terrain made of them
 /// \return nothing where the file has none
-std::optional<GivenAreas> given_areas(Plan const& plan, Planform const& planform, Terrain const& terrain);
+std::optional<GivenAreas> given_areas(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain);
 
 /// \internal
 /// Formats the account.

@@ -13,8 +13,8 @@
 #include <thalweg/core/run/refuse.hpp>
 #include <thalweg/flow/catchments.hpp>
 #include <thalweg/io/raster/polygons.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
@@ -82,10 +82,10 @@ struct Lakes {
 };
 
 /// The lakes of a file.
-Polygons lake_polygons(Plan const& plan, Grid const& grid, Run const& run) {
+Polygons lake_polygons(recipe::Plan const& plan, Grid const& grid, Run const& run) {
     constexpr double most_m = 1e5;
     std::string const& path = plan.recipe.surface->equilibrium.lakes;
-    Polygons polygons = io::read_polygons_valued(file_in(plan.recipe, path), grid.crs, "level", run);
+    Polygons polygons = io::read_polygons_valued(recipe::file_in(plan.recipe, path), grid.crs, "level", run);
     for (Polygon const& lake : polygons.polygons) {
         refuse_if<BadInput>(std::fabs(lake.value) > most_m,
                             "surface.lakes = \"{}\": feature {} has the level {} m, which is not from {} to {} m", path,
@@ -94,8 +94,9 @@ Polygons lake_polygons(Plan const& plan, Grid const& grid, Run const& run) {
     return polygons;
 }
 
-Lakes lakes_of(Plan const& plan, Planform const& planform, network::ChannelsOfArcs const& rivers, Run const& run) {
-    EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
+Lakes lakes_of(recipe::Plan const& plan, Planform const& planform, network::ChannelsOfArcs const& rivers,
+               Run const& run) {
+    recipe::EquilibriumRecipe const& wanted = plan.recipe.surface->equilibrium;
     if (wanted.lake_share > 0.0) {
         flow::ContributingAreas const areas = flow::areas_nearest(planform.network, planform.grid, run);
         return {network::choose_lakes(rivers, areas.ds_area_m2, {.share = wanted.lake_share, .seed = plan.recipe.seed},
@@ -136,7 +137,8 @@ void set_levels(Lakes const& wanted, network::Flooded& flooded) {
 
 } // namespace
 
-WithLakes with_lakes(Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers, Run const& run) {
+WithLakes with_lakes(recipe::Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers,
+                     Run const& run) {
     Lakes lakes = lakes_of(plan, planform, rivers, run);
     if (lakes.labels.cells() == 0) {
         return {std::move(rivers)};

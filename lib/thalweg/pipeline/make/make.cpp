@@ -2,12 +2,12 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 #include <thalweg/pipeline/make/make.hpp>
 
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
-Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
-    Recipe recipe = plan.recipe;
+recipe::Recipe recipe_of(recipe::Plan const& plan, Terrain const& terrain) {
+    recipe::Recipe recipe = plan.recipe;
     recipe.grid.width = terrain.grid.width;
     recipe.grid.height = terrain.grid.height;
     recipe.grid.origin = {terrain.grid.west, terrain.grid.north};
@@ -21,9 +21,9 @@ Recipe recipe_of(Plan const& plan, Terrain const& terrain) {
     return recipe;
 }
 
-Made make(Recipe const& recipe, Run const& run) {
+Made make(recipe::Recipe const& recipe, Run const& run) {
     Made made;
-    made.plan = resolve(recipe, run);
+    made.plan = recipe::resolve(recipe, run);
     made.planform = make_planform(made.plan, run);
     made.terrain = make_terrain(made.plan, made.planform, run);
     made.assessment = assess(made.plan, made.planform, made.terrain, run);

@@ -9,30 +9,30 @@
 #include <thalweg/pipeline/make/assess.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
 /// A terrain with its plan and rivers.
 struct Made {
-    Plan plan;
+    recipe::Plan plan;
     Planform planform; ///< without arcs where the plan has no [network]
     Terrain terrain;
     Assessment assessment;
-    Recipe recipe; ///< recipe_of() these
+    recipe::Recipe recipe; ///< recipe_of() these
 };
 
 /// Returns the fully resolved recipe; running it reproduces the terrain.
 /// \param plan of the terrain
 /// \param terrain made from the plan
 /// \return with all defaults, the frame and the surface's choices
-Recipe recipe_of(Plan const& plan, Terrain const& terrain);
+recipe::Recipe recipe_of(recipe::Plan const& plan, Terrain const& terrain);
 
 /// Makes a terrain from a recipe: rivers first, then the terrain around them; or terrain from statistics and points
 /// alone.
 /// \return the same terrain for the same recipe, with any Run
-Made make(Recipe const& recipe, Run const& run = {});
+Made make(recipe::Recipe const& recipe, Run const& run = {});
 
 /// Collects the times of all stages.
 /// \param made a terrain

@@ -16,14 +16,14 @@
 #include <thalweg/network/planform/carry_outlets.hpp>
 #include <thalweg/network/planform/meander.hpp>
 #include <thalweg/network/vectorise/prune.hpp>
-#include <thalweg/pipeline/plan/made_from.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/made_from.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
-Typed type_rivers(StreamNetwork network, NetworkRecipe const& wanted, Run const& run) {
-    if (wanted.heights != Heights::rosgen && !(wanted.coast_m > 0.0)) {
+Typed type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Run const& run) {
+    if (wanted.heights != recipe::Heights::rosgen && !(wanted.coast_m > 0.0)) {
         return {std::move(network), {}};
     }
     network::AssignTypesParams params;
@@ -47,9 +47,9 @@ struct Bent {
 };
 
 /// Bends rivers where the plan wants it; where there is a sea, none leaves the land.
-Bent bent(Plan const& plan, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
+Bent bent(recipe::Plan const& plan, StreamNetwork network, RiverFile file, Grid const& grid, Mask const& land,
           StageLog& stage_log, Run const& run) {
-    if (!has_meanders(plan)) {
+    if (!recipe::has_meanders(plan)) {
         return {std::move(network), std::move(file)};
     }
     flow::ContributingAreas const areas = flow::areas_nearest(network, grid, run);
@@ -107,22 +107,22 @@ struct Carried {
 
 /// Carries outlets inside the grid to where rivers may end, if the recipe wants it. Those at the sea reach it in any
 /// case; what lies beside a river is land. keeps_heights: the rivers have heights, so that none may fall into another.
-Carried with_outlets_carried(Plan const& plan, StreamNetwork network, Grid const& grid, Mask land, bool keeps_heights,
-                             Run const& run) {
+Carried with_outlets_carried(recipe::Plan const& plan, StreamNetwork network, Grid const& grid, Mask land,
+                             bool keeps_heights, Run const& run) {
     Carried result{std::move(network), std::move(land), {}};
-    if (plan.recipe.network->source == Source::forest) {
+    if (plan.recipe.network->source == recipe::Source::forest) {
         return result; // its outlets lie on its coast
     }
     constexpr std::int64_t at_sea_cells = 4;
-    InlandEnds const inland = plan.recipe.network->inland;
-    bool const all = inland != InlandEnds::sink;
+    recipe::InlandEnds const inland = plan.recipe.network->inland;
+    bool const all = inland != recipe::InlandEnds::sink;
     network::CarryParams const params{.join = !keeps_heights};
     auto const take = [&](network::Carried carried) {
         append(result.notes, long_extensions(carried.notes, result.network));
         append(result.notes, std::move(carried.notes));
         result.network = std::move(carried.network);
     };
-    if (result.land.cells() == 0 && inland == InlandEnds::coast) {
+    if (result.land.cells() == 0 && inland == recipe::InlandEnds::coast) {
         result.land = network::land_behind_outlets(result.network, grid, run);
     }
     if (result.land.cells() == 0) {
@@ -152,10 +152,10 @@ std::size_t vertices_of(StreamNetwork const& plan) {
 }
 
 /// Rivers that run from cell to cell keep no corner where a branch was; what that shortens is measured again.
-network::Pruned prune(StreamNetwork const& plan, NetworkRecipe const& rivers, double length_cells, double cell_m,
-                      Run const& run) {
+network::Pruned prune(StreamNetwork const& plan, recipe::NetworkRecipe const& rivers, double length_cells,
+                      double cell_m, Run const& run) {
     network::Pruned pruned = network::prune(plan, {length_cells * cell_m, cell_m}, run);
-    if (rivers.source != Source::dla && rivers.source != Source::forest) {
+    if (rivers.source != recipe::Source::dla && rivers.source != recipe::Source::forest) {
         return pruned;
     }
     for (std::size_t before = 0, now = vertices_of(pruned.network); now != before;) {
@@ -198,15 +198,15 @@ struct Pruned {
     std::vector<Finding> notes;
 };
 
-Pruned pruned(Plan const& plan, StreamNetwork const& network, RiverFile file, double cell_m, StageLog& stage_log,
-              Run const& run) {
-    NetworkRecipe const& rivers = *plan.recipe.network;
+Pruned pruned(recipe::Plan const& plan, StreamNetwork const& network, RiverFile file, double cell_m,
+              StageLog& stage_log, Run const& run) {
+    recipe::NetworkRecipe const& rivers = *plan.recipe.network;
     network::Pruned kept =
         stage_log.stage("prune", [&] { return prune(network, rivers, *rivers.prune_cells, cell_m, run); });
     stage_log.say(
         fmt::format("L={}   {} of {} arcs kept", *rivers.prune_cells, kept.network.arc_count(), kept.arcs_before));
     std::vector<Finding> notes;
-    if (rivers.source == Source::forest) { // its rivers end where the land does
+    if (rivers.source == recipe::Source::forest) { // its rivers end where the land does
         notes = pruned_outlets(network, kept.network);
     }
     append(file.secondary, file.sources.missing(network, kept.network, LeftOut::pruned, "pruned"));
@@ -233,9 +233,9 @@ std::int64_t bytes_of(StreamNetwork const& network) {
     return static_cast<std::int64_t>(vertices_of(network) * sizeof(Vec2) + network.arc_count() * of_arc);
 }
 
-TimedSource source_of(Plan const& plan, Run const& run) {
+TimedSource source_of(recipe::Plan const& plan, Run const& run) {
     return kept_or_made(
-        run, "source", [&] { return source_made_from(plan); },
+        run, "source", [&] { return recipe::source_made_from(plan); },
         [&] {
             StageLog stage_log(run);
             SourceRivers rivers = rivers_of_source(plan, stage_log, run);
@@ -248,20 +248,20 @@ TimedSource source_of(Plan const& plan, Run const& run) {
 }
 
 /// The rivers of a plan that has any.
-Planform drawn(Plan const& plan, Run const& run) {
+Planform drawn(recipe::Plan const& plan, Run const& run) {
     StageLog stage_log(run);
     TimedSource made = source_of(plan, run);
     stage_log.add(made.timings_s);
     stage_log.find(made.findings);
     SourceRivers& source = made.rivers;
-    stage_log.find(conversions(plan.recipe, source.grid));
+    stage_log.find(recipe::conversions(plan.recipe, source.grid));
     Pruned kept = pruned(plan, source.network, std::move(source.file), source.grid.cell_m, stage_log, run);
     stage_log.find(kept.notes);
     NetworkStatistics statistics = statistics_of(std::move(source.statistics), kept);
     Carried carried = with_outlets_carried(plan, std::move(kept.network), source.grid, std::move(source.land),
                                            source.file_heights.has_value(), run);
     stage_log.find(carried.notes);
-    refuse_if<BadParameter>(has_meanders(plan) && source.file_heights,
+    refuse_if<BadParameter>(recipe::has_meanders(plan) && source.file_heights,
                             "network.meander cannot bend rivers whose heights come from their "
                             "file; set network.heights = \"graded\" or leave meander out");
     Bent rivers =
@@ -284,12 +284,12 @@ Planform drawn(Plan const& plan, Run const& run) {
 
 } // namespace
 
-Planform make_planform(Plan const& plan, Run const& run) {
+Planform make_planform(recipe::Plan const& plan, Run const& run) {
     if (!plan.recipe.network) {
         return {};
     }
     Planform planform = kept_or_made(
-        run, "planform", [&] { return planform_made_from(plan); }, [&] { return drawn(plan, run); },
+        run, "planform", [&] { return recipe::planform_made_from(plan); }, [&] { return drawn(plan, run); },
         [](Planform const& made) {
             constexpr std::int64_t copies = 4;
             return copies * bytes_of(made.network) + made.land.cells();

@@ -14,7 +14,7 @@
 #include <thalweg/network/growth/dla/grow_dla.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/pipeline/make/line_sources.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -64,10 +64,10 @@ struct Planform {
 /// Grows or imports the rivers of a plan: prunes short branches, carries outlets to where rivers may end, bends and
 /// types the rivers.
 /// \return the same rivers for the same plan, whatever the Run; none where the plan has no [network]
-Planform make_planform(Plan const& plan, Run const& run = {});
+Planform make_planform(recipe::Plan const& plan, Run const& run = {});
 
 /// The cluster of a plan whose rivers are a branch of one.
 /// \internal
-network::Cluster cluster_of(Plan const& plan, Run const& run);
+network::Cluster cluster_of(recipe::Plan const& plan, Run const& run);
 
 } // namespace thalweg::pipeline

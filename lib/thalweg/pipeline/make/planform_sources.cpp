@@ -26,14 +26,14 @@
 #include <thalweg/network/vectorise/vectorise.hpp>
 #include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
-#include <thalweg/pipeline/plan/frame.hpp>
-#include <thalweg/pipeline/plan/made_from.hpp>
+#include <thalweg/recipe/frame.hpp>
+#include <thalweg/recipe/made_from.hpp>
 
 namespace thalweg::pipeline {
 namespace {
 
 /// A frame for a branch that is rotated before it is placed in the requested grid.
-GridRecipe loosely_framed(GridRecipe frame) {
+recipe::GridRecipe loosely_framed(recipe::GridRecipe frame) {
     frame.width = 0;
     frame.height = 0;
     return frame;
@@ -41,7 +41,7 @@ GridRecipe loosely_framed(GridRecipe frame) {
 
 /// The requested grid, or one with room for the whole branch as picked: in the former case the branch is not cut
 /// further.
-Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& wanted, double turn_deg) {
+Grid turned_frame(network::Branch const& branch, Grid frame, recipe::GridRecipe const& wanted, double turn_deg) {
     frame.width = wanted.width;
     frame.height = wanted.height;
     if (frame.width == 0) {
@@ -58,29 +58,29 @@ Grid turned_frame(network::Branch const& branch, Grid frame, GridRecipe const& w
         }
         auto const wide = static_cast<std::int64_t>(std::ceil(high.x - low.x + 1.0));
         auto const tall = static_cast<std::int64_t>(std::ceil(high.y - low.y + 1.0));
-        std::int64_t const margin = margin_around(std::max(wide, tall));
+        std::int64_t const margin = recipe::margin_around(std::max(wide, tall));
         frame.width = wide + 2 * margin;
         frame.height = tall + 2 * margin;
     }
-    check_memory(frame.width, frame.height);
+    recipe::check_memory(frame.width, frame.height);
     return frame;
 }
 
 /// The arm of a cluster that becomes the rivers.
-network::Branch branch_of(network::Cluster const& cluster, Recipe const& recipe) {
+network::Branch branch_of(network::Cluster const& cluster, recipe::Recipe const& recipe) {
     network::BranchParams params{recipe.network->branch, 0, 0, *recipe.network->rotate_deg};
     if (recipe.grid.width > 0) {
-        params.max_width = room_for_network(recipe.grid.width);
-        params.max_height = room_for_network(recipe.grid.height);
+        params.max_width = recipe::room_for_network(recipe.grid.width);
+        params.max_height = recipe::room_for_network(recipe.grid.height);
     }
     return network::pick_branch(cluster, params);
 }
 
 } // namespace
 
-network::Cluster cluster_of(Plan const& plan, Run const& run) {
+network::Cluster cluster_of(recipe::Plan const& plan, Run const& run) {
     return kept_or_made(
-        run, "cluster", [&] { return cluster_made_from(plan); },
+        run, "cluster", [&] { return recipe::cluster_made_from(plan); },
         [&] { return network::grow_dla(plan.recipe.network->dla, run); },
         [](network::Cluster const& cluster) { return static_cast<std::int64_t>(cluster.cells.size() * sizeof(Cell)); });
 }
@@ -88,9 +88,9 @@ network::Cluster cluster_of(Plan const& plan, Run const& run) {
 namespace {
 
 // One arm of a cluster that grew by diffusion-limited aggregation, thinned and traced.
-SourceRivers rivers_of_cluster(Plan const& plan, StageLog& stage_log, Run const& run) {
-    Recipe const& recipe = plan.recipe;
-    NetworkRecipe const& wanted = *recipe.network;
+SourceRivers rivers_of_cluster(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    recipe::Recipe const& recipe = plan.recipe;
+    recipe::NetworkRecipe const& wanted = *recipe.network;
     NetworkStatistics statistics;
     run.at(0.0, fmt::format("grow {} particles", wanted.dla.particles).c_str());
     network::Cluster const cluster = stage_log.stage("grow", [&] { return cluster_of(plan, run); });
@@ -103,7 +103,8 @@ SourceRivers rivers_of_cluster(Plan const& plan, StageLog& stage_log, Run const&
     network::Branch const branch = branch_of(cluster, recipe);
     statistics.cut = branch.cut;
     double const turn_deg = *wanted.rotate_deg;
-    FramedBranch const framed = frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
+    recipe::FramedBranch const framed =
+        recipe::frame_branch(branch, turn_deg == 0.0 ? recipe.grid : loosely_framed(recipe.grid));
     Mask const skeleton = stage_log.stage("thin", [&] { return network::thin(framed.mask, run); });
     StreamNetwork network = stage_log.stage("trace", [&] { return network::trace(skeleton, {framed.mouth}, run); });
     Grid grid = framed.mask.grid();
@@ -123,7 +124,7 @@ struct Region {
 };
 
 /// The grid without a margin of 2 %, so that no river runs along its border.
-Region within(Grid const& grid, Side mouth) {
+Region within(Grid const& grid, recipe::Side mouth) {
     double const margin = 0.02 * std::min(grid.east() - grid.west, grid.north - grid.south());
     double const west = grid.west + margin;
     double const east = grid.east() - margin;
@@ -132,16 +133,16 @@ Region within(Grid const& grid, Side mouth) {
     Vec2 const middle{0.5 * (west + east), 0.5 * (south + north)};
     Region region{{{west, south}, {east, south}, {east, north}, {west, north}}, middle};
     switch (mouth) {
-    case Side::north: region.mouth.y = north; break;
-    case Side::east: region.mouth.x = east; break;
-    case Side::south: region.mouth.y = south; break;
-    case Side::west: region.mouth.x = west; break;
+    case recipe::Side::north: region.mouth.y = north; break;
+    case recipe::Side::east: region.mouth.x = east; break;
+    case recipe::Side::south: region.mouth.y = south; break;
+    case recipe::Side::west: region.mouth.x = west; break;
     }
     return region;
 }
 
 /// A polygon of a file; the river leaves it at its extreme point on that side.
-Region inside(Polygons const& polygons, Side mouth) {
+Region inside(Polygons const& polygons, recipe::Side mouth) {
     if (polygons.polygons.size() != 1 || polygons.polygons.front().rings.size() != 1) {
         std::size_t rings = 0;
         for (Polygon const& polygon : polygons.polygons) {
@@ -158,10 +159,10 @@ Region inside(Polygons const& polygons, Side mouth) {
     }
     auto const reach = [mouth](Vec2 p) {
         switch (mouth) {
-        case Side::north: return p.y;
-        case Side::east: return p.x;
-        case Side::south: return -p.y;
-        case Side::west: break;
+        case recipe::Side::north: return p.y;
+        case recipe::Side::east: return p.x;
+        case recipe::Side::south: return -p.y;
+        case recipe::Side::west: break;
         }
         return -p.x;
     };
@@ -184,19 +185,19 @@ void judge_room(std::int64_t placed, std::int64_t dropped, Grid const& grid, Sta
     std::int64_t const all = placed + dropped;
     std::string const found =
         fmt::format("{} of {} links found no room on {} x {} cells", dropped, all, grid.width, grid.height);
-    refuse_if<BadInput>(2 * placed < all || placed == 0, "[network.tokunaga]: {}: {}", found, more_room);
+    refuse_if<BadInput>(2 * placed < all || placed == 0, "[network.tokunaga]: {}: {}", found, recipe::more_room);
     if (10 * placed < 9 * all) {
         stage_log.find({.kind = "links_without_room",
                         .amount = static_cast<double>(dropped),
                         .text = "[network.tokunaga]: " + found,
-                        .remedy = fmt::format("To give them room, {}", more_room),
+                        .remedy = fmt::format("To give them room, {}", recipe::more_room),
                         .key = "network.tokunaga",
                         .numbers = {{"links", static_cast<double>(all)}}});
     }
 }
 
-SourceRivers fill_region(Plan const& plan, StageLog& stage_log, Run const& run) {
-    TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
+SourceRivers fill_region(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    recipe::TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     network::TokunagaTree const& tree = *plan.tree;
     Grid const& grid = *plan.grid;
     TokunagaStatistics statistics;
@@ -216,11 +217,11 @@ SourceRivers fill_region(Plan const& plan, StageLog& stage_log, Run const& run) 
     return {.network = std::move(embedded.network), .grid = grid, .statistics = {.tokunaga = std::move(statistics)}};
 }
 
-SourceRivers follow_strokes(Plan const& plan, StageLog& stage_log, Run const& run) {
-    TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
+SourceRivers follow_strokes(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    recipe::TokunagaRecipe const& wanted = plan.recipe.network->tokunaga;
     Grid const& grid = *plan.grid;
     network::StrokesParams params;
-    params.tree = tree_of(plan.recipe);
+    params.tree = recipe::tree_of(plan.recipe);
     params.max_depth = std::max(wanted.order - 1, 1); // each refinement raises the order by one
     params.min_spacing_m = wanted.spacing_cells * grid.cell_m;
     network::GrownStrokes grown =
@@ -234,15 +235,15 @@ SourceRivers follow_strokes(Plan const& plan, StageLog& stage_log, Run const& ru
 }
 
 // Networks that branch by Tokunaga's law: one that fills the grid or a region, or one along each stroke of a file.
-SourceRivers rivers_of_tree(Plan const& plan, StageLog& stage_log, Run const& run) {
+SourceRivers rivers_of_tree(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     return plan.tree ? fill_region(plan, stage_log, run) : follow_strokes(plan, stage_log, run);
 }
 
 // Trees that grow from a coast or border inland until the land is full of them. Every outlet lies there.
-SourceRivers rivers_of_forest(Plan const& plan, StageLog& stage_log, Run const& run) {
-    Recipe const& recipe = plan.recipe;
-    ForestRecipe const& wanted = recipe.network->forest;
-    ForestLand const& on = *plan.forest;
+SourceRivers rivers_of_forest(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    recipe::Recipe const& recipe = plan.recipe;
+    recipe::ForestRecipe const& wanted = recipe.network->forest;
+    recipe::ForestLand const& on = *plan.forest;
     network::ForestParams params = wanted.growth;
     params.step_cells = wanted.spacing_cells / 2;
     params.seed = recipe.seed;
@@ -521,8 +522,8 @@ void warn_of_gaps(StreamNetwork const& network, Grid const& grid, double snapped
 }
 
 /// The land bounded by a file's coastlines; without cells: there are none.
-Mask land_of_coastlines(Plan const& plan, StageLog& stage_log, Run const& run) {
-    if (!has_coastlines(plan)) {
+Mask land_of_coastlines(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    if (!recipe::has_coastlines(plan)) {
         return {};
     }
     RiverLines coast;
@@ -588,7 +589,8 @@ double noise_of(std::vector<std::vector<double>> const& arc_z) {
 }
 
 /// The file's heights. Where they rise downstream by noise they are lowered, which is told.
-ElevatedNetwork heights_without_noise(Plan const& plan, network::Imported const& imported, StageLog& stage_log) {
+ElevatedNetwork heights_without_noise(recipe::Plan const& plan, network::Imported const& imported,
+                                      StageLog& stage_log) {
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     double const most_m = *std::ranges::max_element(lowered.by_m);
     if (!(most_m > 0.0) || most_m > noise_of(imported.arc_z)) {
@@ -617,20 +619,21 @@ ElevatedNetwork heights_without_noise(Plan const& plan, network::Imported const&
 }
 
 /// The heights of the file, if the recipe uses them.
-std::optional<ElevatedNetwork> heights_of_file(Plan const& plan, network::Imported const& imported,
+std::optional<ElevatedNetwork> heights_of_file(recipe::Plan const& plan, network::Imported const& imported,
                                                StageLog& stage_log) {
-    Heights const heights = plan.recipe.network->heights;
-    bool const or_straight = heights == Heights::soft || heights == Heights::fixed || heights == Heights::ends;
-    if (heights == Heights::file || (or_straight && plan.lines.has_z)) {
+    recipe::Heights const heights = plan.recipe.network->heights;
+    bool const or_straight =
+        heights == recipe::Heights::soft || heights == recipe::Heights::fixed || heights == recipe::Heights::ends;
+    if (heights == recipe::Heights::file || (or_straight && plan.lines.has_z)) {
         return heights_without_noise(plan, imported, stage_log);
     }
     return std::nullopt;
 }
 
 // The lines of a file.
-SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& run) {
-    LinesRecipe const& wanted = plan.recipe.network->lines;
-    bool const may_end = has_coastlines(plan) || plan.recipe.network->inland != InlandEnds::carry;
+SourceRivers rivers_of_lines(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    recipe::LinesRecipe const& wanted = plan.recipe.network->lines;
+    bool const may_end = recipe::has_coastlines(plan) || plan.recipe.network->inland != recipe::InlandEnds::carry;
     network::ImportParams const params{.snap_m = wanted.snap_m,
                                        .orientation = wanted.orientation,
                                        .divergences = wanted.divergences,
@@ -657,7 +660,7 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
                                       "--set network.lines.orientation=as_drawn (or height, rank, topology)"));
     stage_log.find(imported.directions.doubts);
     std::vector<Hollow> const around = may_end ? std::vector<Hollow>() : hollows(imported.network, rivers.grid, run);
-    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, has_coastlines(plan), around, stage_log, run);
+    warn_of_gaps(imported.network, rivers.grid, wanted.snap_m, recipe::has_coastlines(plan), around, stage_log, run);
     warn_of_hollows(imported.network, around, plan.lines.lakes, rivers.grid.cell_m, stage_log);
     rivers.land = land_of_coastlines(plan, stage_log, run);
     rivers.file_heights = heights_of_file(plan, imported, stage_log);
@@ -666,7 +669,7 @@ SourceRivers rivers_of_lines(Plan const& plan, StageLog& stage_log, Run const& r
 }
 
 /// Land without the gaps of DEMs: rivers end there as at the sea.
-Mask without_gaps(Mask land, Plan const& plan) {
+Mask without_gaps(Mask land, recipe::Plan const& plan) {
     auto const leave_out = [&](std::int64_t i, Grid const& grid) {
         land = land.cells() > 0 ? std::move(land) : Mask(grid, 1);
         land[i] = 0;
@@ -684,19 +687,19 @@ Mask without_gaps(Mask land, Plan const& plan) {
     return land;
 }
 
-SourceRivers rivers_by_source(Plan const& plan, StageLog& stage_log, Run const& run) {
+SourceRivers rivers_by_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     switch (plan.recipe.network->source) {
-    case Source::dla: return rivers_of_cluster(plan, stage_log, run);
-    case Source::tokunaga: return rivers_of_tree(plan, stage_log, run);
-    case Source::forest: return rivers_of_forest(plan, stage_log, run);
-    case Source::lines: break;
+    case recipe::Source::dla: return rivers_of_cluster(plan, stage_log, run);
+    case recipe::Source::tokunaga: return rivers_of_tree(plan, stage_log, run);
+    case recipe::Source::forest: return rivers_of_forest(plan, stage_log, run);
+    case recipe::Source::lines: break;
     }
     return rivers_of_lines(plan, stage_log, run);
 }
 
 } // namespace
 
-SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run) {
+SourceRivers rivers_of_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     SourceRivers rivers = rivers_by_source(plan, stage_log, run);
     rivers.land = without_gaps(std::move(rivers.land), plan);
     return rivers;

@@ -36,8 +36,8 @@ TerrainRelief relief_of_dem(Raster<float> const& dem, Run const& run) {
     return relief_of_dem(ground, flow::route(ground, run), run);
 }
 
-TerrainRelief relief_of_terrain(Recipe const& recipe, Terrain const& terrain, measure::Statistics const& statistics,
-                                Run const& run) {
+TerrainRelief relief_of_terrain(recipe::Recipe const& recipe, Terrain const& terrain,
+                                measure::Statistics const& statistics, Run const& run) {
     Raster<float> const& dem = terrain.surface->dem;
     TerrainRelief found{measure::relief(dem, *terrain.drainage, statistics, {}, run), std::nullopt};
     double const asked = recipe.surface ? recipe.surface->equilibrium.mean_slope_deg.value_or(0.0) : 0.0;

@@ -12,7 +12,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/flow/route.hpp>
 #include <thalweg/measure/relief/relief.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -47,8 +47,8 @@ struct Terrain;
 /// \param terrain with a surface
 /// \param statistics of the surface
 /// \return with perched cells if it has rivers, by the mean slope that it sets, else of the terrain
-TerrainRelief relief_of_terrain(Recipe const& recipe, Terrain const& terrain, measure::Statistics const& statistics,
-                                Run const& run = {});
+TerrainRelief relief_of_terrain(recipe::Recipe const& recipe, Terrain const& terrain,
+                                measure::Statistics const& statistics, Run const& run = {});
 
 /// One index of relief, for report.json and the page.
 struct ReliefRow {

@@ -16,7 +16,7 @@
 #include <thalweg/pipeline/make/internal/lakes.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -27,25 +27,26 @@ struct Elevated {
     std::optional<flow::ContributingAreas> areas = {}; ///< as RaisedRivers
 };
 
-Elevated elevated(Plan const& plan, Planform const& planform, Run const& run) {
-    NetworkRecipe const& wanted = *plan.recipe.network;
+Elevated elevated(recipe::Plan const& plan, Planform const& planform, Run const& run) {
+    recipe::NetworkRecipe const& wanted = *plan.recipe.network;
     if (planform.file_heights) {
         return {*planform.file_heights};
     }
-    if (wanted.heights == Heights::rosgen) {
+    if (wanted.heights == recipe::Heights::rosgen) {
         return {network::set_heights_by_type(planform.network, planform.types, {wanted.rosgen_slope, plan.recipe.seed},
                                              run)};
     }
-    if (wanted.heights == Heights::graded) {
+    if (wanted.heights == recipe::Heights::graded) {
         flow::ContributingAreas areas = flow::areas_nearest(planform.network, planform.grid, run);
         double const cell = planform.grid.cell_m * planform.grid.cell_m;
         network::Graded graded = network::set_heights_graded(planform.network, areas.us_area_m2, areas.ds_area_m2,
                                                              {wanted.slope, wanted.concavity, cell}, run);
         return {std::move(graded.network), {}, std::move(areas)};
     }
-    network::HeightMode const mode = wanted.heights == Heights::straight       ? network::HeightMode::straight
-                                     : wanted.heights == Heights::along_stream ? network::HeightMode::along_stream
-                                                                               : network::HeightMode::straight_repaired;
+    network::HeightMode const mode = wanted.heights == recipe::Heights::straight ? network::HeightMode::straight
+                                     : wanted.heights == recipe::Heights::along_stream
+                                         ? network::HeightMode::along_stream
+                                         : network::HeightMode::straight_repaired;
     network::Elevated set = network::set_heights(planform.network, {mode, wanted.slope}, run);
     return {std::move(set.network), set.report};
 }
@@ -129,7 +130,7 @@ Valley with_sinks_lowest(Valley valley, std::vector<CellIndex> const& sinks, Ras
 }
 
 /// A warning of the cell in which rivers lie farthest below the DEM or, beside a lake with a level, above it.
-std::vector<Finding> far_from_dem(FindingKind kind, Plan const& plan, CellIndex cell, double by_m) {
+std::vector<Finding> far_from_dem(FindingKind kind, recipe::Plan const& plan, CellIndex cell, double by_m) {
     if (!(by_m > plan.recipe.surface->max_cut_m)) {
         return {};
     }
@@ -145,12 +146,12 @@ std::vector<Finding> far_from_dem(FindingKind kind, Plan const& plan, CellIndex 
 }
 
 /// Rivers in the cells of the DEM that is the terrain.
-RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run const& run) {
+RaisedRivers laid_on_raster(recipe::Plan const& plan, Planform const& planform, Run const& run) {
     WithLakes drawn = with_lakes(plan, planform, network::channels(planform.network, planform.grid, {}, run), run);
     Channels& channels = drawn.rivers.channels;
     RaisedRivers laid;
     laid.valley = bed_of(channels, plan.raster, plan.recipe.surface->source);
-    if (plan.recipe.network->inland == InlandEnds::sink) {
+    if (plan.recipe.network->inland == recipe::InlandEnds::sink) {
         std::vector<NodeId> const sinks = inland_ends(planform.network, plan.raster);
         laid.valley =
             with_sinks_lowest(std::move(laid.valley), cells_of(sinks, planform.network, planform.grid), plan.raster);
@@ -184,8 +185,8 @@ RaisedRivers laid_on_raster(Plan const& plan, Planform const& planform, Run cons
 
 } // namespace
 
-RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
-    if (heights_follow_raster(plan.recipe)) {
+RaisedRivers raise_rivers(recipe::Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
+    if (recipe::heights_follow_raster(plan.recipe)) {
         RaisedRivers laid = stage_log.stage("raise", [&] { return laid_on_raster(plan, planform, run); });
         stage_log.say(fmt::format("{} cells of rivers cut, by up to {:.3g} m", laid.statistics.lowered_cells,
                                   laid.statistics.max_lowered_m));

@@ -18,11 +18,11 @@
 #include <thalweg/pipeline/make/blend_into.hpp>
 #include <thalweg/pipeline/make/internal/features.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/plan/made_from.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/made_from.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
 #include <thalweg/skeleton/ridges.hpp>
@@ -43,15 +43,15 @@ std::vector<Vec3> in_space(std::vector<Vec2> const& line, std::vector<double> co
 }
 
 /// Ridges between the streams, where the recipe asks for them.
-RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& grid, StageLog& stage_log,
+RidgeLines ridges_between(recipe::Plan const& plan, Rivers const& rivers, Grid const& grid, StageLog& stage_log,
                           Run const& run) {
-    if (!has_ridges(plan.recipe)) {
+    if (!recipe::has_ridges(plan.recipe)) {
         return {};
     }
-    SkeletonRecipe const& wanted = *plan.recipe.skeleton;
+    recipe::SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::RidgesParams params;
-    params.method = wanted.ridges == Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
-                                                     : skeleton::RidgesParams::Method::segments;
+    params.method = wanted.ridges == recipe::Ridges::voronoi ? skeleton::RidgesParams::Method::voronoi
+                                                             : skeleton::RidgesParams::Method::segments;
     params.gain = wanted.ridge_gain;
     params.farthest_m = wanted.ridge_farthest_m;
     RidgeLines ridges = stage_log.stage("ridge", [&] {
@@ -63,9 +63,9 @@ RidgeLines ridges_between(Plan const& plan, Rivers const& rivers, Grid const& gr
 }
 
 /// Random points between the rivers.
-skeleton::Scattered scattered(Plan const& plan, Valley const& valley, Mask const& inside, StageLog& stage_log,
+skeleton::Scattered scattered(recipe::Plan const& plan, Valley const& valley, Mask const& inside, StageLog& stage_log,
                               Run const& run) {
-    SkeletonRecipe const& wanted = *plan.recipe.skeleton;
+    recipe::SkeletonRecipe const& wanted = *plan.recipe.skeleton;
     skeleton::ScatterBetweenParams params;
     params.seed = plan.recipe.seed;
     params.count = wanted.scatter;
@@ -80,9 +80,9 @@ skeleton::Scattered scattered(Plan const& plan, Valley const& valley, Mask const
 }
 
 /// The triangles of points, rivers and ridges, whose lines are breaklines, where the recipe needs them.
-std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network, RidgeLines const& ridges,
+std::optional<Tin> triangulated(recipe::Plan const& plan, ElevatedNetwork const& network, RidgeLines const& ridges,
                                 FeaturePoints const& points, StageLog& stage_log, Run const& run) {
-    if (!needs_tin(plan.recipe)) {
+    if (!recipe::needs_tin(plan.recipe)) {
         return std::nullopt;
     }
     std::vector<std::vector<Vec3>> breaklines;
@@ -98,12 +98,12 @@ std::optional<Tin> triangulated(Plan const& plan, ElevatedNetwork const& network
 }
 
 /// The cells of the terrain: those of the recipe's mask, or all; without the sea.
-Mask inside_of(Recipe const& recipe, Mask const& land, Valley const& valley, Run const& run) {
+Mask inside_of(recipe::Recipe const& recipe, Mask const& land, Valley const& valley, Run const& run) {
     if (recipe.surface->mask.empty()) {
         return land.values().empty() ? Mask(valley.z.grid(), 1) : land;
     }
     Grid const& grid = valley.z.grid();
-    Mask inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), grid, run);
+    Mask inside = recipe::read_mask_of_land(recipe::file_in(recipe, recipe.surface->mask), grid, run);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         inside[i] = inside[i] != 0 && (land.values().empty() || land[i] != 0) ? 1 : 0;
         if (inside[i] == 0 && !std::isnan(valley.z[i])) {
@@ -182,22 +182,22 @@ Raster<float> through_points(Raster<float> dem, Ground const& ground, Run const&
     return surface::through_heights(std::move(dem), rivers, cells, run);
 }
 
-surface::Dilated dilated_on(Plan const& plan, Ground const& ground, Run const& run) {
-    SurfaceRecipe const& wanted = *plan.recipe.surface;
+surface::Dilated dilated_on(recipe::Plan const& plan, Ground const& ground, Run const& run) {
+    recipe::SurfaceRecipe const& wanted = *plan.recipe.surface;
     Valley const& valley = ground.valley;
-    if (wanted.base == Base::paper) { // without a mask by the closed form
+    if (wanted.base == recipe::Base::paper) { // without a mask by the closed form
         return ground.whole ? surface::dilate(valley, wanted.dilate, run)
                             : surface::dilate(valley, ground.inside, wanted.dilate, run);
     }
     surface::HarmonicParams params;
     params.tolerance = wanted.tolerance.value_or(params.tolerance);
-    Raster<float> const base =
-        wanted.base == Base::tin ? over_triangles(ground, run) : surface::harmonic(valley, ground.inside, params, run);
+    Raster<float> const base = wanted.base == recipe::Base::tin ? over_triangles(ground, run)
+                                                                : surface::harmonic(valley, ground.inside, params, run);
     return ground.whole ? surface::dilate_over(valley, base, wanted.dilate, run)
                         : surface::dilate_over(valley, base, ground.inside, wanted.dilate, run);
 }
 
-surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run) {
+surface::Dilated dilated(recipe::Plan const& plan, Ground const& ground, Run const& run) {
     try {
         return dilated_on(plan, ground, run);
     } catch (BadParameter const& fault) { // how many levels there are is known only now
@@ -207,8 +207,8 @@ surface::Dilated dilated(Plan const& plan, Ground const& ground, Run const& run)
 }
 
 /// What a surface is diffused from: rivers, ridges, points, and what follows from them beside them.
-Skeleton gathered_skeleton(Plan const& plan, Ground const& ground, Run const& run) {
-    SkeletonRecipe const wanted = plan.recipe.skeleton.value_or(SkeletonRecipe{});
+Skeleton gathered_skeleton(recipe::Plan const& plan, Ground const& ground, Run const& run) {
+    recipe::SkeletonRecipe const wanted = plan.recipe.skeleton.value_or(recipe::SkeletonRecipe{});
     skeleton::DrawSkeletonParams params;
     params.noise.amplitude_m = wanted.ridge_noise_m;
     params.noise.wavelength_m = wanted.ridge_wavelength_m;
@@ -232,7 +232,7 @@ struct Filled {
     std::optional<SolverStatistics> diffusion = {};
 };
 
-Filled diffused(Plan const& plan, Ground const& ground, Run const& run) {
+Filled diffused(recipe::Plan const& plan, Ground const& ground, Run const& run) {
     surface::DiffuseParams params = plan.recipe.surface->diffuse;
     params.seed = plan.recipe.seed;
     params.tolerance = plan.recipe.surface->tolerance.value_or(params.tolerance);
@@ -240,17 +240,17 @@ Filled diffused(Plan const& plan, Ground const& ground, Run const& run) {
     return {surface_of(std::move(solved.dem)), SolverStatistics{solved.iterations, solved.residual}};
 }
 
-Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
-    SurfaceRecipe const& wanted = *plan.recipe.surface;
-    if (wanted.method == Method::tin || wanted.method == Method::raster) {
-        Raster<float> dem =
-            wanted.method == Method::tin ? over_triangles(ground, run) : with_valley(plan.raster, ground.valley);
+Filled by_method(recipe::Plan const& plan, Ground const& ground, Run const& run) {
+    recipe::SurfaceRecipe const& wanted = *plan.recipe.surface;
+    if (wanted.method == recipe::Method::tin || wanted.method == recipe::Method::raster) {
+        Raster<float> dem = wanted.method == recipe::Method::tin ? over_triangles(ground, run)
+                                                                 : with_valley(plan.raster, ground.valley);
         for (std::int64_t i = 0; i < ground.inside.cells(); ++i) {
             dem[i] = ground.inside[i] != 0 ? dem[i] : std::numeric_limits<float>::quiet_NaN();
         }
         return {surface_of(std::move(dem))};
     }
-    if (wanted.method == Method::diffuse) {
+    if (wanted.method == recipe::Method::diffuse) {
         return diffused(plan, ground, run);
     }
     Filled made{dilated(plan, ground, run)};
@@ -258,36 +258,37 @@ Filled by_method(Plan const& plan, Ground const& ground, Run const& run) {
     return made;
 }
 
-std::string about(Plan const& plan, Filled const& filled) {
-    SurfaceRecipe const& wanted = *plan.recipe.surface;
+std::string about(recipe::Plan const& plan, Filled const& filled) {
+    recipe::SurfaceRecipe const& wanted = *plan.recipe.surface;
     switch (wanted.method) {
-    case Method::dilate: return fmt::format("{}, {} levels", wanted.dilate.increment.increment, filled.surface.levels);
-    case Method::diffuse: return fmt::format("diffused, {} iterations", filled.diffusion->iterations);
-    case Method::raster: return "of the DEM";
-    case Method::equilibrium:
-    case Method::tin:
-    case Method::regress: break;
+    case recipe::Method::dilate:
+        return fmt::format("{}, {} levels", wanted.dilate.increment.increment, filled.surface.levels);
+    case recipe::Method::diffuse: return fmt::format("diffused, {} iterations", filled.diffusion->iterations);
+    case recipe::Method::raster: return "of the DEM";
+    case recipe::Method::equilibrium:
+    case recipe::Method::tin:
+    case recipe::Method::regress: break;
     }
     return "over triangles";
 }
 
 /// The surface between the rivers.
-Filled filled(Plan const& plan, Ground const& ground, StageLog& stage_log, Run const& run) {
+Filled filled(recipe::Plan const& plan, Ground const& ground, StageLog& stage_log, Run const& run) {
     Filled result = stage_log.stage("fill", [&] { return by_method(plan, ground, run); });
     Grid const& grid = ground.valley.z.grid();
     stage_log.say(fmt::format("{}x{}, {}", grid.width, grid.height, about(plan, result)));
-    SurfaceRecipe const& wanted = *plan.recipe.surface;
-    if (wanted.method == Method::dilate) {
+    recipe::SurfaceRecipe const& wanted = *plan.recipe.surface;
+    if (wanted.method == recipe::Method::dilate) {
         warn_of_jumps(result.surface, wanted.dilate.increment, stage_log);
     }
     return result;
 }
 
 /// Checks that slopes rise as high above their rivers as the recipe asks.
-std::vector<Check> relief_checks(Plan const& plan, surface::Dilated const& surface) {
+std::vector<Check> relief_checks(recipe::Plan const& plan, surface::Dilated const& surface) {
     constexpr double allowed = 0.01;
     double const asked = plan.recipe.surface->dilate.relief_m;
-    if (plan.recipe.surface->method != Method::dilate || !(asked > 0.0)) {
+    if (plan.recipe.surface->method != recipe::Method::dilate || !(asked > 0.0)) {
         return {};
     }
     double const error = std::fabs(surface.rise_m / asked - 1.0);
@@ -295,7 +296,8 @@ std::vector<Check> relief_checks(Plan const& plan, surface::Dilated const& surfa
 }
 
 /// Adds fractal detail: none in the valleys, all of it some cells away.
-DetailedTerrain with_detail_beside_rivers(Plan const& plan, Raster<float> dem, Valley const& valley, Run const& run) {
+DetailedTerrain with_detail_beside_rivers(recipe::Plan const& plan, Raster<float> dem, Valley const& valley,
+                                          Run const& run) {
     constexpr double near_cells = 8.0; // within which detail grows from nothing to two thirds
     DetailedTerrain const detail = detail_alone(plan, dem.grid(), run);
     Raster<float> result = std::move(dem);
@@ -332,13 +334,14 @@ RidgeLines joined(RidgeLines some, RidgeLines const& others) {
 
 /// Draws the surface that the plan asks for through the rivers' cells, which keep their heights, and through points; in
 /// equilibrium rivers have their heights from it.
-UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
-    Recipe const& recipe = plan.recipe;
+UndrainedTerrain draw_around_rivers(recipe::Plan const& plan, Planform const& planform, StageLog& stage_log,
+                                    Run const& run) {
+    recipe::Recipe const& recipe = plan.recipe;
     if (!plan.grid) { // else it was checked before the rivers were grown
-        check_detail(recipe, planform.grid.width, planform.grid.height);
-        require_skeleton_on_grid(plan, planform.grid);
+        recipe::check_detail(recipe, planform.grid.width, planform.grid.height);
+        recipe::require_skeleton_on_grid(plan, planform.grid);
     }
-    bool const balanced = in_equilibrium(recipe);
+    bool const balanced = recipe::in_equilibrium(recipe);
     EquilibriumResult solved = balanced ? draw_in_equilibrium(plan, planform, stage_log, run) : EquilibriumResult{};
     RaisedRivers raised = balanced ? RaisedRivers{} : raise_rivers(plan, planform, stage_log, run);
     Rivers rivers =
@@ -348,7 +351,7 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
     stage_log.find(raised.findings);
     Mask const inside = balanced ? Mask{} : inside_of(recipe, planform.land, valley, run);
     std::optional<FeaturePoints> own;
-    if (scatters_points(recipe)) {
+    if (recipe::scatters_points(recipe)) {
         skeleton::Scattered found = scattered(plan, valley, inside, stage_log, run);
         checks.push_back(points_missing(found, *recipe.skeleton, stage_log));
         own = std::move(found.points);
@@ -368,7 +371,7 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
                            : filled(plan, {valley, ridges, tin, points, through, inside, whole}, stage_log, run);
     append(checks, balanced ? std::vector<Check>{} : relief_checks(plan, made.surface));
     std::optional<DetailStatistics> detail;
-    if (levels_of(recipe) > 0) {
+    if (recipe::levels_of(recipe) > 0) {
         DetailedTerrain detailed = with_detail_beside_rivers(plan, std::move(made.surface.dem), valley, run);
         made.surface.dem = std::move(detailed.dem);
         detail = detailed.statistics;
@@ -388,8 +391,8 @@ UndrainedTerrain draw_around_rivers(Plan const& plan, Planform const& planform, 
 }
 
 /// A surface from numbers and points.
-UndrainedTerrain draw_alone(Plan const& plan, StageLog& stage_log, Run const& run) {
-    stage_log.find(conversions(plan.recipe, *plan.grid));
+UndrainedTerrain draw_alone(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
+    stage_log.find(recipe::conversions(plan.recipe, *plan.grid));
     SurfaceAlone alone = draw_without_rivers(plan, stage_log, run);
     return {.surface = surface_of(std::move(alone.dem)),
             .tin = std::move(alone.tin),
@@ -400,11 +403,11 @@ UndrainedTerrain draw_alone(Plan const& plan, StageLog& stage_log, Run const& ru
             .checks = std::move(alone.checks)};
 }
 
-BlendIntoParams params_of(Recipe const& recipe, PatchRecipe const& patch) {
+BlendIntoParams params_of(recipe::Recipe const& recipe, recipe::PatchRecipe const& patch) {
     BlendIntoParams params;
     params.target = "the land";
-    params.source = file_in(recipe, patch.source);
-    params.mask = file_in(recipe, patch.mask);
+    params.source = recipe::file_in(recipe, patch.source);
+    params.mask = recipe::file_in(recipe, patch.mask);
     if (patch.at) {
         params.at = Vec2{(*patch.at)[0], (*patch.at)[1]};
     }
@@ -428,11 +431,11 @@ struct Patched {
 
 /// Pastes the recipe's patches into the surface, in their order; rivers keep their cells' heights unless a patch says
 /// otherwise.
-Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network,
+Patched with_patches(recipe::Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network,
                      StageLog& stage_log, Run const& run) {
     Patched result{std::move(dem), std::move(valley), {}};
-    for (PatchRecipe const& patch : plan.recipe.patches) {
-        bool const keeps = patch.rivers == PatchRivers::keep && plan.recipe.network.has_value();
+    for (recipe::PatchRecipe const& patch : plan.recipe.patches) {
+        bool const keeps = patch.rivers == recipe::PatchRivers::keep && plan.recipe.network.has_value();
         BlendedDem made = stage_log.stage("blend", [&] {
             return blend_into(result.dem, keeps ? river_mask(result.valley) : Mask{}, params_of(plan.recipe, patch),
                               run);
@@ -443,7 +446,7 @@ Patched with_patches(Plan const& plan, Raster<float> dem, Valley valley, StreamN
         stage_log.say(
             fmt::format("{} cells of {}, seam {:.2g} m", made.pasted.cells, patch.source, made.pasted.seam_rms_m));
     }
-    if (plan.recipe.network && replaces_rivers(plan.recipe)) {
+    if (plan.recipe.network && recipe::replaces_rivers(plan.recipe)) {
         result.valley = honoured_valley(std::move(result.valley), network, result.dem);
     }
     return result;
@@ -456,15 +459,15 @@ struct Conditioned {
 };
 
 /// Cells in which rivers end inland, where the recipe keeps these ends.
-std::vector<CellIndex> sinks_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network) {
-    bool const sinks = plan.recipe.network && plan.recipe.network->inland == InlandEnds::sink;
+std::vector<CellIndex> sinks_of(recipe::Plan const& plan, Raster<float> const& dem, StreamNetwork const& network) {
+    bool const sinks = plan.recipe.network && plan.recipe.network->inland == recipe::InlandEnds::sink;
     return sinks ? cells_of(inland_ends(network, dem), network, dem.grid()) : std::vector<CellIndex>{};
 }
 
 /// Water leaves the land in sinks: while it is conditioned they are holes in it.
-Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network,
+Conditioned conditioned(recipe::Plan const& plan, Raster<float> dem, Valley valley, StreamNetwork const& network,
                         StageLog& stage_log, Run const& run) {
-    if (!conditions_dem(plan.recipe)) {
+    if (!recipe::conditions_dem(plan.recipe)) {
         return {std::move(dem), std::nullopt};
     }
     constexpr float hole = std::numeric_limits<float>::quiet_NaN();
@@ -493,14 +496,14 @@ Conditioned conditioned(Plan const& plan, Raster<float> dem, Valley valley, Stre
     return {std::move(result.dem), ConditioningChanges{result.banks, result.depressions}};
 }
 
-flow::FlowField drainage_of(Plan const& plan, Raster<float> const& dem, StreamNetwork const& network,
+flow::FlowField drainage_of(recipe::Plan const& plan, Raster<float> const& dem, StreamNetwork const& network,
                             StageLog& stage_log, Run const& run) {
     run.at(0.0, fmt::format("drain {} cells", dem.cells()).c_str());
     return stage_log.stage("drain", [&] { return flow::route(dem, sinks_of(plan, dem, network), run); });
 }
 
 /// Rivers that have heights of their own, where the recipe asks for no surface.
-Terrain rivers_alone(Plan const& plan, Planform const& planform, Run const& run) {
+Terrain rivers_alone(recipe::Plan const& plan, Planform const& planform, Run const& run) {
     StageLog stage_log(run);
     RaisedRivers raised = raise_rivers(plan, planform, stage_log, run);
     Terrain terrain;
@@ -526,9 +529,9 @@ struct TimedSurface {
     Timings timings_s;
 };
 
-TimedSurface undrained(Plan const& plan, Planform const& planform, Run const& run) {
+TimedSurface undrained(recipe::Plan const& plan, Planform const& planform, Run const& run) {
     return kept_or_made(
-        run, "surface", [&] { return surface_made_from(plan); },
+        run, "surface", [&] { return recipe::surface_made_from(plan); },
         [&] {
             StageLog stage_log(run);
             UndrainedTerrain drawn = plan.recipe.network ? draw_around_rivers(plan, planform, stage_log, run)
@@ -547,14 +550,14 @@ void show(Raster<float> const& dem, bool is_finished, Run const& run) {
     }
 }
 
-Terrain terrain_with_surface(Plan const& plan, Planform const& planform, Run const& run) {
+Terrain terrain_with_surface(recipe::Plan const& plan, Planform const& planform, Run const& run) {
     bool const has_rivers = plan.recipe.network.has_value();
     StageLog stage_log(run);
     TimedSurface timed = undrained(plan, planform, run);
     stage_log.add(timed.timings_s);
     stage_log.find(timed.findings);
     UndrainedTerrain& drawn = timed.terrain;
-    if (!has_rivers || !in_equilibrium(plan.recipe)) { // in equilibrium it was seen, and drains as it is
+    if (!has_rivers || !recipe::in_equilibrium(plan.recipe)) { // in equilibrium it was seen, and drains as it is
         show(drawn.surface.dem, false, run);
     }
     Patched patched = with_patches(plan, std::move(drawn.surface.dem), std::move(drawn.valley),
@@ -570,7 +573,7 @@ Terrain terrain_with_surface(Plan const& plan, Planform const& planform, Run con
     flow::ContributingAreas areas =
         has_rivers ? flow::areas_d8(made.rivers.network.planform, drainage, run) : flow::ContributingAreas{};
     return {.grid = has_rivers ? planform.grid : *plan.grid,
-            .land = on_raster(plan.recipe) ? Mask{} : planform.land, // what has no data need not be sea
+            .land = recipe::on_raster(plan.recipe) ? Mask{} : planform.land, // what has no data need not be sea
             .rivers = std::move(made.rivers),
             .valley = std::move(made.valley),
             .areas = std::move(areas),
@@ -596,7 +599,7 @@ Terrain terrain_with_surface(Plan const& plan, Planform const& planform, Run con
 
 } // namespace
 
-Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run) {
+Terrain make_terrain(recipe::Plan const& plan, Planform const& planform, Run const& run) {
     bool const rivers_only = plan.recipe.network && !plan.recipe.surface;
     Terrain terrain = rivers_only ? rivers_alone(plan, planform, run) : terrain_with_surface(plan, planform, run);
     run.report(terrain.findings);

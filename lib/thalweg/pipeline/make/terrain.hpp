@@ -19,7 +19,7 @@
 #include <thalweg/fractal/match_statistics.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 #include <thalweg/surface/dilation/dilation.hpp>
 #include <thalweg/surface/equilibrium/equilibrium.hpp>
 
@@ -120,6 +120,6 @@ struct Terrain {
 /// Draws the terrain of a plan around its rivers; or from numbers and points alone where it has none.
 /// \param planform the rivers of the plan; make_planform()
 /// \return the same terrain for the same plan and rivers, whatever the Run.
-Terrain make_terrain(Plan const& plan, Planform const& planform, Run const& run = {});
+Terrain make_terrain(recipe::Plan const& plan, Planform const& planform, Run const& run = {});
 
 } // namespace thalweg::pipeline

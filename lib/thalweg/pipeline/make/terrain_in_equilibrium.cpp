@@ -21,10 +21,10 @@
 #include <thalweg/pipeline/make/internal/lakes.hpp>
 #include <thalweg/pipeline/make/internal/planform.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/surface/equilibrium/rebuild.hpp>
 #include <thalweg/surface/uplift/uplift_pattern.hpp>
 
@@ -49,8 +49,8 @@ Mask land_of(Mask one, Mask const& other, Channels const& channels) {
 }
 
 /// Uplift from a file, which may be empty, times that of the requested pattern.
-Raster<float> with_pattern(Raster<float> of_file, Recipe const& recipe, Grid const& grid, Run const& run) {
-    EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+Raster<float> with_pattern(Raster<float> of_file, recipe::Recipe const& recipe, Grid const& grid, Run const& run) {
+    recipe::EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
     if (!wanted.uplift_pattern) {
         return of_file;
     }
@@ -69,26 +69,29 @@ Raster<float> with_pattern(Raster<float> of_file, Recipe const& recipe, Grid con
 }
 
 // Land, uplift and erodibility of terrain in equilibrium: from the recipe's files and its pattern of uplift.
-surface::EquilibriumFields equilibrium_fields(Plan const& plan, Planform const& planform, Channels const& channels,
-                                              Run const& run) {
-    Recipe const& recipe = plan.recipe;
+surface::EquilibriumFields equilibrium_fields(recipe::Plan const& plan, Planform const& planform,
+                                              Channels const& channels, Run const& run) {
+    recipe::Recipe const& recipe = plan.recipe;
     Grid const& grid = planform.grid;
-    SurfaceRecipe const& wanted = *recipe.surface;
+    recipe::SurfaceRecipe const& wanted = *recipe.surface;
     surface::EquilibriumFields fields;
-    fields.land = land_of(read_mask_of_land(file_in(recipe, recipe.surface->mask), grid, run), planform.land, channels);
-    fields.uplift = with_pattern(read_field(file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run),
-                                 recipe, grid, run);
-    fields.erodibility = read_field(file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
+    fields.land = land_of(recipe::read_mask_of_land(recipe::file_in(recipe, recipe.surface->mask), grid, run),
+                          planform.land, channels);
+    fields.uplift = with_pattern(
+        recipe::read_field(recipe::file_in(recipe, wanted.equilibrium.uplift), grid, "surface.uplift", run), recipe,
+        grid, run);
+    fields.erodibility =
+        recipe::read_field(recipe::file_in(recipe, wanted.equilibrium.erodibility), grid, "surface.erodibility", run);
     fields.features = feature_cells(plan, grid);
     return fields;
 }
 
 constexpr float none = std::numeric_limits<float>::quiet_NaN();
 
-surface::RiverHeights use_of(Heights heights) {
-    return heights == Heights::graded ? surface::RiverHeights::graded
-           : heights == Heights::soft ? surface::RiverHeights::soft
-                                      : surface::RiverHeights::fixed;
+surface::RiverHeights use_of(recipe::Heights heights) {
+    return heights == recipe::Heights::graded ? surface::RiverHeights::graded
+           : heights == recipe::Heights::soft ? surface::RiverHeights::soft
+                                              : surface::RiverHeights::fixed;
 }
 
 bool has_sea(Mask const& land) {
@@ -116,21 +119,21 @@ bool are_sea(Mask const& land, Channels const& channels) {
     return ends > 0.0 && low >= most_of_them * ends;
 }
 
-surface::Edge edge_of(Plan const& plan, Planform const& planform, Mask const& land, Channels const& channels) {
+surface::Edge edge_of(recipe::Plan const& plan, Planform const& planform, Mask const& land, Channels const& channels) {
     if (plan.recipe.surface->equilibrium.edge) {
         return *plan.recipe.surface->equilibrium.edge;
     }
-    if (plan.land.cells() > 0 && !has_coastlines(plan)) {
+    if (plan.land.cells() > 0 && !recipe::has_coastlines(plan)) {
         return are_sea(plan.land, channels) ? surface::Edge::coast : surface::Edge::closed;
     }
-    bool const by_coastlines = plan.recipe.network->source == Source::lines && planform.land.cells() > 0;
+    bool const by_coastlines = plan.recipe.network->source == recipe::Source::lines && planform.land.cells() > 0;
     return by_coastlines ? surface::Edge::mainland : has_sea(land) ? surface::Edge::coast : surface::Edge::open;
 }
 
 /// The plan's parameters of the terrain, for rivers with this method of heights.
-surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface::Edge edge) {
-    Recipe const& recipe = plan.recipe;
-    EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
+surface::EquilibriumParams params_of(recipe::Plan const& plan, recipe::Heights heights, surface::Edge edge) {
+    recipe::Recipe const& recipe = plan.recipe;
+    recipe::EquilibriumRecipe const& wanted = recipe.surface->equilibrium;
     constexpr double half_width_km = 0.2125; // of valley floors where 1 km² drains, for a floor_width of 1
     double const relief_m = recipe.surface->dilate.relief_m;
     surface::EquilibriumParams params;
@@ -141,8 +144,8 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
         params.relief_m = relief_m;
     } else if (params.bring_to_target) {
         params.mean_slope_deg = wanted.mean_slope_deg ? *wanted.mean_slope_deg : plan.like->mean_slope_deg;
-    } else if (recipe.network->source == Source::lines) { // given heights have their own slope
-        params.mean_slope_deg = usual_slope_deg(recipe.grid.cell_m);
+    } else if (recipe.network->source == recipe::Source::lines) { // given heights have their own slope
+        params.mean_slope_deg = recipe::usual_slope_deg(recipe.grid.cell_m);
     }
     params.hillslope_m = wanted.hillslope_m > 0.0 ? wanted.hillslope_m : recipe.grid.cell_m;
     params.debris_area_m2 = wanted.debris_area_km2 * 1e6;
@@ -151,7 +154,7 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
     params.longest_wave_m = wanted.longest_wave_m;
     params.grain = wanted.grain;
     params.strike_deg = wanted.strike_deg;
-    bool const by_file = recipe.network->source == Source::lines; // the file includes all rivers that enter
+    bool const by_file = recipe.network->source == recipe::Source::lines; // the file includes all rivers that enter
     params.region = wanted.region.value_or(params.region);
     params.inflow = !by_file;
     params.heads = by_file ? surface::Heads::kept : surface::Heads::cut;
@@ -161,9 +164,9 @@ surface::EquilibriumParams params_of(Plan const& plan, Heights heights, surface:
 }
 
 /// The prescribed heights of channels: all that the rivers have, or those of sources and ends.
-std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& channels, Heights heights) {
+std::vector<float> asked_heights(ElevatedNetwork const& rivers, Channels const& channels, recipe::Heights heights) {
     std::vector<float> z = network::channel_heights(rivers, channels);
-    if (heights == Heights::ends) {
+    if (heights == recipe::Heights::ends) {
         std::vector<std::uint8_t> has_donor(z.size());
         for (std::int64_t const r : channels.receiver) {
             if (r >= 0) {
@@ -263,12 +266,13 @@ struct Solved {
 };
 
 /// Whether the terrain is rebuilt from rivers with heights of a file.
-bool rebuilds(Plan const& plan) {
-    return plan.recipe.network->heights == Heights::file;
+bool rebuilds(recipe::Plan const& plan) {
+    return plan.recipe.network->heights == recipe::Heights::file;
 }
 
 /// Keys that describe terrain in equilibrium keep their meaning relative to their defaults.
-surface::RebuildParams rebuild_params_of(EquilibriumRecipe const& wanted, surface::EquilibriumParams const& given) {
+surface::RebuildParams rebuild_params_of(recipe::EquilibriumRecipe const& wanted,
+                                         surface::EquilibriumParams const& given) {
     surface::EquilibriumParams const usual;
     surface::RebuildParams params;
     if (given.relief_m) {
@@ -316,7 +320,7 @@ std::vector<Finding> doubts_of(surface::RiverSurvey const& survey) {
     return {};
 }
 
-Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::EquilibriumFields const& fields,
+Solved rebuild_terrain(recipe::Plan const& plan, Channels const& channels, surface::EquilibriumFields const& fields,
                        surface::EquilibriumParams params, Run const& run) {
     params.edge = params.edge == surface::Edge::open ? surface::Edge::closed : params.edge;
     surface::RebuiltTerrain rebuilt =
@@ -329,14 +333,15 @@ Solved rebuild_terrain(Plan const& plan, Channels const& channels, surface::Equi
 }
 
 /// Correlation of gradients at the distance at which the DEM of surface.like has it.
-double correlation_of(Raster<float> const& dem, LikeDem const& like, Run const& run) {
+double correlation_of(Raster<float> const& dem, recipe::LikeDem const& like, Run const& run) {
     auto const lag = std::ranges::find(measure::texture_lags_m, like.lag_m) - measure::texture_lags_m.begin();
     return measure::gradient_texture(dem, {}, run).correlation.at(static_cast<std::size_t>(lag));
 }
 
 /// Solves, and again with another roughness until gradients are correlated as in the DEM of surface.like.
 template <class Solve>
-Solved with_texture(LikeDem const& like, surface::EquilibriumParams params, Solve const& solve, Run const& run) {
+Solved with_texture(recipe::LikeDem const& like, surface::EquilibriumParams params, Solve const& solve,
+                    Run const& run) {
     constexpr double close = 0.01;
     constexpr double worth_a_word = 0.03;
     constexpr int most_rounds = 4;
@@ -382,7 +387,7 @@ Solved with_texture(LikeDem const& like, surface::EquilibriumParams params, Solv
 }
 
 /// Solves for the land.
-Solved solve(Plan const& plan, Planform const& planform, Channels const& channels, StageLog& stage_log,
+Solved solve(recipe::Plan const& plan, Planform const& planform, Channels const& channels, StageLog& stage_log,
              Run const& run) {
     surface::EquilibriumFields const fields = equilibrium_fields(plan, planform, channels, run);
     run.at(0.0, fmt::format("fill {} cells", planform.grid.cells()).c_str());
@@ -500,10 +505,11 @@ Valley valley_of(Channels const& channels, Raster<float> const& dem) {
 
 } // namespace
 
-EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run) {
-    Heights const heights = plan.recipe.network->heights;
+EquilibriumResult draw_in_equilibrium(recipe::Plan const& plan, Planform const& planform, StageLog& stage_log,
+                                      Run const& run) {
+    recipe::Heights const heights = plan.recipe.network->heights;
     std::optional<RaisedRivers> raised;
-    if (!heights_follow_terrain(plan.recipe)) {
+    if (!recipe::heights_follow_terrain(plan.recipe)) {
         raised = raise_rivers(plan, planform, stage_log, run);
     }
     EquilibriumResult result;
@@ -513,7 +519,7 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     network::ChannelsOfArcs rivers =
         stage_log.stage("channels", [&] { return network::channels(planform.network, planform.grid, drawing, run); });
     stage_log.find(rivers.notes);
-    if (heights != Heights::graded) {
+    if (heights != recipe::Heights::graded) {
         rivers.channels.z = asked_heights(raised->network, rivers.channels, heights);
     }
     WithLakes flooded = with_lakes(plan, planform, std::move(rivers), run);
@@ -556,10 +562,10 @@ EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform
     return result;
 }
 
-WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
+WithSideValleys with_side_valleys(recipe::Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
                                   Raster<float> const& dem, flow::FlowField const& drainage, StageLog& stage_log,
                                   Run const& run) {
-    if (!adds_side_valleys(plan.recipe)) {
+    if (!recipe::adds_side_valleys(plan.recipe)) {
         return {std::move(rivers), std::move(valley), {}};
     }
     std::int64_t const support_cells = plan.recipe.network->support_cells;

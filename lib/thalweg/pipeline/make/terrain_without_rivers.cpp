@@ -14,11 +14,11 @@
 #include <thalweg/geometry/triangulate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/pipeline/make/internal/terrain.hpp>
-#include <thalweg/pipeline/plan/read_inputs.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/check_recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/read_inputs.hpp>
+#include <thalweg/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/random_fields.hpp>
 #include <thalweg/skeleton/regress.hpp>
@@ -36,13 +36,13 @@ constexpr double default_dimension = 2.4;
 constexpr double default_std_m = 100.0;
 
 // The targets of [statistics]; empty: there are none.
-StatisticsRecipe const& asked(Recipe const& recipe) {
-    static StatisticsRecipe const nothing_asked;
+recipe::StatisticsRecipe const& asked(recipe::Recipe const& recipe) {
+    static recipe::StatisticsRecipe const nothing_asked;
     return recipe.statistics ? *recipe.statistics : nothing_asked;
 }
 
 // The target mean, or the middle between the extremes.
-double mean_of(StatisticsRecipe const& s) {
+double mean_of(recipe::StatisticsRecipe const& s) {
     if (s.mean) {
         return *s.mean;
     }
@@ -50,7 +50,7 @@ double mean_of(StatisticsRecipe const& s) {
 }
 
 // The covariance of terrain with these statistics, on cells larger by a factor.
-solver::StableCovariance covariance_of(StatisticsRecipe const& s, double step) {
+solver::StableCovariance covariance_of(recipe::StatisticsRecipe const& s, double step) {
     solver::StableCovariance covariance;
     covariance.lx_cells = (s.length ? (*s.length)[0] : default_length_cells) / step;
     covariance.ly_cells = (s.length ? (*s.length)[1] : default_length_cells) / step;
@@ -60,7 +60,7 @@ solver::StableCovariance covariance_of(StatisticsRecipe const& s, double step) {
                                   : covariance;
 }
 
-Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, int levels) {
+Raster<float> drawn_to_extremes(Raster<float> land, recipe::StatisticsRecipe const& s, int levels) {
     double const step = static_cast<double>(std::int64_t{1} << levels);
     for (auto const& extreme : {s.max, s.min}) {
         if (!extreme || s.reach_cells <= 0.0) {
@@ -77,16 +77,17 @@ Raster<float> drawn_to_extremes(Raster<float> land, StatisticsRecipe const& s, i
 }
 
 // Random terrain with this prior, on cells that detail will halve this many times.
-Raster<float> random_land(Recipe const& recipe, Prior prior, Grid const& coarse, int levels, Run const& run) {
-    StatisticsRecipe const& s = asked(recipe);
+Raster<float> random_land(recipe::Recipe const& recipe, recipe::Prior prior, Grid const& coarse, int levels,
+                          Run const& run) {
+    recipe::StatisticsRecipe const& s = asked(recipe);
     double const step = static_cast<double>(std::int64_t{1} << levels);
     double const lx = (s.length ? (*s.length)[0] : default_length_cells) / step;
     double const ly = (s.length ? (*s.length)[1] : default_length_cells) / step;
     double const std = s.std.value_or(default_std_m);
     skeleton::FieldParams const field{mean_of(s), std, lx, ly, recipe.seed};
     switch (prior) {
-    case Prior::separable: return drawn_to_extremes(skeleton::separable_ar(coarse, field, run), s, levels);
-    case Prior::markov3: return drawn_to_extremes(skeleton::markov3(coarse, field, run), s, levels);
+    case recipe::Prior::separable: return drawn_to_extremes(skeleton::separable_ar(coarse, field, run), s, levels);
+    case recipe::Prior::markov3: return drawn_to_extremes(skeleton::markov3(coarse, field, run), s, levels);
     default: break;
     }
     skeleton::GrfParams params;
@@ -98,18 +99,19 @@ Raster<float> random_land(Recipe const& recipe, Prior prior, Grid const& coarse,
 }
 
 /// The default [surface] for points.
-SurfaceRecipe over_triangles() {
-    SurfaceRecipe surface;
-    surface.method = Method::tin;
+recipe::SurfaceRecipe over_triangles() {
+    recipe::SurfaceRecipe surface;
+    surface.method = recipe::Method::tin;
     return surface;
 }
 
 // The points of the terrain: from the file, or random with the extremes among them.
-skeleton::Scattered points_of(Recipe const& recipe, Grid const& grid, FeaturePoints const& given, Run const& run) {
+skeleton::Scattered points_of(recipe::Recipe const& recipe, Grid const& grid, FeaturePoints const& given,
+                              Run const& run) {
     if (!recipe.skeleton || recipe.skeleton->scatter == 0) {
         return {.points = given};
     }
-    StatisticsRecipe const& s = asked(recipe);
+    recipe::StatisticsRecipe const& s = asked(recipe);
     skeleton::ScatterParams params;
     params.seed = recipe.seed;
     params.count = recipe.skeleton->scatter;
@@ -141,11 +143,11 @@ struct LandOfPoints {
 };
 
 // grid: of the terrain, whose cells may be coarser than the recipe's, of cell_m.
-LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints const& points, Grid const& grid,
+LandOfPoints land_of_points(recipe::Recipe const& recipe, double cell_m, FeaturePoints const& points, Grid const& grid,
                             Run const& run) {
-    SurfaceRecipe const wanted = recipe.surface.value_or(over_triangles());
-    StatisticsRecipe const& s = asked(recipe);
-    if (wanted.method == Method::regress) {
+    recipe::SurfaceRecipe const wanted = recipe.surface.value_or(over_triangles());
+    recipe::StatisticsRecipe const& s = asked(recipe);
+    if (wanted.method == recipe::Method::regress) {
         skeleton::RegressParams params = wanted.regress;
         double const step = grid.cell_m / cell_m;
         params.length_x = (s.length ? (*s.length)[0] : default_length_cells) / step;
@@ -162,7 +164,7 @@ LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints c
         }
         return made;
     }
-    if (wanted.method == Method::diffuse) {
+    if (wanted.method == recipe::Method::diffuse) {
         Valley const no_rivers{Raster<float>(grid, std::numeric_limits<float>::quiet_NaN())};
         surface::DiffuseParams params = wanted.diffuse;
         params.seed = recipe.seed;
@@ -172,7 +174,7 @@ LandOfPoints land_of_points(Recipe const& recipe, double cell_m, FeaturePoints c
         return {std::move(land.dem), {}, SolverStatistics{land.iterations, land.residual}};
     }
     Tin tin = geometry::triangulate(points.points, {}, run).tin;
-    bool const natural = wanted.interpolation == Interpolation::natural;
+    bool const natural = wanted.interpolation == recipe::Interpolation::natural;
     Raster<float> land = natural
                              ? geometry::natural_neighbours(points.points, grid,
                                                             {geometry::NaturalNeighboursParams::Outside::nearest}, run)
@@ -190,7 +192,7 @@ struct MatchedTerrain {
     double fine_forms_cells = 0.0; // [cells] as Terrain
 };
 
-fractal::Targets targets_of(StatisticsRecipe const& s) {
+fractal::Targets targets_of(recipe::StatisticsRecipe const& s) {
     fractal::Targets targets;
     targets.mean = s.mean;
     targets.std = s.std;
@@ -236,7 +238,7 @@ template <class Work> auto naming_keys(Work const& work) {
 }
 
 /// Shifts and scales terrain to the target mean and deviation, so that matching begins close to them.
-Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run const& run) {
+Raster<float> standardised(Raster<float> land, recipe::StatisticsRecipe const& s, Run const& run) {
     measure::Statistics const now = measure::statistics(land, run);
     double const stretch = s.std && now.std > 0.0 ? *s.std / now.std : 1.0;
     double const mean = s.mean.value_or(now.mean);
@@ -247,9 +249,10 @@ Raster<float> standardised(Raster<float> land, StatisticsRecipe const& s, Run co
 }
 
 /// Heights of input points that matching must keep: the first of each cell, none at an extreme.
-std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeaturePoints const& given, Grid const& grid) {
+std::vector<fractal::FixedHeight> heights_to_keep(recipe::Recipe const& recipe, FeaturePoints const& given,
+                                                  Grid const& grid) {
     std::vector<fractal::FixedHeight> kept;
-    if (recipe.statistics->skeleton != Prior::points) {
+    if (recipe.statistics->skeleton != recipe::Prior::points) {
         return kept;
     }
     std::set<std::int64_t> taken;
@@ -268,7 +271,7 @@ std::vector<fractal::FixedHeight> heights_to_keep(Recipe const& recipe, FeatureP
 }
 
 /// Warns of lengths that only a fit can determine: correlation is measured over lags of up to half an axis.
-void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, StageLog& stage_log) {
+void warn_of_lengths(recipe::StatisticsRecipe const& s, Grid const& grid, StageLog& stage_log) {
     if (!s.length) {
         return;
     }
@@ -289,25 +292,25 @@ void warn_of_lengths(StatisticsRecipe const& s, Grid const& grid, StageLog& stag
 
 // Throws, before any work, if the statistics cannot be reached on this grid; warns of lengths that only a fit can
 // determine.
-void require_targets(StatisticsRecipe const& wanted, Grid const& grid, StageLog& stage_log) {
+void require_targets(recipe::StatisticsRecipe const& wanted, Grid const& grid, StageLog& stage_log) {
     naming_keys([&] { fractal::check_targets(Raster<float>(grid), targets_of(wanted)); });
     warn_of_lengths(wanted, grid, stage_log);
 }
 
 // Matches a terrain to the statistics. One from which they cannot be reached, smoother or rougher between neighbours
 // than the target, takes its fine forms from a Gaussian terrain: as few as possible. given: points whose heights stay.
-MatchedTerrain matched_to_statistics(Recipe const& recipe, Raster<float> land, FeaturePoints const& given,
+MatchedTerrain matched_to_statistics(recipe::Recipe const& recipe, Raster<float> land, FeaturePoints const& given,
                                      Run const& run) {
-    StatisticsRecipe const& s = *recipe.statistics;
+    recipe::StatisticsRecipe const& s = *recipe.statistics;
     Grid const grid = land.grid();
     std::vector<fractal::FixedHeight> const kept = heights_to_keep(recipe, given, grid);
     fractal::MatchParams params;
     params.prior = covariance_of(s, 1.0);
     MatchedTerrain brought{
         naming_keys([&] { return fractal::match_statistics(land, targets_of(s), kept, params, run); })};
-    if (!brought.projection.converged && s.skeleton != Prior::grf) {
+    if (!brought.projection.converged && s.skeleton != recipe::Prior::grf) {
         land = standardised(std::move(land), s, run);
-        Raster<float> const gaussian = standardised(random_land(recipe, Prior::grf, grid, 0, run), s, run);
+        Raster<float> const gaussian = standardised(random_land(recipe, recipe::Prior::grf, grid, 0, run), s, run);
         for (double cells = 1.0; cells <= most_fine_cells; cells *= 2.0) {
             fractal::MatchedDem again = fractal::match_statistics(fractal::with_fine_forms(land, gaussian, cells, run),
                                                                   targets_of(s), kept, params, run);
@@ -345,31 +348,31 @@ DetailedTerrain displaced(fractal::MidpointParams params, std::uint64_t seed, Ra
 }
 
 // Adds the planned detail to coarse terrain.
-DetailedTerrain with_detail(Plan const& plan, Raster<float> const& coarse, Grid const& grid, Run const& run) {
+DetailedTerrain with_detail(recipe::Plan const& plan, Raster<float> const& coarse, Grid const& grid, Run const& run) {
     return displaced(plan.recipe.detail->midpoint, plan.recipe.seed, coarse, grid, run);
 }
 
 } // namespace
 
-DetailedTerrain detail_alone(Plan const& plan, Grid const& grid, Run const& run) {
+DetailedTerrain detail_alone(recipe::Plan const& plan, Grid const& grid, Run const& run) {
     fractal::MidpointParams wanted = plan.recipe.detail->midpoint;
     wanted.hurst = wanted.hurst.value_or(3.0 - default_dimension);
-    Raster<float> const flat(coarse_grid(grid, levels_of(plan.recipe)), 0.0F);
+    Raster<float> const flat(recipe::coarse_grid(grid, recipe::levels_of(plan.recipe)), 0.0F);
     return displaced(wanted, plan.recipe.seed, flat, grid, run);
 }
 
 namespace {
 
 /// Removes the heights of cells without data in a raster, and of those outside the mask of [surface].
-Raster<float> left_out(Raster<float> land, Plan const& plan, Run const& run) {
-    Recipe const& recipe = plan.recipe;
+Raster<float> left_out(Raster<float> land, recipe::Plan const& plan, Run const& run) {
+    recipe::Recipe const& recipe = plan.recipe;
     for (std::int64_t i = 0; i < plan.raster.cells(); ++i) {
         land[i] = std::isnan(plan.raster[i]) ? plan.raster[i] : land[i];
     }
     if (!recipe.surface || recipe.surface->mask.empty()) {
         return land;
     }
-    Mask const inside = read_mask_of_land(file_in(recipe, recipe.surface->mask), land.grid(), run);
+    Mask const inside = recipe::read_mask_of_land(recipe::file_in(recipe, recipe.surface->mask), land.grid(), run);
     if (std::all_of(inside.values().begin(), inside.values().end(), [](std::uint8_t v) { return v == 0; })) {
         throw BadInput(fmt::format("surface.mask = \"{}\" leaves out every cell", recipe.surface->mask));
     }
@@ -399,16 +402,16 @@ Raster<float> every_cell(Raster<float> const& raster, Grid const& coarse, int le
 }
 
 /// It is that of a raster, goes through points or is random.
-Coarse with_coarse_terrain(Plan const& plan, Grid const& grid, StageLog& stage_log, Run const& run) {
-    Recipe const& recipe = plan.recipe;
-    int const levels = levels_of(recipe);
-    Grid const coarse = coarse_grid(grid, levels);
-    if (on_raster(recipe)) {
+Coarse with_coarse_terrain(recipe::Plan const& plan, Grid const& grid, StageLog& stage_log, Run const& run) {
+    recipe::Recipe const& recipe = plan.recipe;
+    int const levels = recipe::levels_of(recipe);
+    Grid const coarse = recipe::coarse_grid(grid, levels);
+    if (recipe::on_raster(recipe)) {
         Coarse result{stage_log.stage("land", [&] { return every_cell(plan.raster, coarse, levels); })};
         stage_log.say(fmt::format("{}x{} cells of the DEM", coarse.width, coarse.height));
         return result;
     }
-    if (recipe.statistics && recipe.statistics->skeleton != Prior::points) {
+    if (recipe.statistics && recipe.statistics->skeleton != recipe::Prior::points) {
         Coarse result{stage_log.stage(
             "land", [&] { return random_land(recipe, recipe.statistics->skeleton, coarse, levels, run); })};
         stage_log.say(fmt::format("random, {}x{} cells of {} m", coarse.width, coarse.height, coarse.cell_m));
@@ -416,7 +419,7 @@ Coarse with_coarse_terrain(Plan const& plan, Grid const& grid, StageLog& stage_l
     }
     skeleton::Scattered const points = points_of(recipe, grid, plan.points, run);
     std::vector<Check> checks;
-    if (scatters_points(recipe)) {
+    if (recipe::scatters_points(recipe)) {
         checks.push_back(points_missing(points, *recipe.skeleton, stage_log));
     }
     LandOfPoints made =
@@ -428,7 +431,7 @@ Coarse with_coarse_terrain(Plan const& plan, Grid const& grid, StageLog& stage_l
 
 } // namespace
 
-Check points_missing(skeleton::Scattered const& points, SkeletonRecipe const& wanted, StageLog& stage_log) {
+Check points_missing(skeleton::Scattered const& points, recipe::SkeletonRecipe const& wanted, StageLog& stage_log) {
     if (points.density > skeleton::darts_density) {
         stage_log.find({.kind = "close_points",
                         .amount = points.density,
@@ -448,7 +451,7 @@ Check points_missing(skeleton::Scattered const& points, SkeletonRecipe const& wa
     return {"points_missing", static_cast<double>(points.missing), 0.0, points.missing == 0};
 }
 
-SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run const& run) {
+SurfaceAlone draw_without_rivers(recipe::Plan const& plan, StageLog& stage_log, Run const& run) {
     Grid const& grid = *plan.grid;
     if (plan.recipe.statistics) { // before any work
         require_targets(*plan.recipe.statistics, grid, stage_log);
@@ -456,7 +459,7 @@ SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run cons
     Coarse coarse = with_coarse_terrain(plan, grid, stage_log, run);
     Raster<float> dem = std::move(coarse.dem);
     std::optional<DetailStatistics> detail;
-    if (int const levels = levels_of(plan.recipe); levels > 0) {
+    if (int const levels = recipe::levels_of(plan.recipe); levels > 0) {
         DetailedTerrain made = stage_log.stage("detail", [&] { return with_detail(plan, dem, grid, run); });
         detail = made.statistics;
         dem = std::move(made.dem);

@@ -78,20 +78,21 @@ std::optional<Sea> sea_of(Terrain const& terrain) {
     return around_islands(terrain.equilibrium ? sea_beside(terrain.equilibrium->edge) : std::nullopt, terrain.land);
 }
 
-std::optional<Sea> sea_of(Plan const& plan, Planform const& planform) {
-    Recipe const& recipe = plan.recipe;
+std::optional<Sea> sea_of(recipe::Plan const& plan, Planform const& planform) {
+    recipe::Recipe const& recipe = plan.recipe;
     bool const is_cut = planform.land.cells() > 0;
     std::optional<surface::Edge> edge;
-    if (recipe.surface && recipe.surface->method == Method::equilibrium) {
-        surface::Edge const by_sea =
-            recipe.network && recipe.network->source == Source::lines ? surface::Edge::mainland : surface::Edge::coast;
+    if (recipe.surface && recipe.surface->method == recipe::Method::equilibrium) {
+        surface::Edge const by_sea = recipe.network && recipe.network->source == recipe::Source::lines
+                                         ? surface::Edge::mainland
+                                         : surface::Edge::coast;
         edge = is_cut ? recipe.surface->equilibrium.edge.value_or(by_sea) : recipe.surface->equilibrium.edge;
     }
     return around_islands(sea_beside(edge), planform.land);
 }
 
-std::optional<Sea> sea_of(Recipe const& made) {
-    bool const balanced = made.surface && made.surface->method == Method::equilibrium;
+std::optional<Sea> sea_of(recipe::Recipe const& made) {
+    bool const balanced = made.surface && made.surface->method == recipe::Method::equilibrium;
     return balanced ? sea_beside(made.surface->equilibrium.edge) : std::nullopt;
 }
 

@@ -11,7 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
 
@@ -46,11 +46,11 @@ std::optional<Sea> sea_of(Terrain const& terrain);
 /// \internal
 /// \param planform rivers of the plan
 /// \return the sea of the terrain that will be made of them, as far as these tell
-std::optional<Sea> sea_of(Plan const& plan, Planform const& planform);
+std::optional<Sea> sea_of(recipe::Plan const& plan, Planform const& planform);
 
 /// \internal
 /// \param made recipe as make writes it: it names the edge of terrain in equilibrium
 /// \return the sea of such a terrain; nothing for other ones
-std::optional<Sea> sea_of(Recipe const& made);
+std::optional<Sea> sea_of(recipe::Recipe const& made);
 
 } // namespace thalweg::pipeline

@@ -13,9 +13,9 @@
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/packed.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
-#include <thalweg/pipeline/recipe/recipe_keys.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
 #include <thalweg/pipeline/report/page.hpp>
+#include <thalweg/recipe/recipe_keys.hpp>
 
 namespace thalweg::pipeline {
 
@@ -65,7 +65,7 @@ std::string live_scene(Made const& made, std::string const& recipe, std::string 
                        io::packed(lines.bytes), water.empty() ? "" : io::packed(water));
 }
 
-Made rivers_to_be(Plan const& plan, Planform const& planform) {
+Made rivers_to_be(recipe::Plan const& plan, Planform const& planform) {
     Made made;
     made.recipe = plan.recipe;
     made.terrain.grid = planform.grid;
@@ -81,8 +81,8 @@ Made rivers_to_be(Plan const& plan, Planform const& planform) {
     return made;
 }
 
-std::optional<ClusterArms> cluster_arms(Plan const& plan, std::int64_t side, Run const& run) {
-    if (!plan.recipe.network || plan.recipe.network->source != Source::dla) {
+std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t side, Run const& run) {
+    if (!plan.recipe.network || plan.recipe.network->source != recipe::Source::dla) {
         return std::nullopt;
     }
     network::Cluster const cluster = cluster_of(plan, run);
@@ -99,7 +99,7 @@ std::optional<ClusterArms> cluster_arms(Plan const& plan, std::int64_t side, Run
     arms.width = (wide + cells - 1) / cells;
     arms.height = (tall + cells - 1) / cells;
     std::vector<std::uint8_t> places(static_cast<std::size_t>(arms.width * arms.height));
-    arms.chosen = std::get<std::string>(*find_key("network.dla.branch")->take(plan.recipe));
+    arms.chosen = std::get<std::string>(*recipe::find_key("network.dla.branch")->take(plan.recipe));
     auto const paint = [&](std::vector<Cell> const& branch, std::uint8_t arm) {
         for (Cell const c : branch) {
             auto const place = (c.row - low.row) / cells * arms.width + (c.col - low.col) / cells;

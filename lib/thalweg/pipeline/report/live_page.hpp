@@ -60,7 +60,7 @@ std::string live_scene(Made const& made, std::string const& recipe, std::string 
 /// \internal
 /// Rivers whose terrain is yet to be made, at height 0.
 /// \return for live_scene()
-Made rivers_to_be(Plan const& plan, Planform const& planform);
+Made rivers_to_be(recipe::Plan const& plan, Planform const& planform);
 
 /// The arms of a cluster in the four directions, of which one can become the rivers.
 struct ClusterArms {
@@ -75,6 +75,6 @@ struct ClusterArms {
 /// \internal
 /// \param side [places] of the longer side of the picture
 /// \return nothing where the rivers are no branch of a cluster
-std::optional<ClusterArms> cluster_arms(Plan const& plan, std::int64_t side, Run const& run = {});
+std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t side, Run const& run = {});
 
 } // namespace thalweg::pipeline

@@ -405,7 +405,7 @@ std::string page(Made const& made, PageParams const& params, Run const& run) {
     run.check();
     PageLines const lines = lines_of_page(made);
     PageParts parts;
-    parts.title = html_text(title_of(made.recipe));
+    parts.title = html_text(recipe::title_of(made.recipe));
     parts.data = page_data(made, params, heights, lines);
     parts.heights = heights ? io::packed(heights->bytes) : "";
     parts.lines = io::packed(lines.bytes);

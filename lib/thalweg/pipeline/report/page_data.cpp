@@ -393,16 +393,16 @@ void add_land(Made const& t, Figures& figures) {
 }
 
 void add_rivers(Made const& t, std::vector<Stem> const& stems, Figures& figures) {
-    std::optional<NetworkRecipe> const& wanted = t.recipe.network;
+    std::optional<recipe::NetworkRecipe> const& wanted = t.recipe.network;
     double const length = std::accumulate(t.terrain.rivers.network.planform.length_m().begin(),
                                           t.terrain.rivers.network.planform.length_m().end(), 0.0);
     auto const land =
         static_cast<double>(t.assessment.statistics ? t.assessment.statistics->cells : t.terrain.grid.cells());
-    if (wanted && wanted->source == Source::dla) {
+    if (wanted && wanted->source == recipe::Source::dla) {
         figures.add("particles of the cluster", std::optional(wanted->dla.particles), t.planform.statistics.particles,
                     "");
     }
-    if (wanted && wanted->source == Source::forest) {
+    if (wanted && wanted->source == recipe::Source::forest) {
         figures.add("particles of the forest", t.planform.statistics.particles, "");
     }
     figures.add("arcs", t.terrain.rivers.network.planform.arc_count(), "");
@@ -416,7 +416,8 @@ void add_rivers(Made const& t, std::vector<Stem> const& stems, Figures& figures)
         std::vector<ProfilePoint> const& stem = stems.front().points;
         // Only along_stream sets a slope along the water; the other methods set one along a straight line.
         figures.add("slope of the main stem",
-                    wanted && wanted->heights == Heights::along_stream ? std::optional(wanted->slope) : std::nullopt,
+                    wanted && wanted->heights == recipe::Heights::along_stream ? std::optional(wanted->slope)
+                                                                               : std::nullopt,
                     (stem.front().z - stem.back().z) / stem.front().to_outlet_m, "m/m");
     }
 }
@@ -578,7 +579,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
     }
     ordered_json const data{
         {"version", version()},
-        {"title", title_of(t.recipe)},
+        {"title", recipe::title_of(t.recipe)},
         {"seed", t.recipe.seed},
         {"command", params.command},
         {"recipe", params.recipe},

@@ -22,8 +22,8 @@
 #include <thalweg/network/import/import_lines.hpp>
 #include <thalweg/network/import/prepare_lines.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
 #include <thalweg/pipeline/report/page.hpp>
+#include <thalweg/recipe/recipe.hpp>
 #include <thalweg/surface/dilation/increment.hpp>
 
 namespace thalweg::pipeline {
@@ -145,7 +145,7 @@ std::optional<ElevatedNetwork> rivers_on(Raster<float> const& dem, std::string c
 }
 
 /// Reads the increments of the surface: the recipe names them, the report has their number and scale.
-void read_increments(Scene& scene, Recipe const& recipe, std::string const& report) {
+void read_increments(Scene& scene, recipe::Recipe const& recipe, std::string const& report) {
     auto const json = bounded_json<nlohmann::json>(report, {.most_keys = std::size_t{1} << 20U});
     auto const dem = json.is_object() && json.contains("dem") ? json["dem"] : nlohmann::json();
     if (!recipe.surface || !dem.is_object() || !dem.contains("levels") || !dem["levels"].is_number_integer() ||
@@ -196,8 +196,8 @@ SceneRead read_folder(ReadSceneParams const& params, Run const& run) {
         scene.lakes = io::read_mask({lakes}, scene.dem->grid(), run);
     }
     if (fs::exists(recipe)) {
-        Recipe const made = read_recipe(io::read_text(recipe, 2 << 20), recipe);
-        scene.title = title_of(made);
+        recipe::Recipe const made = recipe::read_recipe(io::read_text(recipe, 2 << 20), recipe);
+        scene.title = recipe::title_of(made);
         scene.sea = sea_of(made);
         bool const in_metres = made.output.units == HeightUnit::metre; // pictures are always in metres
         scene.contour_interval_m = in_metres ? made.output.contour_interval : 0.0;

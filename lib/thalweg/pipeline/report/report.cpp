@@ -18,7 +18,7 @@
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
 #include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -104,9 +104,9 @@ ordered_json findings_array(std::vector<Finding> const& findings) {
     return out;
 }
 
-ordered_json recipe_object(Recipe const& recipe) {
+ordered_json recipe_object(recipe::Recipe const& recipe) {
     std::ostringstream text;
-    toml::table const table = toml::parse(write_recipe(recipe));
+    toml::table const table = toml::parse(recipe::write_recipe(recipe));
     text << toml::json_formatter{table};
     return ordered_json::parse(text.str());
 }

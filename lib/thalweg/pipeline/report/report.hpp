@@ -104,7 +104,7 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
 /// Makes a terrain and writes all output of `make`, as make() and write_terrain() do; with more than one thread files
 /// are written while the terrain is assessed.
 /// \throws Error as make() and write_terrain()
-Made make_folder(Recipe const& recipe, std::string const& folder, io::Existing existing = io::Existing::refuse,
+Made make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing = io::Existing::refuse,
                  Run const& run = {});
 
 /// Draws the differences of a terrain and the DEM it is compared with.

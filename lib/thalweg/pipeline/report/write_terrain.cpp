@@ -31,13 +31,13 @@
 #include <thalweg/pipeline/make/file_values.hpp>
 #include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/make/rivers.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/recipe_files.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/pipeline/report/pictures.hpp>
 #include <thalweg/pipeline/report/report.hpp>
+#include <thalweg/recipe/recipe_files.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
@@ -261,18 +261,19 @@ class FolderWriter {
 public:
     /// \param made outlives this object
     FolderWriter(Made const& made, std::string const& folder, io::Existing existing, Run const& run)
-        : made_(made), out_(folder, existing, files_left_in(folder)), run_(run), title_(title_of(made.recipe)),
-          recipe_(keep_inputs(made.recipe, out_)), parts_(made), jobs_(run, "write") {}
+        : made_(made), out_(folder, existing, files_left_in(folder)), run_(run), title_(recipe::title_of(made.recipe)),
+          recipe_(recipe::keep_inputs(made.recipe, out_)), parts_(made), jobs_(run, "write") {}
 
     /// Begins with the files that need no assessment.
     void begin() {
         if (made_.terrain.surface) {
             begin_surface();
         }
-        if (made_.recipe.network && writes(OutputFiles::pictures)) {
+        if (made_.recipe.network && writes(recipe::OutputFiles::pictures)) {
             add_picture("write_profile", "profile.svg", [this] { return profile_of(made_, title_); });
         }
-        if (made_.terrain.tin && made_.recipe.skeleton && made_.recipe.skeleton->tin && writes(OutputFiles::tin)) {
+        if (made_.terrain.tin && made_.recipe.skeleton && made_.recipe.skeleton->tin &&
+            writes(recipe::OutputFiles::tin)) {
             add("write_tin", [this](Run const& run) { write_tin(made_, out_, run); });
         }
     }
@@ -280,11 +281,11 @@ public:
     /// Writes the others.
     /// \return the names of the files, report.json last
     std::vector<std::string> finish() {
-        if (made_.recipe.network && writes(OutputFiles::network)) {
+        if (made_.recipe.network && writes(recipe::OutputFiles::network)) {
             add("write_network", [this](Run const& run) { write_network(made_, out_, run); });
         }
-        std::string const recipe_toml = write_recipe(recipe_);
-        if (writes(OutputFiles::page)) {
+        std::string const recipe_toml = recipe::write_recipe(recipe_);
+        if (writes(recipe::OutputFiles::page)) {
             add("write_page", [this, recipe_toml](Run const& run) {
                 PageParams params = page_params_of(made_, recipe_toml);
                 if (made_.terrain.surface) {
@@ -293,18 +294,18 @@ public:
                 io::write_text(out_.path("report.html"), page(made_, params, run));
             });
         }
-        if (made_.assessment.catchments && writes(OutputFiles::catchments)) {
+        if (made_.assessment.catchments && writes(recipe::OutputFiles::catchments)) {
             add("write_catchments", [this](Run const& run) { write_catchments(made_, out_, run); });
         }
-        if (made_.assessment.against && writes(OutputFiles::pictures)) {
+        if (made_.assessment.against && writes(recipe::OutputFiles::pictures)) {
             add_picture("write_against", "against.png",
                         [this] { return comparison_against(*made_.assessment.against, made_.terrain, title_); });
         }
-        if (made_.assessment.water_areas && writes(OutputFiles::areas)) {
+        if (made_.assessment.water_areas && writes(recipe::OutputFiles::areas)) {
             add("write_areas", [this](Run const& run) { write_areas(*made_.assessment.water_areas, out_, run); });
         }
         jobs_.wait();
-        if (writes(OutputFiles::qgis)) {
+        if (writes(recipe::OutputFiles::qgis)) {
             add("write_qgis", [this](Run const& /*run*/) { write_qgis_files(made_, title_, out_); });
             jobs_.wait();
         }
@@ -318,23 +319,23 @@ public:
     }
 
 private:
-    bool writes(OutputFiles files) const { return made_.recipe.output.has(files); }
+    bool writes(recipe::OutputFiles files) const { return made_.recipe.output.has(files); }
 
     void begin_surface() {
-        if (writes(OutputFiles::pictures)) {
+        if (writes(recipe::OutputFiles::pictures)) {
             add("write_map", [this](Run const& run) {
                 draw::MapParams map;
                 map.title = title_;
                 io::write_text(out_.path("map.png"), map_with(made_, parts_, map, run).bytes);
             });
         }
-        if (writes(OutputFiles::dem)) {
+        if (writes(recipe::OutputFiles::dem)) {
             add("write_dem", [this](Run const& run) { write_dem(made_, out_, run); });
         }
-        if (writes(OutputFiles::contours)) {
+        if (writes(recipe::OutputFiles::contours)) {
             add("write_contours", [this](Run const& run) { write_contours(made_, parts_, out_, run); });
         }
-        if (writes(OutputFiles::pictures)) {
+        if (writes(recipe::OutputFiles::pictures)) {
             if (!made_.terrain.surface->increments.empty()) {
                 add_picture("write_curve", "curve.svg", [this] { return curve_of(made_); });
             }
@@ -362,7 +363,7 @@ private:
     io::OutputFolder out_;
     Run const& run_;
     std::string const title_;
-    Recipe const recipe_; ///< with the names of the copies of its files
+    recipe::Recipe const recipe_; ///< with the names of the copies of its files
     SurfaceParts parts_;
     std::deque<StageTime> times_; ///< of the jobs, in their order
     Beside jobs_;                 ///< the last member: it uses all others
@@ -397,7 +398,7 @@ draw::Picture draw_map(Made const& made, DrawMapParams const& params, Run const&
     refuse_if<BadInput>(!made.terrain.surface,
                         "pipeline.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
     draw::MapParams map;
-    map.title = params.title.value_or(title_of(made.recipe));
+    map.title = params.title.value_or(recipe::title_of(made.recipe));
     map.width_px = params.width_px;
     SurfaceParts parts(made);
     return map_with(made, parts, map, run);
@@ -414,10 +415,10 @@ std::vector<std::string> write_terrain(Made const& made, std::string const& fold
     return writer.finish();
 }
 
-Made make_folder(Recipe const& recipe, std::string const& folder, io::Existing existing, Run const& run) {
+Made make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing, Run const& run) {
     check_folder(folder, existing);
     Made made;
-    made.plan = resolve(recipe, run);
+    made.plan = recipe::resolve(recipe, run);
     made.planform = make_planform(made.plan, run);
     made.terrain = make_terrain(made.plan, made.planform, run);
     made.recipe = recipe_of(made.plan, made.terrain);

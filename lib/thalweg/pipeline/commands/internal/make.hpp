@@ -7,6 +7,6 @@
 namespace thalweg::pipeline {
 
 /// The recipe that make uses, with what the options set.
-Recipe recipe_asked(MakeParams const& params);
+recipe::Recipe recipe_asked(MakeParams const& params);
 
 } // namespace thalweg::pipeline

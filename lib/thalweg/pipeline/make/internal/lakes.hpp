@@ -9,7 +9,7 @@
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/lakes.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
+#include <thalweg/recipe/plan.hpp>
 
 namespace thalweg::pipeline {
 
@@ -23,7 +23,8 @@ struct WithLakes {
 
 /// Adds the lakes of surface.lakes or surface.lake_share to channels; without either they stay as they are.
 /// \throws BadInput for a level farther than 100 000 m from 0
-WithLakes with_lakes(Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers, Run const& run);
+WithLakes with_lakes(recipe::Plan const& plan, Planform const& planform, network::ChannelsOfArcs rivers,
+                     Run const& run);
 
 /// One warning for all lakes that have not the levels asked.
 /// \param lakes a note on each

@@ -8,9 +8,9 @@
 #include <thalweg/core/stream_network.hpp>
 #include <thalweg/network/elevation/river_types.hpp>
 #include <thalweg/pipeline/make/planform.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
-#include <thalweg/pipeline/recipe/recipe.hpp>
+#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/recipe.hpp>
+#include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
 
@@ -26,7 +26,7 @@ struct SourceRivers {
 
 /// Grows or imports the rivers of a plan: one branch of a DLA cluster, networks by Tokunaga's law, a forest, or the
 /// lines of a file.
-SourceRivers rivers_of_source(Plan const& plan, StageLog& stage_log, Run const& run);
+SourceRivers rivers_of_source(recipe::Plan const& plan, StageLog& stage_log, Run const& run);
 
 /// A network whose arcs name their types.
 struct Typed {
@@ -36,6 +36,6 @@ struct Typed {
 
 /// Assigns types where heights follow from them or the recipe asks for braided rivers. Arcs keep types that they have,
 /// so that it may be repeated when arcs are added or removed.
-Typed type_rivers(StreamNetwork network, NetworkRecipe const& wanted, Run const& run);
+Typed type_rivers(StreamNetwork network, recipe::NetworkRecipe const& wanted, Run const& run);
 
 } // namespace thalweg::pipeline

@@ -10,8 +10,8 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/pipeline/make/terrain.hpp>
-#include <thalweg/pipeline/plan/plan.hpp>
-#include <thalweg/pipeline/plan/stages.hpp>
+#include <thalweg/recipe/plan.hpp>
+#include <thalweg/recipe/stages.hpp>
 #include <thalweg/skeleton/scatter.hpp>
 
 namespace thalweg::pipeline {
@@ -28,10 +28,10 @@ struct RaisedRivers {
 };
 
 /// Assigns heights to rivers by the recipe, or those of their file.
-RaisedRivers raise_rivers(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run);
+RaisedRivers raise_rivers(recipe::Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run);
 
 /// The check points_missing: random points that found no room, with findings on room.
-Check points_missing(skeleton::Scattered const& points, SkeletonRecipe const& wanted, StageLog& stage_log);
+Check points_missing(skeleton::Scattered const& points, recipe::SkeletonRecipe const& wanted, StageLog& stage_log);
 
 /// A surface without rivers (paper 001).
 struct SurfaceAlone {
@@ -45,7 +45,7 @@ struct SurfaceAlone {
 };
 
 /// A random surface, or one through points, with fractal detail and the statistics that are asked for.
-SurfaceAlone draw_without_rivers(Plan const& plan, StageLog& stage_log, Run const& run);
+SurfaceAlone draw_without_rivers(recipe::Plan const& plan, StageLog& stage_log, Run const& run);
 
 /// A DEM with fractal detail, and how that was made.
 struct DetailedTerrain {
@@ -54,7 +54,7 @@ struct DetailedTerrain {
 };
 
 /// Fractal detail of a plan on a plain.
-DetailedTerrain detail_alone(Plan const& plan, Grid const& grid, Run const& run);
+DetailedTerrain detail_alone(recipe::Plan const& plan, Grid const& grid, Run const& run);
 
 /// A surface in equilibrium with its rivers.
 struct EquilibriumResult {
@@ -70,7 +70,8 @@ struct EquilibriumResult {
 
 /// Draws the surface around the planned rivers and cuts tips that would be perched. Heights that were taken because
 /// the lines have them give way where they would need walls.
-EquilibriumResult draw_in_equilibrium(Plan const& plan, Planform const& planform, StageLog& stage_log, Run const& run);
+EquilibriumResult draw_in_equilibrium(recipe::Plan const& plan, Planform const& planform, StageLog& stage_log,
+                                      Run const& run);
 
 /// Rivers with the side valleys of a surface in equilibrium as arcs.
 struct WithSideValleys {
@@ -80,7 +81,7 @@ struct WithSideValleys {
 };
 
 /// \param dem,drainage the surface as it drains
-WithSideValleys with_side_valleys(Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
+WithSideValleys with_side_valleys(recipe::Plan const& plan, Rivers rivers, Valley valley, Channels const& channels,
                                   Raster<float> const& dem, flow::FlowField const& drainage, StageLog& stage_log,
                                   Run const& run);
 

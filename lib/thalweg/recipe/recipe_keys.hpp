@@ -1,0 +1,230 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+#pragma once
+/// \internal For the modules above this one.
+
+#include <algorithm>
+#include <array>
+#include <cmath>
+#include <cstddef>
+#include <cstdint>
+#include <initializer_list>
+#include <optional>
+#include <span>
+#include <string>
+#include <string_view>
+#include <utility>
+#include <variant>
+#include <vector>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/recipe/recipe.hpp>
+
+namespace thalweg::recipe {
+
+// Values of keys, and the fields of a recipe that hold them.
+
+using Pair = std::array<double, 2>;
+using Triple = std::array<double, 3>;
+using Quad = std::array<double, 4>;
+using WordList = std::vector<std::string>;
+using Value = std::variant<bool, std::int64_t, double, std::string, Pair, Triple, Quad, WordList>;
+
+/// A value as TOML writes it.
+std::string toml_text(Value const& value);
+
+/// An enumeration by the numbers of its enumerators; an optional one is -1 where there is none.
+struct Enumeration {
+    void* at;
+    int (*get)(void const*);
+    void (*set)(void*, int);
+    int least = 0;
+};
+
+template <class E> Enumeration choice(E& field) {
+    return {&field, [](void const* at) { return static_cast<int>(*static_cast<E const*>(at)); },
+            [](void* at, int number) { *static_cast<E*>(at) = static_cast<E>(number); }};
+}
+
+template <class E> Enumeration choice(std::optional<E>& field) {
+    using Optional = std::optional<E>;
+    auto const get = [](void const* at) {
+        Optional const& held = *static_cast<Optional const*>(at);
+        return held ? static_cast<int>(*held) : -1;
+    };
+    auto const set = [](void* at, int number) {
+        *static_cast<Optional*>(at) = number < 0 ? Optional() : Optional(static_cast<E>(number));
+    };
+    return {&field, get, set, -1};
+}
+
+using Field = std::variant<bool*, int*, std::int64_t*, std::uint64_t*, double*, std::string*, std::optional<double>*,
+                           std::optional<Pair>*, std::optional<Triple>*, std::optional<Quad>*, Enumeration,
+                           std::optional<std::vector<OutputFiles>>*>;
+
+// Rows of the table.
+
+enum class KeyKind : std::uint8_t {
+    yes_no,
+    integer,
+    number,
+    pair,
+    triple,
+    quad,
+    text,
+    file,
+    word,
+    integer_or_word,
+    words
+};
+
+inline constexpr bool left_open = true; ///< of a KeyRange
+inline constexpr double endless = 9.0e15;
+
+struct KeyRange {
+    double least = 0.0;
+    double most = 0.0;
+    bool open = false; ///< least itself is not allowed
+    bool holds(double v) const { return std::isfinite(v) && (open ? v > least : v >= least) && v <= most; }
+    std::string text() const;
+};
+
+/// A word of an enumeration. Without an enumerator those of a row stand in the order of the enumeration.
+struct Word {
+    char const* text = nullptr;
+    std::optional<int> number = {};
+    constexpr Word() = default;
+    constexpr Word(char const* word) : text(word) {}
+    constexpr Word(char const* word, std::nullopt_t) : text(word), number(-1) {}
+    template <class E> constexpr Word(char const* word, E of) : text(word), number(static_cast<int>(of)) {}
+};
+
+/// What a value may be: a number in a range, one of several words, or what a form says.
+struct Allowed {
+    KeyRange range = {};
+    char const* form = "";                ///< in words
+    bool (*fits)(Value const&) = nullptr; ///< false, or an error of its own: refused
+    std::array<Word, 10> words = {};
+    std::vector<std::string> (*more_words)() = nullptr; ///< those that another table has
+
+    constexpr Allowed() = default;
+    constexpr Allowed(double least, double most, bool open = false) : range{least, most, open} {}
+    constexpr Allowed(char const* of_form, bool (*test)(Value const&) = nullptr) : form(of_form), fits(test) {}
+    constexpr Allowed(std::vector<std::string> (*of)(), char const* of_form = "", bool (*test)(Value const&) = nullptr)
+        : form(of_form), fits(test), more_words(of) {}
+    constexpr Allowed(std::initializer_list<Word> of) { std::copy(of.begin(), of.end(), words.begin()); }
+};
+
+/// What few keys have.
+struct Extra {
+    char const* standard = "";                         ///< the default in words, where the value alone does not say it
+    std::array<std::optional<double>, 2> earlier = {}; ///< defaults of earlier versions, or what a key left out came to
+    bool left_out_at_zero = false;                     ///< the field says by 0 that the key is left out
+    char const* layer = nullptr;                       ///< of a file: the key of its layer
+    char const* folder = nullptr;           ///< of a file: where below inputs/ a copy lies; null: folder of its name
+    bool (*holds)(Recipe const&) = nullptr; ///< whether the key has an effect, where `used` is for people alone
+};
+
+using Item = std::size_t; ///< of a section that is an array, counted from 0
+
+/// A key and all that is known of it.
+struct Row {
+    char const* path;
+    KeyKind kind;
+    char const* unit;
+    Allowed allowed;
+    char const* used; ///< when it has an effect, see Use; "" in every recipe that has the section
+    char const* meaning;
+    Field (*field)(Recipe&, Item);
+    Extra extra;
+};
+
+/// Every key in the order of recipe files, section by section.
+std::span<Row const> recipe_rows();
+
+/// Parts of conditions by their names, which `used` and other parts may hold.
+std::span<std::pair<std::string_view, std::string_view> const> named_conditions();
+
+// Keys, as the rows of the table make them.
+
+/// A condition on a recipe: `[network] and (surface.method = "tin" or "diffuse" or no skeleton.points)`. It speaks of
+/// sections that are there, keys that are given (a text is not ""), and keys that are one of several words, above or
+/// below a whole number; "and" binds closer than "or".
+struct Use {
+    std::string text;                      ///< "" holds for every recipe
+    bool (*test)(Recipe const&) = nullptr; ///< instead of the text
+
+    bool holds(Recipe const& recipe) const;
+    /// What a recipe lacks for it to hold and what it has instead; "" where it holds.
+    std::string lacks(Recipe const& recipe) const;
+};
+
+/// A section of recipe files, [network] with what lies below it, or the keys before the first section.
+struct Section {
+    std::string_view name;                   ///< "network"; "" before the first section
+    std::size_t (*count)(Recipe const&);     ///< how many a recipe has; what it cannot be without is 1
+    void (*begin)(Recipe&);                  ///< makes it, or one more of an array
+    void (*remove)(Recipe&, Item) = nullptr; ///< takes it out; null: no recipe is without it
+    bool is_array = false;                   ///< [[patch]]: each mention is one more
+};
+
+/// A key. Of a section that is an array, item counts from 0; without one the last is meant.
+struct Key {
+    Row const* row = nullptr;
+    Section const* part = nullptr;
+    KeyHelp help;
+    Use use;                       ///< when it has an effect
+    std::optional<KeyRange> range; ///< of a number
+    std::vector<int> numbers;      ///< by word of help.choices: the enumerator it stands for
+    std::string folder;            ///< of a file: where below inputs/ a copy of it lies, "mask/"
+
+    /// Makes the section, or the item after the last, where it is not there.
+    /// \throws BadParameter with the reason alone; the recipe is unchanged then
+    void put(Recipe& recipe, Value const& value, std::optional<Item> item = {}) const;
+    /// Takes it back to its default, in a section that is there.
+    void reset(Recipe& recipe, Item item) const;
+    /// Nothing where the section or the value is left out.
+    std::optional<Value> take(Recipe const& recipe, std::optional<Item> item = {}) const;
+    /// "patch.2.rotate" of the second patch; the path of any other.
+    std::string place(Item item) const;
+    /// What stands in its brackets in a recipe file: "network.dla".
+    std::string section() const;
+    std::string name() const;
+};
+
+/// Calls a function, and puts a key of the recipe in front of what it finds wrong.
+/// \param key "[grid] crs"
+template <class Work> auto naming_key(std::string const& key, Work const& work) {
+    try {
+        return work();
+    } catch (BadParameter const& fault) {
+        throw BadParameter(key + ": " + fault.what());
+    } catch (BadInput const& fault) {
+        throw BadInput(key + ": " + fault.what());
+    }
+}
+
+/// A recipe in which every key of the table has its default: it has all sections, and one patch.
+Recipe with_all_sections();
+
+/// Every section in the order of recipe files.
+std::span<Section const> all_sections();
+
+/// Every key in the order of recipe files.
+std::vector<Key> const& all_keys();
+
+/// The section of a name, or nullptr.
+Section const* find_section(std::string_view name);
+
+/// The key of a path, or nullptr.
+Key const* find_key(std::string_view path);
+
+/// "unknown key 'network.prunes'", with the nearest one, or one of that name in another section.
+std::string unknown_key(std::string const& path);
+
+/// The first line of a TOML text, counted from 1, where values lie deeper than this many levels: sections, parts of
+/// dotted keys, inline tables and arrays count one each. Strings and comments are left out; a text that is no TOML
+/// gives some number. It is found without recursion, for parsers that recurse a level, and destructors that do.
+std::optional<std::size_t> line_deeper_than(std::string_view toml, std::size_t most_levels);
+
+} // namespace thalweg::recipe

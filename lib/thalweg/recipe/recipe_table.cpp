@@ -1,0 +1,673 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <algorithm>
+#include <cmath>
+
+#include <fmt/format.h>
+
+#include <thalweg/core/run/error.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/recipe_keys.hpp>
+
+namespace thalweg::recipe {
+namespace {
+
+/// Rivers fall by network.slope. Where the file of lines is still to be read, it may give them heights.
+bool falls_by_slope(Recipe const& r) {
+    bool const by_raster = on_raster(r) && r.network && r.network->heights == Heights::automatic;
+    if (!r.network || by_raster || r.network->heights == Heights::rosgen) {
+        return false;
+    }
+    bool const may_be_of_file = r.network->heights == Heights::automatic && r.network->source == Source::lines;
+    bool const is_graded = r.network->heights == Heights::graded || r.network->heights == Heights::automatic;
+    return may_be_of_file || !(in_equilibrium(r) && is_graded);
+}
+
+std::vector<std::string> rosgen_words() {
+    std::vector<std::string> words{"by_order"};
+    for (network::Rosgen const type : network::rosgen_types) {
+        words.emplace_back(network::name_of(type));
+    }
+    return words;
+}
+
+std::vector<std::string> schema_names() {
+    std::vector<std::string> names;
+    for (io::SchemaTable const& table : io::all_schemas()) {
+        names.emplace_back(table.name);
+    }
+    return names;
+}
+
+/// Throws what is wrong with an expression.
+bool is_increment(Value const& v) {
+    surface::increments(1, {std::get<std::string>(v)});
+    return true;
+}
+
+template <std::size_t n, class Test> bool are_all(Value const& v, Test const& test) {
+    auto const* const list = std::get_if<std::array<double, n>>(&v);
+    return list != nullptr && std::all_of(list->begin(), list->end(), test);
+}
+
+bool is_near(Value const& v) {
+    return are_all<2>(v, [](double x) { return std::fabs(x) <= 1e9; });
+}
+
+/// Its words are not those of its range.
+bool is_corner(Value const& v) {
+    if (!is_near(v)) {
+        throw BadParameter(fmt::format("two numbers [west, north] within 1e9 are required, not {}", toml_text(v)));
+    }
+    return true;
+}
+
+bool are_lengths(Value const& v) {
+    return are_all<2>(v, [](double x) { return x > 0.0 && x <= 1e6; });
+}
+
+bool is_cell_number(double x) {
+    return x >= 0.0 && x <= 1e6 && x == std::floor(x);
+}
+
+constexpr char const* place_words = "[z, column, row], columns and rows from 0 in the north-west";
+
+bool is_place(Value const& v) {
+    auto const* const t = std::get_if<Triple>(&v);
+    return t != nullptr && std::fabs((*t)[0]) <= 1e6 && is_cell_number((*t)[1]) && (*t)[1] < 1e6 &&
+           is_cell_number((*t)[2]) && (*t)[2] < 1e6;
+}
+
+bool is_window(Value const& v) {
+    return are_all<4>(v, is_cell_number) && std::get<Quad>(v)[2] >= 1.0 && std::get<Quad>(v)[3] >= 1.0;
+}
+
+constexpr Row key(char const* path, KeyKind kind, char const* unit, Allowed const& allowed, char const* used,
+                  char const* meaning, Field (*field)(Recipe&, Item), Extra const& extra = {}) {
+    return {path, kind, unit, allowed, used, meaning, field, extra};
+}
+
+} // namespace
+
+std::span<std::pair<std::string_view, std::string_view> const> named_conditions() {
+    // those that name others stand before these
+    static constexpr std::pair<std::string_view, std::string_view> conditions[] = {
+        // ridges or random points rise above the rivers
+        {"rises", R"((with_ridges) or ((beside_rivers) and skeleton.scatter > 0) or )"
+                  R"((skeleton.ridge_lines and surface.method = "dilate" or "diffuse" or "tin"))"},
+        {"with_ridges", R"((beside_rivers) and skeleton.ridges = "voronoi" or "segments")"},
+        // around rivers by a method that honours ridges and points
+        {"beside_rivers",
+         R"(([network] and surface.method = "diffuse" or "tin") or (by_dilation and surface.base = "tin"))"},
+        // around rivers by a method that goes through given points and ridges
+        {"through_features", R"([network] and surface.method = "equilibrium" or "dilate" or "diffuse" or "tin")"},
+        // around rivers, or between points
+        {"by_diffusion", R"(surface.method = "diffuse" and ([network] or (from_points)))"},
+        // terrain that is interpolated between points, in a file or random
+        {"from_points",
+         R"(no [network] and no surface.source and (no [statistics] or statistics.skeleton = "points"))"},
+        {"by_dilation", R"([network] and surface.method = "dilate")"},
+        {"by_rough_rock", "by_equilibrium and surface.roughness > 0"},
+        {"by_equilibrium", R"([network] and surface.method = "equilibrium")"},
+        {"with_noise", R"([network] and surface.method = "diffuse" and skeleton.ridges = "voronoi" or "segments")"},
+        {"by_links",
+         R"(network.source = "lines" and (network.lines.orientation = "auto" or network.lines.divergences = "main"))"},
+        {"has_surface", "no [network] or [surface]"},
+        {"has_extremes", "(statistics.max or statistics.min)"}};
+    return conditions;
+}
+
+std::span<Row const> recipe_rows() {
+    using enum KeyKind;
+    // path, kind, unit, what is allowed, when it has an effect, meaning, field, and what few keys have
+    static constexpr Row rows[] = {
+        key("seed", integer, "", {0, endless}, "",
+            "random seed of the whole recipe; recorded in the network's run table and, without output.title, in the "
+            "titles",
+            [](Recipe& r, Item) -> Field { return &r.seed; }),
+        key("grid.width", integer, "cells", {1, 1e6}, "",
+            "number of columns; left out: the network's extent and a margin of 5 %, or that of the DEM of "
+            "surface.source",
+            [](Recipe& r, Item) -> Field { return &r.grid.width; }, {.left_out_at_zero = true}),
+        key("grid.height", integer, "cells", {1, 1e6}, "",
+            "number of rows; left out: the network's extent and a margin of 5 %, or that of the DEM of surface.source",
+            [](Recipe& r, Item) -> Field { return &r.grid.height; }, {.left_out_at_zero = true}),
+        key("grid.cell", number, "m", {0, 1e6, left_open}, "", "cell size",
+            [](Recipe& r, Item) -> Field { return &r.grid.cell_m; },
+            {.standard = "30, or that of the DEM of surface.source", .left_out_at_zero = true}),
+        key("grid.crs", text, "", "EPSG code or WKT; projected, in metres", "",
+            "coordinate system; \"\": that of the line file or the DEM of surface.source, or its UTM zone, else "
+            "EPSG:32631",
+            [](Recipe& r, Item) -> Field { return &r.grid.crs; }),
+        key("grid.origin", pair, "m", {"[west, north]", is_corner}, "", "north-western corner of the grid",
+            [](Recipe& r, Item) -> Field { return &r.grid.origin; },
+            {.standard = "[500000, 5000000], the line file's box, or that of the DEM of surface.source"}),
+        key("grid.clip", yes_no, "", {"true", "false"},
+            R"(network.source = "lines" or (network.source = "forest" and network.forest.region))",
+            "cut rivers and polygons at the grid's edge, and rivers where the DEM of surface.source has no data, "
+            "instead of refusing those that cross it",
+            [](Recipe& r, Item) -> Field { return &r.grid.clip; }),
+        key("network.source", word, "", {"dla", "tokunaga", "forest", "lines"}, "",
+            "where the rivers come from: a DLA cluster, a Tokunaga tree, a forest of trees that grow inland from a "
+            "coast, or lines of a file",
+            [](Recipe& r, Item) -> Field { return choice(r.network->source); }),
+        key("network.prune", number, "cells", {0, 1e7}, "", "length threshold: shorter leaf arcs are removed",
+            [](Recipe& r, Item) -> Field { return &r.network->prune_cells; },
+            {.standard = "20 for dla and forest, else 0"}),
+        key("network.heights", word, "",
+            {"auto", "straight", "straight_repaired", "along_stream", "rosgen", "graded", "file", "soft", "fixed",
+             "ends"},
+            "",
+            "elevations of the rivers. auto: with surface.method = \"raster\" those of the DEM, cut to fall "
+            "downstream; else file where the lines have Z, graded with equilibrium and straight_repaired otherwise. "
+            "With equilibrium, soft, fixed and ends take those of the file or straight_repaired: as upper bounds, as "
+            "they are, or only at sources and outlets",
+            [](Recipe& r, Item) -> Field { return choice(r.network->heights); }),
+        key("network.slope", number, "m/m", {0, 10, left_open},
+            R"(network.heights other than "rosgen", other than "graded" with surface.method = "equilibrium", )"
+            R"(whose rivers are graded with the terrain, and other than "auto" with surface.method = "raster")",
+            "channel slope s; with graded heights the mean slope of the main stem",
+            [](Recipe& r, Item) -> Field { return &r.network->slope; }, {.holds = falls_by_slope}),
+        key("network.heights_tolerance", number, "m", {0, 1e4},
+            R"(network.source = "lines" and (network.heights = "file" or "soft" or "fixed" or )"
+            R"((network.heights = "auto" and no surface.source)))",
+            "vertices whose heights in the file dem.tif misses by more, beside what the river falls within a cell, are "
+            "counted in a warning",
+            [](Recipe& r, Item) -> Field { return &r.network->heights_tolerance_m; }),
+        key("network.concavity", number, "", {0, 1}, R"(network.heights = "graded" or (by_equilibrium))",
+            "concavity theta of graded rivers and of equilibrium terrain: slope ~ area^-theta",
+            [](Recipe& r, Item) -> Field { return &r.network->concavity; }, {.earlier = {0.45}}),
+        key("network.rotate", number, "degrees", {-180, 180}, R"(network.source = "dla")",
+            "rotation of the cluster, counterclockwise; left out: random with equilibrium, else 0",
+            [](Recipe& r, Item) -> Field { return &r.network->rotate_deg; }),
+        key("network.meander", number, "", {0, 2}, "",
+            "meander amplitude, 1 as in nature; left out: 1 for grown rivers with equilibrium, 0.3 where they end on a "
+            "coast, else 0",
+            [](Recipe& r, Item) -> Field { return &r.network->meander; }),
+        key("network.inland", word, "", {"carry", "sink", "coast"},
+            R"([network] and surface.method = "equilibrium" or "raster" and network.source = "dla" or "tokunaga" or "lines")",
+            "rivers that end inside the grid: extend them to its border or the sea, keep them as sinks, or take their "
+            "ends for mouths on a coast and make what lies before them the sea",
+            [](Recipe& r, Item) -> Field { return choice(r.network->inland); }),
+        key("network.fill_space", yes_no, "", {"true", "false"}, "by_equilibrium",
+            "add the side valleys of the terrain to the network as arcs",
+            [](Recipe& r, Item) -> Field { return &r.network->fill_space; }),
+        key("network.support", integer, "cells", {1, 1e9}, "by_equilibrium and network.fill_space = true",
+            "drainage area at which a side valley begins",
+            [](Recipe& r, Item) -> Field { return &r.network->support_cells; }),
+        key("network.rosgen", word, "", rosgen_words, R"(network.heights = "rosgen" or network.coast > 0)",
+            "Rosgen type of rivers without one: by Strahler order, or one type for all",
+            [](Recipe& r, Item) -> Field { return choice(r.network->rosgen); }),
+        key("network.rosgen_slope", word, "", {"middle", "uniform"}, R"(network.heights = "rosgen")",
+            "slope of a river within its type's range: the usual value, or a random one",
+            [](Recipe& r, Item) -> Field { return choice(r.network->rosgen_slope); }),
+        key("network.coast", number, "m", {0, 1e9}, "",
+            "rivers closer to their outlet than this, along the stream, are marked as braided",
+            [](Recipe& r, Item) -> Field { return &r.network->coast_m; }),
+        key("network.dla.particles", integer, "", {1, 1e9}, R"(network.source = "dla")",
+            "number of particles in the cluster", [](Recipe& r, Item) -> Field { return &r.network->dla.particles; }),
+        key("network.dla.radius", integer, "cells", {0, 1e6}, R"(network.source = "dla")",
+            "radius of the cluster at which growth stops early; 0: none",
+            [](Recipe& r, Item) -> Field { return &r.network->dla.max_radius; }),
+        key("network.dla.sticking", number, "", {0, 1, left_open}, R"(network.source = "dla")",
+            "sticking probability S: a particle with n occupied neighbours sticks with S^(3-n)",
+            [](Recipe& r, Item) -> Field { return &r.network->dla.sticking; }),
+        key("network.dla.visits", integer, "", {1, 255}, R"(network.source = "dla")",
+            "noise-reduction count M: arrivals that a site needs before it is occupied",
+            [](Recipe& r, Item) -> Field { return &r.network->dla.visits; }),
+        key("network.dla.rule", word, "", {"count_first", "stick_then_count"},
+            R"(network.source = "dla" and network.dla.visits > 1 and network.dla.sticking < 1)",
+            "whether an arrival counts before or after its sticking test",
+            [](Recipe& r, Item) -> Field { return choice(r.network->dla.rule); }),
+        key("network.dla.branch", word, "", {"largest", "north", "east", "south", "west", "all"},
+            R"(network.source = "dla")", "which arm of the cluster becomes the valley",
+            [](Recipe& r, Item) -> Field { return choice(r.network->branch); }),
+        key("network.tokunaga.generator", integer, "", {1, 50}, R"(network.source = "tokunaga")",
+            "lambda of the tree, and of strokes without their own: 1 has no side branches, 2 is dendritic, larger "
+            "values are feathered",
+            [](Recipe& r, Item) -> Field { return &r.network->tokunaga.generator; }),
+        key("network.tokunaga.order", integer, "", {1, 12}, R"(network.source = "tokunaga")",
+            "Strahler order at the outlet; with strokes, that of one as long as the grid is wide",
+            [](Recipe& r, Item) -> Field { return &r.network->tokunaga.order; }),
+        key("network.tokunaga.rule", word, "", {"tokunaga", "constant", "plane"},
+            R"(network.source = "tokunaga" and no network.tokunaga.strokes)",
+            "number of side branches of a link: by its order, constant as published, or such that the fractal "
+            "dimension is 2",
+            [](Recipe& r, Item) -> Field { return choice(r.network->tokunaga.rule); }),
+        key("network.tokunaga.mouth", word, "", {"north", "east", "south", "west"},
+            R"(network.source = "tokunaga" and no network.tokunaga.strokes)",
+            "side of the grid or region where the river leaves",
+            [](Recipe& r, Item) -> Field { return choice(r.network->tokunaga.mouth); }),
+        key("network.tokunaga.region", file, "", {}, R"(network.source = "tokunaga")",
+            "polygon that the network fills; \"\": the grid",
+            [](Recipe& r, Item) -> Field { return &r.network->tokunaga.region; }),
+        key("network.tokunaga.strokes", file, "", {}, R"(network.source = "tokunaga")",
+            "lines drawn from outlet to source, each of which grows a network; \"\": one network in the region",
+            [](Recipe& r, Item) -> Field { return &r.network->tokunaga.strokes; }),
+        key("network.tokunaga.layer", text, "", "name", R"(network.source = "tokunaga" and network.tokunaga.strokes)",
+            "layer of the strokes; \"\": the only line layer",
+            [](Recipe& r, Item) -> Field { return &r.network->tokunaga.layer; }),
+        key("network.tokunaga.spacing", number, "cells", {0, 1e6}, R"(network.source = "tokunaga")",
+            "minimum distance between links; closer ones are left out",
+            [](Recipe& r, Item) -> Field { return &r.network->tokunaga.spacing_cells; }),
+        key("network.forest.shape", word, "", {"grid", "island"},
+            R"(network.source = "forest" and no network.forest.region)",
+            "extent of the land where no region is given: the whole grid, or an island in it",
+            [](Recipe& r, Item) -> Field { return choice(r.network->forest.shape); }),
+        key("network.forest.ruggedness", number, "", {0, 1},
+            R"(network.source = "forest" and no network.forest.region and network.forest.shape = "island")",
+            "how far fjords and capes of the island reach",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.ruggedness; }),
+        key("network.forest.region", file, "", {}, R"(network.source = "forest")",
+            "polygons that are land, with sea around them; \"\": see shape",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.region; }),
+        key("network.forest.outlets", file, "", {}, R"(network.source = "forest")",
+            "where rivers reach the coast: points, lines along the coast, or polygons of water; \"\": anywhere on the "
+            "coast",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.outlets; }),
+        key("network.forest.seeds", integer, "", {0, 1e6}, R"(network.source = "forest")",
+            "number of outlets at random places on the coast; 0: see outlet_spacing",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.seeds; }),
+        key("network.forest.outlet_spacing", integer, "cells", {0, 1e6},
+            R"(network.source = "forest" and network.forest.seeds = "0")",
+            "coast, or border of the grid, for each outlet; 0: six spacings of rivers",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.outlet_spacing_cells; }),
+        key("network.forest.spacing", integer, "cells", {8, 200}, R"(network.source = "forest")",
+            "minimum distance between rivers that do not meet",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.spacing_cells; }),
+        key("network.forest.particles", integer, "", {0, 1e9}, R"(network.source = "forest")",
+            "number of particles of all trees; 0: until the land is full",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.growth.particles; }),
+        key("network.forest.sticking", number, "", {0, 1, left_open}, R"(network.source = "forest")",
+            "sticking probability", [](Recipe& r, Item) -> Field { return &r.network->forest.growth.sticking; }),
+        key("network.forest.visits", integer, "", {1, 255}, R"(network.source = "forest")",
+            "noise-reduction count M: arrivals that a cell needs before it is occupied; larger values make straighter "
+            "rivers",
+            [](Recipe& r, Item) -> Field { return &r.network->forest.growth.visits; }),
+        key("network.lines.path", file, "", {}, R"(network.source = "lines")",
+            "file of lines: GeoPackage, Shapefile, GeoJSON, ...",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.path; },
+            {.layer = "network.lines.layer", .folder = ""}),
+        key("network.lines.layer", text, "", "name", R"(network.source = "lines")",
+            "layer of the lines, or several, separated by commas; \"\": the only line layer, the one whose name says "
+            "that "
+            "it holds rivers, or all of KML and GPX",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.layer; }),
+        key("network.lines.source_crs", text, "", "EPSG code or WKT", R"(network.source = "lines")",
+            "coordinate system of a line file that has none; \"\": such a file is refused",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.source_crs; }),
+        key("network.lines.type_field", text, "", "name", R"(network.source = "lines")",
+            "field with the river type; the field rosgen may be missing",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.type_field; }),
+        key("network.lines.rank_field", text, "", "name",
+            R"(network.source = "lines" and (network.lines.orientation = "auto" or "rank" or )"
+            R"((network.lines.orientation = "height" or "as_drawn" and network.lines.divergences = "main")))",
+            "field of numbers that decrease downstream, and are least on the main of several branches; \"\": a known "
+            "one (docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.rank_field; }),
+        key("network.lines.id_field", text, "", "name", "by_links",
+            "field with the id of a line, for down_field; \"\": a known one (docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.id_field; }),
+        key("network.lines.down_field", text, "", "name", "by_links",
+            "field with the id of the line downstream; \"\": a known one (docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.down_field; }),
+        key("network.lines.from_field", text, "", "name", "by_links",
+            "field with the node from which a line's water comes, for to_field; \"\": a known one "
+            "(docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.from_field; }),
+        key("network.lines.to_field", text, "", "name", "by_links",
+            "field with the node to which a line's water goes; \"\": a known one (docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.to_field; }),
+        key("network.lines.direction_field", text, "", "name", "by_links",
+            "field that says whether water runs as a line is drawn, in words of a known data set; \"\": a known one "
+            "(docs/river_files.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.direction_field; }),
+        key("network.lines.where", text, "", "SQL condition", R"(network.source = "lines")",
+            "condition on fields, as after WHERE: other lines are not read; \"\": all lines",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.where; }),
+        key("network.lines.snap", number, "m", {0, 1e6}, R"(network.source = "lines")",
+            "line ends closer than this are joined; 0: open ends within half a cell, or two where it is clear to what "
+            "(docs/rivers_you_have.md)",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.snap_m; }),
+        key("network.lines.orientation", word, "",
+            {{"auto", network::Orientation::automatic},
+             {"height", network::Orientation::height},
+             {"rank", network::Orientation::rank},
+             {"as_drawn", network::Orientation::as_drawn},
+             {"topology", network::Orientation::topology}},
+            R"(network.source = "lines")",
+            "what decides the flow direction of a line; auto: links, a direction column, Z or ranks, and else angles "
+            "at confluences, the border, the drawn direction and network.lines.dem together",
+            [](Recipe& r, Item) -> Field { return choice(r.network->lines.orientation); }),
+        key("network.lines.dem", file, "", {}, R"(network.source = "lines" and network.lines.orientation = "auto")",
+            "DEM of the land that the lines are of, in any CRS, for the flow direction of lines: together with angles "
+            "at confluences, where fields and Z do not tell it",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.dem; }),
+        key("network.lines.divergences", word, "", {"main", "error"}, R"(network.source = "lines")",
+            "where water could go more than one way: keep the main path and report the other branches as secondary, or "
+            "refuse the file",
+            [](Recipe& r, Item) -> Field { return choice(r.network->lines.divergences); }),
+        key("network.lines.filter", word, "", {"natural", "none"}, R"(network.source = "lines")",
+            "natural leaves out canals, ditches, pipes, weirs and coastlines, as the fields of OSM and NHD name them; "
+            "none keeps all lines",
+            [](Recipe& r, Item) -> Field { return choice(r.network->lines.filter); }),
+        key("network.lines.coastlines", word, "", {"sea", "none"},
+            R"(network.source = "lines" and network.lines.filter = "natural")",
+            "coastlines among the lines: sea, beyond them is the sea, where rivers end; none, they mean nothing",
+            [](Recipe& r, Item) -> Field { return choice(r.network->lines.coastlines); }),
+        key("network.lines.keep", number, "", {0, 1}, R"(network.source = "lines")",
+            "least share of the given length that must be in the network (check given_length): without what filter, "
+            "coastlines, divergences, duplicates, the grid and network.prune leave out",
+            [](Recipe& r, Item) -> Field { return &r.network->lines.keep; }),
+        key("skeleton.ridges", word, "", {"none", "voronoi", "segments"}, "beside_rivers",
+            "ridges midway between streams: edges of the Voronoi diagram of points along them, or exact medial lines",
+            [](Recipe& r, Item) -> Field { return choice(r.skeleton->ridges); }),
+        key("skeleton.ridge_gain", number, "m/m", {0, 100}, "rises",
+            "lambda_h: rise of a ridge above its rivers per metre of distance, and greatest rise of a random point",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_gain; }),
+        key("skeleton.ridge_farthest", number, "m", {0, 1e7}, "(rises) and skeleton.ridge_gain > 0",
+            "d_max: distance from the rivers beyond which ridges and random points rise no more; 0: none",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_farthest_m; }),
+        key("skeleton.ridge_noise", number, "m", {0, 1e5}, "with_noise",
+            "amplitude of noise along ridges, 0 at their ends",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_noise_m; }),
+        key("skeleton.ridge_wavelength", number, "m", {0, 1e7, left_open}, "with_noise and skeleton.ridge_noise > 0",
+            "longest wavelength of that noise",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_wavelength_m; }),
+        key("skeleton.midpoint_inverse", number, "cells", {0, 1e6}, R"([network] and surface.method = "diffuse")",
+            "L: heights of cells up to this far from rivers, ridges and points by inverse midpoint displacement; 0: "
+            "none",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->midpoint_inverse_cells; }),
+        key("skeleton.points", file, "", {}, "((from_points) or through_features) and skeleton.scatter = 0",
+            "points with heights: CSV, XYZ, LAS, or a file of points (GeoPackage, ...)",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->points; }),
+        key("skeleton.height_column", text, "", "name", "((from_points) or through_features) and skeleton.points",
+            "column of the points' heights; \"\": Z, or a column z",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->height_column; }),
+        key("skeleton.nodata", number, "", {-1e38, 1e38}, "((from_points) or through_features) and skeleton.points",
+            "height of points that stands for no data, left out; left out: -9999 and the like are refused",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->nodata; }),
+        key("skeleton.ridge_lines", file, "", {}, "through_features",
+            "lines that are ridges, with or without Z (GeoPackage, Shapefile, ...): no water crosses them, and the "
+            "terrain has their heights",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_lines; }),
+        key("skeleton.ridge_height_column", text, "", "name", "through_features and skeleton.ridge_lines",
+            "column of the height of all of a ridge; \"\": Z of its vertices",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->ridge_height_column; }),
+        key("skeleton.scatter", integer, "", {0, 1e7}, "((from_points) or beside_rivers) and no skeleton.points",
+            "number of random points, between the rivers or, without [network], including the extremes of [statistics]",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->scatter; }),
+        key("skeleton.spacing", number, "cells", {0, 1e5}, "((from_points) or beside_rivers) and skeleton.scatter > 0",
+            "minimum distance r between random points, and from them to rivers",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->spacing_cells; }),
+        key("skeleton.law", word, "", {"uniform", "normal"},
+            "((from_points) or beside_rivers) and skeleton.scatter > 0",
+            "distribution of the heights of random points; with [network], of their share of ridge_gain times the "
+            "distance from the nearest river",
+            [](Recipe& r, Item) -> Field { return choice(r.skeleton->law); }),
+        key("skeleton.deviation", word, "", {"exact", "printed"}, "from_points and skeleton.scatter > 0",
+            "deviation of random points: exactly statistics.std, or by equation 8 of Zhang, Liu and Li, heights "
+            "uniform within statistics.std of the mean",
+            [](Recipe& r, Item) -> Field { return choice(r.skeleton->deviation); }),
+        key("skeleton.falloff", word, "",
+            {{"literal", skeleton::Falloff::literal}, {"continuous", skeleton::Falloff::continuous}},
+            "from_points and skeleton.scatter > 0 and statistics.reach > 0 and has_extremes",
+            "pull of random points towards max and min at distance R: with a step as published, or continuous to 0",
+            [](Recipe& r, Item) -> Field { return choice(r.skeleton->falloff); }),
+        key("skeleton.tin", yes_no, "", {"true", "false"},
+            R"(([network] and [surface]) or (from_points and (no [surface] or surface.method = "tin")))",
+            "write the TIN of rivers and points: tin.2dm, tin.ply",
+            [](Recipe& r, Item) -> Field { return &r.skeleton->tin; }),
+        key("surface.method", word, "", {"equilibrium", "dilate", "diffuse", "tin", "regress", "raster"},
+            "[network] or surface.source or (from_points)",
+            "how the terrain is made: by landscape evolution around the rivers, by dilation from the valleys, by "
+            "diffusion between rivers, ridges and points, over a TIN, by regression through points, or as a DEM has it",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->method); }),
+        key("surface.source", file, "", {}, R"(surface.method = "raster")",
+            "DEM that is the terrain; resampled only where [grid] asks for other cells or another coordinate system, "
+            "or where its own is not in metres",
+            [](Recipe& r, Item) -> Field { return &r.surface->source; }),
+        key("surface.base", word, "", {"harmonic", "paper", "tin"}, "by_dilation",
+            "heights that slopes rise from: a harmonic surface through the rivers, the nearest valley cell as "
+            "published, or the TIN of the rivers",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->base); }),
+        key("surface.increment", text, "", {surface::increment_names, "an expression in x", is_increment},
+            "by_dilation", "height increment dh of the x-th dilation",
+            [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.increment; }),
+        key("surface.metric", word, "", {"cityblock", "euclid"}, "by_dilation",
+            "distance to the valley: over 4 neighbours as published, or Euclidean",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->dilate.metric); }),
+        key("surface.relief", number, "m", {0, 1e5}, R"([network] and surface.method = "equilibrium" or "dilate")",
+            "equilibrium: height from the lowest to the highest cell, 0: see mean_slope; dilate: greatest sum of the "
+            "increments, 0: published units times the cell size",
+            [](Recipe& r, Item) -> Field { return &r.surface->dilate.relief_m; }),
+        key("surface.allow_negative", yes_no, "", {"true", "false"}, "by_dilation", "keep increments below 0",
+            [](Recipe& r, Item) -> Field { return &r.surface->dilate.increment.allow_negative; }),
+        key("surface.mask", file, "", {}, "[network] or surface.source or (from_points and no [statistics])",
+            "polygons: cells whose middle lies in none of them get no height; or a raster on the grid: cells with 0 or "
+            "no data get none",
+            [](Recipe& r, Item) -> Field { return &r.surface->mask; }),
+        key("surface.mean_slope", number, "degrees", {0, 60, left_open}, "by_equilibrium and surface.relief = 0",
+            "mean slope of the terrain; left out: 25, around rivers of a file less on cells above 30 m",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.mean_slope_deg; }, {.earlier = {25.0}}),
+        key("surface.hillslope", number, "m", {0, 1e5}, "by_equilibrium",
+            "length below which soil creep rounds the slopes; 0: one cell",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.hillslope_m; }, {.earlier = {0.0}}),
+        key("surface.debris_area", number, "km2", {0, 1e6}, "by_equilibrium",
+            "drainage area below which debris flows cut hillsides, whose slopes hardly depend on area",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.debris_area_km2; }),
+        key("surface.floor_width", number, "", {0, 1}, "by_equilibrium",
+            "width of valley floors: 0.04 is 17 m where 1 km2 drains, in proportion; it grows with drainage area ^ "
+            "0.42, up to 200 km2",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.floor_width; }, {.earlier = {0.0425}}),
+        key("surface.roughness", number, "", {0, 1}, "by_equilibrium",
+            "standard deviation of the logarithm of erodibility",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.roughness; }, {.earlier = {0.4, 0.25}}),
+        key("surface.longest_wave", number, "m", {0, 1e7, left_open}, "by_rough_rock",
+            "longest wavelength of that variation",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.longest_wave_m; }),
+        key("surface.grain", number, "", {1, 20}, "by_rough_rock",
+            "how many times as far rock of one kind reaches along its strike as across it; 1: no grain",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.grain; }),
+        key("surface.strike", number, "degrees", {-360, 360},
+            "(by_rough_rock and surface.grain > 1) or "
+            R"((by_equilibrium and surface.uplift_pattern = "tilt" or "blocks" or "folds"))",
+            "direction of the rock's grain, of faults and folds, clockwise from north; left out: by the seed",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.strike_deg; }),
+        key("surface.edge", word, "", {"auto", "open", "closed", "coast", "mainland"}, "by_equilibrium",
+            "boundary condition: the terrain continues (open), all water goes to the rivers (closed), sea (coast), or "
+            "sea where the mask or coastlines say so and beyond the grid the terrain continues (mainland); auto: "
+            "mainland with coastlines of a river file, coast with other sea, else open",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->equilibrium.edge); }),
+        key("surface.region", number, "", {1, 5}, R"(by_equilibrium and surface.edge = "auto" or "open")",
+            "with an open edge the large valleys are found on land wider than the grid by this factor, and rivers may "
+            "enter it, unless they come from a file; 1: on the grid alone; left out: 3",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.region; }),
+        key("surface.uplift", file, "", {}, "by_equilibrium", "raster over the grid, values above 0; only ratios count",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.uplift; }),
+        key("surface.uplift_pattern", word, "", {"none", "tilt", "domes", "blocks", "folds"}, "by_equilibrium",
+            "how uplift varies over long distances, beside the raster: it grows across the strike (tilt), in domes, in "
+            "blocks between faults or in folds along the strike",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->equilibrium.uplift_pattern); }),
+        key("surface.uplift_contrast", number, "", {1, 100},
+            R"(by_equilibrium and surface.uplift_pattern = "tilt" or "domes" or "blocks" or "folds")",
+            "greatest uplift of the pattern over the least",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.uplift_contrast; }),
+        key("surface.uplift_wave", number, "m", {0, 1e7, left_open},
+            R"(by_equilibrium and surface.uplift_pattern = "domes" or "blocks" or "folds")",
+            "distance of domes, width of blocks, wavelength of folds",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.uplift_wave_m; }),
+        key("surface.erodibility", file, "", {}, "by_equilibrium",
+            "raster over the grid, values above 0, or polygons with a field erodibility (1 elsewhere); only ratios "
+            "count",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.erodibility; }),
+        key("surface.lakes", file, "", {}, R"((by_equilibrium) or ([network] and surface.method = "raster"))",
+            "polygons of lakes; a numeric field level [m] gives a lake's height, without a value it follows from the "
+            "terrain at its outlet",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.lakes; }),
+        key("surface.lake_share", number, "", {0, 1}, "by_equilibrium",
+            "share of the reaches with enough water that run through a lake",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.lake_share; }),
+        key("surface.like", file, "", {}, "by_equilibrium",
+            "DEM of any place whose mean slope and texture, at the grid's cell size, the terrain gets; mean_slope, "
+            "relief and a roughness other than its default come before it",
+            [](Recipe& r, Item) -> Field { return &r.surface->equilibrium.like; }),
+        key("surface.drain", word, "",
+            {{"auto", std::nullopt},
+             {"carve", flow::Conditioning::carve},
+             {"fill", flow::Conditioning::fill},
+             {"none", flow::Conditioning::none}},
+            "",
+            "hydrological conditioning: confine channels, then breach or fill depressions; auto: carve where there are "
+            "rivers, else none",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->drain); }),
+        key("surface.max_cut", number, "m", {0, 1e4}, R"([network] and surface.method = "raster")",
+            "a warning tells where a river is cut deeper into the DEM than this",
+            [](Recipe& r, Item) -> Field { return &r.surface->max_cut_m; }),
+        key("surface.tolerance", number, "", {1e-12, 0.1},
+            R"((by_dilation and surface.base = "harmonic") or (by_diffusion and surface.diffusion = "steady"))",
+            "relative residual at which the harmonic base or the steady state is solved; left out: 1e-8, or 1e-10 of "
+            "the steady state",
+            [](Recipe& r, Item) -> Field { return &r.surface->tolerance; }),
+        key("surface.diffusion", word, "", {"steady", "explicit"}, "by_diffusion",
+            "steady state, or a number of explicit sweeps as published",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->diffuse.mode); }),
+        key("surface.sweeps", integer, "", {0, 1e9}, R"(by_diffusion and surface.diffusion = "explicit")",
+            "number of explicit sweeps", [](Recipe& r, Item) -> Field { return &r.surface->diffuse.iterations; }),
+        key("surface.start", word, "", {"coarse", "zero"}, R"(by_diffusion and surface.diffusion = "explicit")",
+            "where sweeps start: from the steady state of a coarser grid, or from 0 as published",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->diffuse.start); }),
+        key("surface.alpha", number, "", {0, 0.25, left_open}, R"(by_diffusion and surface.diffusion = "explicit")",
+            "D dt / h^2 of an explicit sweep", [](Recipe& r, Item) -> Field { return &r.surface->diffuse.alpha; }),
+        key("surface.smoothing", number, "cells", {0, 100}, "by_diffusion",
+            "sigma of Gaussian smoothing away from rivers, ridges and points; 0: none",
+            [](Recipe& r, Item) -> Field { return &r.surface->diffuse.sigma_cells; }),
+        key("surface.noise", number, "m", {0, 1e5}, "by_diffusion",
+            "amplitude of noise far from rivers, ridges and points",
+            [](Recipe& r, Item) -> Field { return &r.surface->diffuse.noise_m; }),
+        key("surface.interpolation", word, "", {"linear", "natural"}, R"(from_points and surface.method = "tin")",
+            "linear in triangles, or natural neighbours",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->interpolation); }),
+        key("surface.frequency_x", number, "cycles", {0, 1e4}, R"(from_points and surface.method = "regress")",
+            "f_x over the grid's width; 0 leaves its term out",
+            [](Recipe& r, Item) -> Field { return &r.surface->regress.frequency_x; }),
+        key("surface.frequency_y", number, "cycles", {0, 1e4}, R"(from_points and surface.method = "regress")",
+            "f_y over the grid's height; 0 leaves its term out",
+            [](Recipe& r, Item) -> Field { return &r.surface->regress.frequency_y; }),
+        key("surface.slope_mode", word, "", {"none", "centre", "mean"}, R"(from_points and surface.method = "regress")",
+            "what statistics.slope constrains: nothing, the slope at the grid's centre, or the mean square slope",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->regress.slope); }),
+        key("surface.eighth_term", word, "", {"x2y2", "x3y"}, R"(from_points and surface.method = "regress")",
+            "the eighth term, whose exponents are illegible in Zhang, Liu and Li",
+            [](Recipe& r, Item) -> Field { return choice(r.surface->regress.eighth); }),
+        key("statistics.mean", number, "m", {-1e6, 1e6}, "no [network]", "mean height",
+            [](Recipe& r, Item) -> Field { return &r.statistics->mean; }),
+        key("statistics.std", number, "m", {0, 1e6, left_open}, "no [network]", "standard deviation of heights",
+            [](Recipe& r, Item) -> Field { return &r.statistics->std; }),
+        key("statistics.max", triple, "m", {place_words, is_place}, "no [network]", "highest cell",
+            [](Recipe& r, Item) -> Field { return &r.statistics->max; }),
+        key("statistics.min", triple, "m", {place_words, is_place}, "no [network]", "lowest cell",
+            [](Recipe& r, Item) -> Field { return &r.statistics->min; }),
+        key("statistics.length", pair, "cells", {"[Lx, Ly] above 0", are_lengths}, "no [network]",
+            "correlation lengths: where the autocorrelation falls to 1/e",
+            [](Recipe& r, Item) -> Field { return &r.statistics->length; }),
+        key("statistics.slope", number, "rad", {0, 1.5707, left_open}, "no [network]",
+            "mean arctan of the slope, in metres per cell",
+            [](Recipe& r, Item) -> Field { return &r.statistics->slope; }),
+        key("statistics.dimension", number, "", {2.01, 2.99}, "no [network]", "fractal dimension",
+            [](Recipe& r, Item) -> Field { return &r.statistics->dimension; }),
+        key("statistics.skeleton", word, "", {"grf", "separable", "markov3", "points"}, "no [network]",
+            "terrain that is matched to the statistics: a random field, or that of the points of [skeleton]",
+            [](Recipe& r, Item) -> Field { return choice(r.statistics->skeleton); }),
+        key("statistics.reach", number, "cells", {0, 1e5},
+            R"(no [network] and (statistics.skeleton = "separable" or "markov3" or skeleton.scatter > 0))"
+            " and has_extremes",
+            "R: distance within which heights are pulled towards max and min",
+            [](Recipe& r, Item) -> Field { return &r.statistics->reach_cells; }),
+        key("statistics.falloff", word, "", {"continuous", "literal"},
+            R"(no [network] and statistics.skeleton = "separable" or "markov3" and has_extremes)",
+            "pull at distance R: continuous to 0, or with a step as published",
+            [](Recipe& r, Item) -> Field { return choice(r.statistics->falloff); }),
+        key("detail.method", word, "", {{"midpoint", DetailMethod::midpoint}, {"none", DetailMethod::none}},
+            "has_surface", "fractal detail between every 2^levels-th cell",
+            [](Recipe& r, Item) -> Field { return choice(r.detail->method); }),
+        key("detail.levels", integer, "", {1, 12}, R"((has_surface) and detail.method = "midpoint")",
+            "how often cells are halved", [](Recipe& r, Item) -> Field { return &r.detail->midpoint.levels; }),
+        key("detail.hurst", number, "", {0.05, 0.95}, R"((has_surface) and detail.method = "midpoint")",
+            "Hurst exponent H = 3 - fractal dimension; left out: estimated, with rivers 0.6",
+            [](Recipe& r, Item) -> Field { return &r.detail->midpoint.hurst; }),
+        key("detail.sigma", number, "m", {0, 1e6}, R"((has_surface) and detail.method = "midpoint")",
+            "root mean square difference of heights 2^levels cells apart; left out: estimated, with rivers it must be "
+            "given",
+            [](Recipe& r, Item) -> Field { return &r.detail->midpoint.sigma; }),
+        key("detail.stencil", integer_or_word, "",
+            {{"4", fractal::Stencil::four},
+             {"12", fractal::Stencil::twelve},
+             {"16", fractal::Stencil::sixteen},
+             {"exact", fractal::Stencil::exact}},
+            R"((has_surface) and detail.method = "midpoint")",
+            "number of neighbours that a height is interpolated from; 4 with the published variance; exact: a "
+            "fractional Brownian surface through all coarse cells, of which there are up to 2000",
+            [](Recipe& r, Item) -> Field { return choice(r.detail->midpoint.stencil); }),
+        key("detail.noise", word, "", {"normal", "uniform"},
+            R"((has_surface) and detail.method = "midpoint" and detail.stencil = 4, 12 or 16)",
+            "distribution of the displacements",
+            [](Recipe& r, Item) -> Field { return choice(r.detail->midpoint.noise); }),
+        key("detail.adaptation", word, "", {"global", "local"},
+            R"(detail.method = "midpoint" and detail.stencil = 4, 12 or 16 and no [network])",
+            "one H and sigma for the grid, or local ones where they differ",
+            [](Recipe& r, Item) -> Field { return choice(r.detail->midpoint.adaptation); }),
+        key("patch.source", file, "", {}, "has_surface", "DEM whose relief is pasted; reprojected to the grid",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].source; }, {.folder = ""}),
+        key("patch.at", pair, "m", {"[x, y] within 1e9", is_near}, "has_surface",
+            "where its centre goes; left out: its own place, or the middle of the grid",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].at; }),
+        key("patch.window", quad, "cells", {"[column, row, width, height], whole, from 0 in the north-west", is_window},
+            "has_surface", "part of the source that is pasted; left out: all of it",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].window; }),
+        key("patch.mask", file, "", {}, "has_surface",
+            "polygons, or a raster on the grid: what is pasted; \"\": all that the source covers",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].mask; }),
+        key("patch.rotate", number, "degrees", {-360, 360}, "has_surface",
+            "rotation about its centre, counterclockwise",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].rotate_deg; }),
+        key("patch.scale", number, "", {0, 1000, left_open}, "has_surface", "scale in plan",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].scale; }),
+        key("patch.gain", number, "", {-1000, 1000}, "has_surface", "scale of its heights",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].gain; }),
+        key("patch.feather", number, "cells", {0, 1e5}, "has_surface",
+            "width of the blend from its slopes to those of the terrain, inside its edge",
+            [](Recipe& r, Item i) -> Field { return &r.patches[i].feather_cells; }),
+        key("patch.rivers", word, "", {"keep", "replace"}, "[network] and [surface]",
+            "whether rivers under it keep their heights",
+            [](Recipe& r, Item i) -> Field { return choice(r.patches[i].rivers); }),
+        key("output.title", text, "", "text", "", "title of the pictures and the report; \"\": names the seed",
+            [](Recipe& r, Item) -> Field { return &r.output.title; }),
+        key("output.units", word, "", {"m", "ft"}, "",
+            "unit of heights in dem.tif, networks, contours and TINs: metres or international feet",
+            [](Recipe& r, Item) -> Field { return choice(r.output.units); }),
+        key("output.contour_interval", number, "", {0, 1e5}, "has_surface",
+            "contour interval in output.units; 0: a round number",
+            [](Recipe& r, Item) -> Field { return &r.output.contour_interval; }),
+        key("output.catchments", yes_no, "", {"true", "false"}, "[network] and [surface]",
+            "write the catchment of each arc: catchments.gpkg",
+            [](Recipe& r, Item) -> Field { return &r.output.catchments; }),
+        key("output.accumulation", yes_no, "", {"true", "false"}, "has_surface",
+            "write contributing areas by cell: area_d8.tif, area_dinf.tif",
+            [](Recipe& r, Item) -> Field { return &r.output.accumulation; }),
+        key("output.schema", word, "", schema_names, "[network]",
+            "also write network_SCHEMA.gpkg in this schema, unless native",
+            [](Recipe& r, Item) -> Field { return choice(r.output.schema); }),
+        key("output.files", words, "",
+            {"dem", "network", "contours", "catchments", "areas", "tin", "pictures", "page", "qgis"}, "",
+            "files to write beside recipe.toml and report.json; left out: all that the recipe makes",
+            [](Recipe& r, Item) -> Field { return &r.output.files; }, {.standard = "all"}),
+        key("output.against", file, "", {}, "[network] and [surface]",
+            "DEM that the terrain is compared with in report.json and report.html, beside simpler terrains around the "
+            "same rivers; it decides nothing of the terrain",
+            [](Recipe& r, Item) -> Field { return &r.output.against; })};
+    return rows;
+}
+
+} // namespace thalweg::recipe
