@@ -545,7 +545,7 @@ str
     one JSON object
 )words",
                  [](Args& in) {
-                     Held<pipeline::Made> const made(in.required("made"), in.place("made"));
+                     Held<make::Made> const made(in.required("made"), in.place("made"));
                      return in.call([&] { return pipeline::write_report(*made, {}); });
                  });
 }

@@ -23,6 +23,7 @@ THALWEG_OF_MODULE(measure)
 THALWEG_OF_MODULE(draw)
 THALWEG_OF_MODULE(io)
 THALWEG_OF_MODULE(recipe)
+THALWEG_OF_MODULE(make)
 THALWEG_OF_MODULE(pipeline)
 #undef THALWEG_OF_MODULE
 
@@ -35,7 +36,7 @@ struct Module {
     void (*define)(py::module_&);
 };
 
-constexpr std::array<Module, 13> modules = {{
+constexpr std::array<Module, 14> modules = {{
     {"geometry", "Lines and points: intersections, TINs, Voronoi diagrams, medial lines.", declare_geometry,
      define_geometry},
     {"solver", "Values of the solvers that stages take.", declare_solver, define_solver},
@@ -51,6 +52,8 @@ constexpr std::array<Module, 13> modules = {{
     {"draw", "Pictures.", declare_draw, define_draw},
     {"io", "Files.", declare_io, define_io},
     {"recipe", "Recipes, their files, and what they set.", declare_recipe, define_recipe},
+    {"terrain", "The stages of a terrain: its rivers, their heights, the surface, its water, what is measured of it.",
+     declare_make, define_make},
     {"pipeline", "Whole terrains, and the commands of the program.", declare_pipeline, define_pipeline},
 }};
 
@@ -88,7 +91,7 @@ PYBIND11_MODULE(_core, module) {
     }
     define_io_by_hand(made[10]);
     define_recipe_by_hand(made[11]);
-    define_pipeline_by_hand(made[12]);
+    define_pipeline_by_hand(made[13]);
     module.attr("MODULES") = py::tuple(names);
     py::list values;
     for (auto const& [name, value] : module.attr("__dict__").cast<py::dict>()) {

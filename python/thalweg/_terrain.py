@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Literal
 
 import numpy as np
 
-from thalweg import _core, _networks, _show, recipe as recipes, pipeline
+from thalweg import _core, _networks, _show, recipe as recipes, terrain as terrains, pipeline
 from thalweg import flow as flows
 from thalweg._raster import Raster
 from thalweg._show import bad_input
@@ -57,11 +57,11 @@ class Terrain:
 
     Attributes
     ----------
-    made : pipeline.Made
+    made : terrain.Made
         Everything, as the library has it; what follows are its parts.
     """
 
-    def __init__(self, made: pipeline.Made, files: list[_networks.TemporaryPath]) -> None:
+    def __init__(self, made: terrains.Made, files: list[_networks.TemporaryPath]) -> None:
         self.made = made
         self._files = files  # write() copies them
 
@@ -89,7 +89,7 @@ class Terrain:
             raise bad_input("Terrain", "the terrain has no DEM: its recipe asks for rivers alone")
         return surface.dem
 
-    def _rivers(self) -> pipeline.Rivers:
+    def _rivers(self) -> terrains.Rivers:
         if not self.has_network:
             raise bad_input("Terrain", "the terrain has no rivers: its recipe has no [network]")
         return self.made.terrain.rivers
@@ -167,7 +167,7 @@ class Terrain:
         Each is a dict of kind, severity ("note", "warning" or "error"), feature, where ((x, y) [m] or None), amount and its
         unit, text, remedy, key of the recipe, layer, and numbers ({name: (value, unit)}).
         """
-        return pipeline.findings_of(self.made)
+        return terrains.findings_of(self.made)
 
     @functools.cached_property
     def report(self) -> dict[str, Any]:
@@ -188,7 +188,7 @@ class Terrain:
     @property
     def timings(self) -> dict[str, float]:
         """[s] By stage."""
-        return {time.stage: time.wall_s for time in pipeline.timings_of(self.made)}
+        return {time.stage: time.wall_s for time in terrains.timings_of(self.made)}
 
     def write(self, folder: str | os.PathLike[str], overwrite: bool = False) -> list[str]:
         """Write the folder that `thalweg make` writes, completely or not at all.
@@ -385,7 +385,7 @@ def _made(asked: recipes.Recipe, files: list[_networks.TemporaryPath], who: str,
           overwrite: bool, **run: Any) -> Terrain:
     if output is not None and not overwrite and os.path.isdir(output) and os.listdir(output):
         raise bad_input(who, f"{os.fspath(output)} is not empty: set overwrite=True or name another folder")
-    made = pipeline.make(asked, **run)
+    made = terrains.make(asked, **run)
     terrain = Terrain(made, files)
     _warn_of(terrain.findings, 3)
     if output is not None:

@@ -25,6 +25,7 @@
 #include <thalweg/geometry/natural_neighbours.hpp>
 #include <thalweg/geometry/tin_of_dem.hpp>
 #include <thalweg/geometry/triangulate.hpp>
+#include <thalweg/make/laws.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
 #include <thalweg/network/channels/channels.hpp>
 #include <thalweg/network/channels/lakes.hpp>
@@ -49,7 +50,6 @@
 #include <thalweg/network/vectorise/prune.hpp>
 #include <thalweg/network/vectorise/rasterise.hpp>
 #include <thalweg/network/vectorise/vectorise.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/skeleton/draw_skeleton.hpp>
 #include <thalweg/skeleton/midpoint_inverse.hpp>
@@ -195,9 +195,9 @@ void print_laws(Raster<float> const& dem, Run const& run) {
     print("flow_lengths", hash_of(flow_length));
     print("extract_streams", hash_of(flow::extract_streams(drainage, dem, {.support_cells = 20}, run).network));
     Fnv fnv;
-    auto const found = pipeline::laws_of_dem(dem, drainage, flow_length, {.network_m = 400.0 * dem.grid().cell_m}, run);
+    auto const found = make::laws_of_dem(dem, drainage, flow_length, {.network_m = 400.0 * dem.grid().cell_m}, run);
     fnv.add(found.support_cells);
-    for (pipeline::LawRow const& row : pipeline::law_rows(found.laws)) {
+    for (make::LawRow const& row : make::law_rows(found.laws)) {
         fnv.add(row.value.value_or(0.0));
         for (auto const& [name, figure] : row.details) {
             fnv.add(std::isnan(figure) ? 0.0 : figure); // a NaN has many bits

@@ -12,7 +12,7 @@ import sys
 # those before them.
 BELOW = ["core", "geometry", "solver", "flow"]
 STAGES = ["network", "skeleton", "surface", "fractal", "blend", "measure", "draw", "io"]
-PROGRAM = ["recipe", "pipeline"]
+PROGRAM = ["recipe", "make", "pipeline"]
 MODULES = {"core": [], "geometry": ["core"], "solver": ["core"], "flow": ["core"],
            "studio": BELOW + STAGES + PROGRAM + ["serve"]}
 MODULES.update({name: BELOW + STAGES + PROGRAM[:number] for number, name in enumerate(PROGRAM)})
@@ -20,7 +20,7 @@ MODULES.update({stage: BELOW for stage in STAGES})
 MODULES["serve"] = ["core"]
 
 # The families of pipeline, in their order: each may include those before it.
-FAMILIES = ["make", "report", "ensemble", "commands"]
+FAMILIES = ["report", "ensemble", "commands"]
 
 # Which foreign headers (by how their names begin) a module's .cpp files may include.
 FOREIGN = {
@@ -33,6 +33,7 @@ FOREIGN = {
     "io": ["gdal", "ogr", "cpl_", "proj.h", "OpenEXR/", "laszip/", "boost/crc.hpp"],
     "serve": ["boost/asio/", "boost/beast/"],
     "recipe": ["toml++/", "nlohmann/"],
+    "make": ["nlohmann/"],
     "pipeline": ["toml++/", "nlohmann/"],
     "studio": ["nlohmann/"],
     "tools": ["CLI/", "nlohmann/", "spdlog/", "mpi.h"],

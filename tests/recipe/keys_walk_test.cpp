@@ -2,7 +2,7 @@
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Every key of the table in a small recipe of every method: where the table says that it has an effect, another value
 // changes the terrain or a file; where it says that it has none, the recipe is refused.
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 
 #include <algorithm>
 #include <cmath>
@@ -14,7 +14,7 @@
 #include <fmt/format.h>
 #include <gtest/gtest.h>
 #include <house/fnv.hpp>
-#include <pipeline/walk_files.hpp>
+#include <make/walk_files.hpp>
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
@@ -25,6 +25,7 @@ namespace keys_walk_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -358,7 +359,7 @@ struct Outcome {
 
 Outcome outcome(Recipe const& recipe, bool in_files) {
     try {
-        Made const t = make(recipe);
+        Made const t = make::make(recipe);
         return {in_files ? digest_of_files(t) : digest(t), ""};
     } catch (Error const& fault) {
         return {"", fault.what()};

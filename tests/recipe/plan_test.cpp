@@ -11,7 +11,7 @@
 #include <support.hpp>
 
 #include <thalweg/core/run/error.hpp>
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/recipe/frame.hpp>
 #include <thalweg/recipe/stages.hpp>
 
@@ -21,6 +21,7 @@ namespace plan_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -41,7 +42,7 @@ void expect_same_lines(RiverLines const& a, RiverLines const& b) {
 
 void expect_as_forecast(Recipe const& recipe, std::string const& name) {
     Forecast const said = forecast(recipe);
-    Made const made = make(recipe);
+    Made const made = make::make(recipe);
     std::vector<std::string> stages;
     for (StageTime const& time : timings_of(made)) {
         stages.push_back(time.stage);
@@ -230,7 +231,7 @@ TEST(Forecast, OfAGridThatIsStillUnknown) {
     recipe.surface.reset();
     Forecast const said = forecast(recipe);
     EXPECT_FALSE(said.grid);
-    auto const ratio = static_cast<double>(said.cells) / static_cast<double>(make(recipe).terrain.grid.cells());
+    auto const ratio = static_cast<double>(said.cells) / static_cast<double>(make::make(recipe).terrain.grid.cells());
     EXPECT_GT(ratio, 1.0 / 3.0);
     EXPECT_LT(ratio, 3.0);
 }

@@ -1,7 +1,7 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
 // Five recipe.toml files that version 0.1.0 wrote: they list every key of their sections, used or not.
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 
 #include <filesystem>
 #include <string>
@@ -18,6 +18,7 @@ namespace recipes_0_1_0_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -33,7 +34,7 @@ std::string hash_of(Raster<float> const& raster) {
 TEST(Recipes010, RunAndGiveTheirOldTerrain) {
     std::string text;
     for (std::string const& name : old_recipe_names()) {
-        Made const t = make(old_recipe(name));
+        Made const t = make::make(old_recipe(name));
         for (Check const& c : t.assessment.checks) { // of 64 x 64 cells full of rivers, some side by side
             bool const crowded = name == "tin_rivers" && c.name == "trace_f_same_cell" && c.value > 0.975;
             EXPECT_TRUE(c.ok || crowded) << name << " " << c.name << " " << c.value;

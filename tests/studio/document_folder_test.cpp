@@ -11,7 +11,7 @@
 #include <vector>
 
 #include <gtest/gtest.h>
-#include <pipeline/ascii_grid.hpp>
+#include <make/ascii_grid.hpp>
 #include <signal.h> // NOLINT(modernize-deprecated-headers): kill is of POSIX
 #include <support.hpp>
 #include <sys/wait.h>
@@ -164,7 +164,7 @@ TEST_F(DocumentFolders, BeginWithADem) {
     EXPECT_EQ(recipe.grid.width, 30);
     EXPECT_EQ(recipe.grid.cell_m, 10.0);
     EXPECT_EQ(bytes_of(at("d/inputs/source/dem.asc")), bytes_of(at("dem.asc")));
-    Raster<float> const dem = pipeline::make(recipe).terrain.surface->dem;
+    Raster<float> const dem = make::make(recipe).terrain.surface->dem;
     EXPECT_EQ((dem[Cell{7, 5}]), 7.0F + 1.5F);
     document.edit({"coarser", {SetKey{"grid.cell", "20"}, UnsetKey{"grid.width"}, UnsetKey{"grid.height"}}});
     EXPECT_EQ(recipe::resolve(document.document().recipe).grid->width, 15);
@@ -205,7 +205,7 @@ TEST_F(DocumentFolders, WhatMakeMakesOfTheRecipeIsTheSame) {
     document.edit({"", {ReplaceRecipe{recipe::write_recipe(recipe::default_recipe_on(64, 64))}}});
     document.edit({"", {SetKey{"network.heights", "graded"}, SetKey{"seed", "3"}}});
     pipeline::run_make({at("d/recipe.toml"), at("by_make")});
-    pipeline::Made const shown = pipeline::make(document.document().recipe);
+    make::Made const shown = make::make(document.document().recipe);
     pipeline::write_terrain(shown, at("shown"));
     for (std::string const name : {"dem.tif", "network.gpkg", "network.tif", "recipe.toml"}) {
         EXPECT_FALSE(bytes_of(at("by_make/" + name)).empty()) << name;

@@ -52,7 +52,7 @@ public:
         std::vector<std::pair<Raster<float>, bool>> heights;
         int rivers = 0;
         int made = 0;
-        std::shared_ptr<pipeline::Made const> measured;
+        std::shared_ptr<make::Made const> measured;
         std::string failed;
         bool stopped = false;
     };
@@ -104,15 +104,15 @@ private:
                         std::unique_lock lock(guard_);
                         changed_.wait(lock, [&] { return stage != held_; });
                     },
-                .rivers = [this](Job const& job, recipe::Plan const&, pipeline::Planform const&,
+                .rivers = [this](Job const& job, recipe::Plan const&, make::Planform const&,
                                  Run const&) { note(job, [](Told& told) { ++told.rivers; }); },
                 .heights =
                     [this](Job const& job, Heights const& seen) {
                         note(job, [&](Told& told) { told.heights.emplace_back(seen.dem, seen.is_finished); });
                     },
-                .made = [this](Job const& job, pipeline::Made const&) { note(job, [](Told& told) { ++told.made; }); },
+                .made = [this](Job const& job, make::Made const&) { note(job, [](Told& told) { ++told.made; }); },
                 .measured =
-                    [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
+                    [this](Job const& job, std::shared_ptr<make::Made const> const& made) {
                         note(job, [&](Told& told) { told.measured = made; });
                         end(job);
                     },
@@ -141,7 +141,7 @@ Document edited(Document const& document, std::string const& key, std::string co
 }
 
 /// Whether two terrains are the same in all that make writes of them.
-testing::AssertionResult are_same(pipeline::Made const& a, pipeline::Made const& b) {
+testing::AssertionResult are_same(make::Made const& a, make::Made const& b) {
     if (a.terrain.surface.has_value() != b.terrain.surface.has_value() ||
         (a.terrain.surface && !test::same_bits(a.terrain.surface->dem, b.terrain.surface->dem))) {
         return testing::AssertionFailure() << "other heights";
@@ -204,8 +204,8 @@ void expect_same_after_edits(std::string const& recipe, int edits, std::uint64_t
         all += what + "\n";
         SCOPED_TRACE(testing::Message() << "seed " << seed << ", after\n" << all);
         Watched::Told const told = watched.make(document);
-        std::optional<pipeline::Made> fresh;
-        std::string const error = test::error_of([&] { fresh = pipeline::make(document.recipe); });
+        std::optional<make::Made> fresh;
+        std::string const error = test::error_of([&] { fresh = make::make(document.recipe); });
         ASSERT_EQ(told.measured != nullptr, fresh.has_value()) << told.failed << " / " << error;
         if (fresh) {
             ASSERT_TRUE(are_same(*told.measured, *fresh));
@@ -347,7 +347,7 @@ TEST(Engine, SeesThatAFileWasChanged) {
     auto const high = watched.make(document).measured;
     ASSERT_NE(high, nullptr) << watched.told(2).failed;
     EXPECT_FALSE(test::same_bits(low->terrain.surface->dem, high->terrain.surface->dem));
-    EXPECT_TRUE(are_same(*high, pipeline::make(document.recipe)));
+    EXPECT_TRUE(are_same(*high, make::make(document.recipe)));
 }
 
 TEST(Engine, CutsRiversAtHolesOfADemThatItKept) {
@@ -373,7 +373,7 @@ TEST(Engine, CutsRiversAtHolesOfADemThatItKept) {
     ASSERT_NE(watched.make(alone).measured, nullptr);
     Watched::Told const told = watched.make(cut);
     ASSERT_NE(told.measured, nullptr) << told.failed;
-    EXPECT_TRUE(are_same(*told.measured, pipeline::make(cut.recipe)));
+    EXPECT_TRUE(are_same(*told.measured, make::make(cut.recipe)));
 }
 
 TEST(Engine, SaysWhyARecipeCannotBeMade) {
@@ -382,7 +382,7 @@ TEST(Engine, SaysWhyARecipeCannotBeMade) {
                                         "[network.dla]\nparticles = 500\n[surface]\n");
     Watched::Told const told = watched.make(broken);
     EXPECT_EQ(told.measured, nullptr);
-    EXPECT_EQ(told.failed.empty(), test::error_of([&] { pipeline::make(broken.recipe); }).empty());
+    EXPECT_EQ(told.failed.empty(), test::error_of([&] { make::make(broken.recipe); }).empty());
     EXPECT_NE(watched.make(document_of(forest)).measured, nullptr) << "it goes on";
 }
 

@@ -25,11 +25,11 @@ struct BlendOptions {
     std::vector<std::int64_t> window;
 };
 
-char const* name_of(pipeline::PatchPlace place) {
-    return place == pipeline::PatchPlace::own ? "own" : place == pipeline::PatchPlace::middle ? "middle" : "given";
+char const* name_of(make::PatchPlace place) {
+    return place == make::PatchPlace::own ? "own" : place == make::PatchPlace::middle ? "middle" : "given";
 }
 
-nlohmann::ordered_json json_of(pipeline::BlendedDem const& made, std::string const& file) {
+nlohmann::ordered_json json_of(make::BlendedDem const& made, std::string const& file) {
     blend::Pasted const& pasted = made.pasted;
     return {{"file", file},
             {"place", name_of(made.place)},
@@ -45,13 +45,13 @@ nlohmann::ordered_json json_of(pipeline::BlendedDem const& made, std::string con
             {"residual", pasted.residual}};
 }
 
-char const* why_there(pipeline::PatchPlace place) {
-    return place == pipeline::PatchPlace::middle
+char const* why_there(make::PatchPlace place) {
+    return place == make::PatchPlace::middle
                ? ", the centre of the target, because the source lies elsewhere (by its own position and CRS)"
                : "";
 }
 
-std::string blend_in_words(pipeline::BlendedDem const& made, blend::Holes holes) {
+std::string blend_in_words(make::BlendedDem const& made, blend::Holes holes) {
     blend::Pasted const& pasted = made.pasted;
     std::string words =
         fmt::format("{} cells around ({:.3f}, {:.3f}){}; seam {:.3f} m rms, {:.3f} m at most", pasted.cells, made.at.x,
@@ -118,7 +118,7 @@ int blend(BlendOptions& options, Session const& session) {
 
 Command add_blend(CLI::App& app, Session& session) {
     auto const options = std::make_shared<BlendOptions>();
-    pipeline::BlendIntoParams& params = options->params.patch;
+    make::BlendIntoParams& params = options->params.patch;
     app.add_option("TARGET", params.target, "The DEM to paste into, or a mesh: .2dm, .obj, .off or .glb.")
         ->type_name("FILE")
         ->required();

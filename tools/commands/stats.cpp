@@ -31,15 +31,15 @@ std::string length(solver::CorrelationLength const& l) {
     return known(l.cells, 2) + (l.extrapolated ? " (extrapolated)" : "");
 }
 
-std::string value_of(pipeline::LawRow const& row) {
+std::string value_of(make::LawRow const& row) {
     return row.value ? fmt::format("{:.4g}{}{}", *row.value, row.unit.empty() ? "" : " ", row.unit) : "unknown";
 }
 
 /// inside: laws of the rivers whose areas the edge does not cut, or null.
 void print_rows(measure::NetworkLaws const& laws, measure::NetworkLaws const* inside = nullptr) {
-    auto const rows_inside = inside == nullptr ? std::vector<pipeline::LawRow>{} : pipeline::law_rows(*inside);
+    auto const rows_inside = inside == nullptr ? std::vector<make::LawRow>{} : make::law_rows(*inside);
     fmt::print("{:58}  {}in nature\n", "", inside == nullptr ? "" : "inside            ");
-    for (std::size_t i = 0; pipeline::LawRow const& row : pipeline::law_rows(laws)) {
+    for (std::size_t i = 0; make::LawRow const& row : make::law_rows(laws)) {
         std::string const within = inside == nullptr ? "" : fmt::format("{:<16}  ", value_of(rows_inside[i++]));
         std::string const range =
             row.nature != nullptr ? fmt::format("{:g} to {:g}", row.nature->low, row.nature->high) : "";
@@ -53,14 +53,14 @@ void print_rows(measure::NetworkLaws const& laws, measure::NetworkLaws const* in
     }
 }
 
-void print_laws(pipeline::DemLaws const& found) {
+void print_laws(make::DemLaws const& found) {
     fmt::print("\nrivers where at least {} cells ({:.3g} km²) drain\n"
                "inside: {} of {} arcs, whose areas lie whole inside the data\n",
                found.support_cells, found.support_m2 / 1e6, found.arcs_inside, found.arcs);
     print_rows(found.laws, found.inside ? &*found.inside : nullptr);
 }
 
-void print_line_laws(pipeline::LineLaws const& found) {
+void print_line_laws(make::LineLaws const& found) {
     fmt::print("{} arcs of {:.1f} km, {} outlets", found.arcs, found.length_m / 1e3, found.outlets);
     if (found.left_out > 0) {
         fmt::print("; {} lines of {:.1f} km are not in the tree", found.left_out, found.left_out_m / 1e3);
@@ -79,13 +79,13 @@ void print_line_laws(pipeline::LineLaws const& found) {
     print_rows(found.laws);
 }
 
-void print_relief(pipeline::TerrainRelief const& found) {
+void print_relief(make::TerrainRelief const& found) {
     fmt::print("\n{:<42}{:>8}", "relief", "here");
     for (measure::ReferenceDem const& land : measure::reference_dems()) {
         fmt::print("  {:>11}", land.name);
     }
     fmt::print("  reference range\n");
-    for (pipeline::ReliefRow const& row : pipeline::relief_rows(found)) {
+    for (make::ReliefRow const& row : make::relief_rows(found)) {
         fmt::print("{:<42}{:>8}", row.name, row.value ? fmt::format("{:.3g}", *row.value) : "unknown");
         for (double const figure : row.beside) {
             fmt::print("  {:>11.3g}", figure);

@@ -6,7 +6,7 @@
 #include <string>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/planform.hpp>
+#include <thalweg/make/planform.hpp>
 #include <thalweg/recipe/recipe.hpp>
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/drawing.hpp>

@@ -33,7 +33,7 @@ int report(double share, char const* what, void* reporting) {
 }
 
 /// About the bytes of a terrain of which all parts are there.
-std::int64_t bytes_of(pipeline::Made const& made) {
+std::int64_t bytes_of(make::Made const& made) {
     constexpr std::int64_t of_cell = 40;
     constexpr std::int64_t least = 1 << 20;
     return least + of_cell * made.terrain.grid.cells();
@@ -74,7 +74,7 @@ void Engine::ask_to_stop() {
     changed_.notify_all();
 }
 
-std::shared_ptr<pipeline::Made const> Engine::wait(std::int64_t number, std::stop_token const& stop) {
+std::shared_ptr<make::Made const> Engine::wait(std::int64_t number, std::stop_token const& stop) {
     std::unique_lock lock(guard_);
     changed_.wait(lock, stop, [&] { return ended_ >= number; });
     return latest_number_ == number ? latest_ : nullptr;
@@ -127,9 +127,9 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
     try {
         run.check();
         std::string const made_from = "made\n" + job.toml + recipe::state_of_files(job.recipe);
-        auto made = std::static_pointer_cast<pipeline::Made const>(kept_.find(made_from));
+        auto made = std::static_pointer_cast<make::Made const>(kept_.find(made_from));
         if (made) {
-            findings = pipeline::findings_of(*made);
+            findings = make::findings_of(*made);
             tell(watcher_.found, job, findings);
             if (job.recipe.network) {
                 tell(watcher_.rivers, job, made->plan, made->planform, run);
@@ -139,9 +139,9 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
                      Heights{made->terrain.surface->dem, made->terrain.grid, pipeline::sea_of(made->terrain), true});
             }
         } else {
-            auto const fresh = std::make_shared<pipeline::Made>();
+            auto const fresh = std::make_shared<make::Made>();
             fresh->plan = recipe::resolve(job.recipe, run);
-            fresh->planform = pipeline::make_planform(fresh->plan, run);
+            fresh->planform = make::make_planform(fresh->plan, run);
             tell(watcher_.found, job, findings);
             if (job.recipe.network) {
                 tell(watcher_.rivers, job, fresh->plan, fresh->planform, run);
@@ -152,12 +152,12 @@ void Engine::run(Job const& job, std::stop_token const& stop) {
                      Heights{dem, job.recipe.network ? fresh->planform.grid : *fresh->plan.grid,
                              pipeline::sea_of(fresh->plan, fresh->planform), is_finished});
             };
-            fresh->terrain = pipeline::make_terrain(fresh->plan, fresh->planform, run);
+            fresh->terrain = make::make_terrain(fresh->plan, fresh->planform, run);
             run.preview = nullptr;
             tell(watcher_.found, job, findings);
-            fresh->recipe = pipeline::recipe_of(fresh->plan, fresh->terrain);
+            fresh->recipe = make::recipe_of(fresh->plan, fresh->terrain);
             tell(watcher_.made, job, *fresh);
-            fresh->assessment = pipeline::assess(fresh->plan, fresh->planform, fresh->terrain, run);
+            fresh->assessment = make::assess(fresh->plan, fresh->planform, fresh->terrain, run);
             tell(watcher_.found, job, findings);
             made = fresh;
             kept_.keep(made_from, made, bytes_of(*made));

@@ -393,12 +393,12 @@ private:
     Watcher watcher() {
         return {.at = [this](Job const& job, std::string_view stage, double share) { tell_share(job, stage, share); },
                 .found = [this](Job const& job, std::vector<Finding> const& found) { show_findings(job, found); },
-                .rivers = [this](Job const& job, recipe::Plan const& plan, pipeline::Planform const& planform,
+                .rivers = [this](Job const& job, recipe::Plan const& plan, make::Planform const& planform,
                                  Run const& run) { show_rivers(job, plan, planform, run); },
                 .heights = [this](Job const& job, Heights const& heights) { show_heights(job, heights); },
-                .made = [this](Job const& job, pipeline::Made const& made) { show_scene(job, "land", made); },
+                .made = [this](Job const& job, make::Made const& made) { show_scene(job, "land", made); },
                 .measured =
-                    [this](Job const& job, std::shared_ptr<pipeline::Made const> const& made) {
+                    [this](Job const& job, std::shared_ptr<make::Made const> const& made) {
                         show_scene(job, "measured", *made);
                         end(job, idle_message(job, seconds_since(job.asked)));
                     },
@@ -431,7 +431,7 @@ private:
         }
     }
 
-    void show_rivers(Job const& job, recipe::Plan const& plan, pipeline::Planform const& planform, Run const& run) {
+    void show_rivers(Job const& job, recipe::Plan const& plan, make::Planform const& planform, Run const& run) {
         constexpr std::int64_t side = 256;
         std::string scene = scene_message(
             job, "rivers", pipeline::live_scene(pipeline::rivers_to_be(plan, planform), job.toml, command(), run));
@@ -471,7 +471,7 @@ private:
         shown_by_ = job;
     }
 
-    void show_scene(Job const& job, char const* level, pipeline::Made const& made) {
+    void show_scene(Job const& job, char const* level, make::Made const& made) {
         std::string scene = scene_message(job, level, pipeline::live_scene(made, job.toml, command()));
         std::scoped_lock const lock(guard_);
         if (job.number <= left_) {

@@ -1,6 +1,6 @@
 // SPDX-FileCopyrightText: the thalweg authors
 // SPDX-License-Identifier: GPL-3.0-or-later
-#include <thalweg/pipeline/make/river_claims.hpp>
+#include <thalweg/make/river_claims.hpp>
 
 #include <limits>
 #include <string>
@@ -14,8 +14,8 @@
 namespace reaches_of_file_test {
 
 using namespace thalweg;
-using pipeline::FileReaches;
-using pipeline::reaches_of_file;
+using make::FileReaches;
+using make::reaches_of_file;
 
 namespace {
 
@@ -42,7 +42,7 @@ NetworkFile three_arcs() {
 
 auto refused(NetworkFile const& file, std::string const& words) {
     return test::refused(
-        "pipeline.reaches_of_file", [&] { reaches_of_file(file, grid); }, words);
+        "make.reaches_of_file", [&] { reaches_of_file(file, grid); }, words);
 }
 
 std::vector<std::int64_t> downstream(FileReaches const& reaches) {
@@ -124,13 +124,13 @@ TEST(StillCells, LieUnderLevelPartsOnTheGrid) {
     NetworkFile file = three_arcs();
     file.arcs[0].line[0].z = 1.0;  // falls
     file.arcs[1].line[0].x = 10.5; // begins off the grid
-    Mask const still = pipeline::still_cells(file, grid);
+    Mask const still = make::still_cells(file, grid);
     for (std::int64_t i = 0; i < grid.cells(); ++i) {
         Cell const c = grid.at(i);
         EXPECT_EQ(still[i] != 0, c.col == 5 && c.row >= 5 && c.row <= 9) << c.col << " " << c.row;
     }
     file.says.heights = false;
-    EXPECT_EQ(pipeline::still_cells(file, grid).cells(), 0);
+    EXPECT_EQ(make::still_cells(file, grid).cells(), 0);
 }
 
 } // namespace reaches_of_file_test

@@ -8,16 +8,17 @@
 #include <string>
 
 #include <gtest/gtest.h>
-#include <pipeline/walk_files.hpp>
+#include <make/walk_files.hpp>
 #include <support.hpp>
 
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 
 namespace replay_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -78,7 +79,7 @@ void expect_replayed(std::string const& toml, std::string const& copy) {
         WalkFiles const files;
         Recipe recipe = read_recipe(toml, "r.toml");
         recipe.folder = files.folder();
-        write_terrain(make(recipe), out, io::Existing::refuse);
+        write_terrain(make::make(recipe), out, io::Existing::refuse);
         EXPECT_EQ(bytes_of(out + "/" + copy), bytes_of(files / fs::path(copy).filename().string()));
     }
     ReplayResult const again = run_replay({out});
@@ -108,7 +109,7 @@ TEST(Replay, EstimatedDetailIsWrittenAsItWasUsed) {
         WalkFiles const files;
         Recipe recipe = read_recipe(toml, "r.toml");
         recipe.folder = files.folder();
-        Made const t = make(recipe);
+        Made const t = make::make(recipe);
         ASSERT_TRUE(t.recipe.detail->midpoint.hurst && t.recipe.detail->midpoint.sigma);
         Recipe const resolved = read_recipe(write_recipe(t.recipe), "again.toml");
         EXPECT_EQ(resolved.detail->midpoint.hurst, t.recipe.detail->midpoint.hurst);
@@ -116,12 +117,12 @@ TEST(Replay, EstimatedDetailIsWrittenAsItWasUsed) {
         expect_replayed(toml, "inputs/points/points.csv");
     }
     std::string const rivers =
-        write_recipe(make(read_recipe(dla + "[surface]\n[detail]\nsigma = 10\nlevels = 3\n", "r.toml")).recipe);
+        write_recipe(make::make(read_recipe(dla + "[surface]\n[detail]\nsigma = 10\nlevels = 3\n", "r.toml")).recipe);
     EXPECT_TRUE(test::has(rivers, "hurst = 0.6"));
 }
 
 TEST(Replay, DefaultsThatAreReckonedAreWritten) {
-    std::string const text = write_recipe(make(read_recipe(dla + "[surface]\n", "r.toml")).recipe);
+    std::string const text = write_recipe(make::make(read_recipe(dla + "[surface]\n", "r.toml")).recipe);
     for (char const* line : {"mean_slope = 25.0\n", "heights = 'graded'\n", "edge = 'open'\n", "drain = 'carve'\n",
                              "meander = 1.0\n", "rotate = "}) {
         EXPECT_TRUE(test::has(text, line));

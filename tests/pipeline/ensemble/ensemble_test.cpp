@@ -15,6 +15,7 @@ namespace ensemble_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -105,7 +106,7 @@ TEST(Ensemble, AMemberIsWhatItsRecipeMakes) {
     Ensemble const ensemble = of({"surface.mean_slope=10..30"}, 4);
     MadeMember const member = make_member(ensemble, 3);
     ASSERT_TRUE(member.made);
-    Made const alone = make(recipe_of(ensemble, member_of(ensemble, 3)));
+    Made const alone = make::make(recipe_of(ensemble, member_of(ensemble, 3)));
     EXPECT_TRUE(std::ranges::equal(member.made->terrain.surface->dem.values(), alone.terrain.surface->dem.values()));
     EXPECT_EQ(member.row.state, MemberState::ok) << member.row.reason;
     auto const found = [&](std::string const& column) {

@@ -42,7 +42,7 @@ TEST(Landmarks, SummitsAreTheMostProminentWithRoomBetweenThem) {
 }
 
 TEST(Landmarks, TheSeaIsWhereCellsOfATerrainAreNotLand) {
-    Terrain terrain;
+    make::Terrain terrain;
     EXPECT_FALSE(sea_of(terrain).has_value());
     terrain.land = Mask(Grid{3, 3, 1.0, 0.0, 3.0, ""}, 1);
     ASSERT_TRUE(sea_of(terrain).has_value());

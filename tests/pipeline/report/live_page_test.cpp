@@ -21,6 +21,7 @@ namespace live_page_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 
 namespace {
@@ -47,7 +48,7 @@ TEST(LivePage, IsTheReportsAndMayAskItsOwnServerAlone) {
 }
 
 TEST(LiveScene, GrowsWithWhatIsKnown) {
-    Made const made = make(read_recipe(cluster, "r"));
+    Made const made = make::make(read_recipe(cluster, "r"));
     json const measured = scene_of(made);
     EXPECT_EQ(measured["data"]["recipe"], "seed = 7\n");
     EXPECT_EQ(measured["data"]["command"], "thalweg make x");

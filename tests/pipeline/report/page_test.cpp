@@ -30,6 +30,7 @@ namespace page_test {
 
 using namespace thalweg;
 using namespace thalweg::recipe;
+using namespace thalweg::make;
 using namespace thalweg::pipeline;
 using nlohmann::json;
 
@@ -49,7 +50,7 @@ Made small_terrain(Land land) {
     if (land == Land::without) {
         recipe.surface.reset();
     }
-    return make(recipe);
+    return make::make(recipe);
 }
 
 json data_of(std::string const& page) {

@@ -46,17 +46,17 @@ Mask read_kept(std::string const& path, Grid const& grid, Run const& run) {
     return kept;
 }
 
-BlendedDem blend_dems(BlendParams const& params, Run const& run) {
+make::BlendedDem blend_dems(BlendParams const& params, Run const& run) {
     refuse_if<BadParameter>(
         !params.source_crs.empty(),
         "pipeline.run_blend: --source-crs is for meshes (.2dm, .obj, .off, .glb); assign a DEM its CRS "
         "by gdal_edit.py -a_srs");
-    BlendIntoParams const& patch = params.patch;
+    make::BlendIntoParams const& patch = params.patch;
     io::require_geotiff_name(params.output);
     io::OutputFile file(params.output, params.existing);
     io::DemFile const read = io::read_dem_file(patch.target, patch.reading, run);
     Raster<float> const& target = read.dem;
-    BlendedDem made = blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
+    make::BlendedDem made = make::blend_into(target, read_kept(patch.keep, target.grid(), run), patch, run);
     made.findings.insert(made.findings.begin(), read.findings.begin(), read.findings.end());
     run.report(made.findings);
     io::write_dem(made.pasted.dem, file.staging(), run);
@@ -86,7 +86,7 @@ MeshBox box_of(Tin const& tin) {
     return box;
 }
 
-void check_mesh_params(BlendIntoParams const& params) {
+void check_mesh_params(make::BlendIntoParams const& params) {
     for (std::string const& path : {params.target, params.source.path}) {
         refuse_if<BadParameter>(
             !io::holds_tin(path),
@@ -115,7 +115,7 @@ void check_mesh_params(BlendIntoParams const& params) {
     }
 }
 
-void place_mesh(Tin& patch, BlendIntoParams const& params, Vec2 from, Vec2 to) {
+void place_mesh(Tin& patch, make::BlendIntoParams const& params, Vec2 from, Vec2 to) {
     bool const turns = params.rotate_deg != 0.0 || params.scale != 1.0;
     blend::LinearMap const map = blend::rotation({0.0, 0.0, 1.0}, params.rotate_deg, params.scale);
     for (Vec3& v : patch.vertices) {
@@ -133,7 +133,7 @@ void place_mesh(Tin& patch, BlendIntoParams const& params, Vec2 from, Vec2 to) {
 }
 
 BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
-    BlendIntoParams const& params = asked.patch;
+    make::BlendIntoParams const& params = asked.patch;
     check_mesh_params(params);
     io::TinFormat const format = io::tin_format("", asked.output);
     io::OutputFile file(asked.output, asked.existing);
@@ -160,9 +160,9 @@ BlendedTin blend_meshes(BlendParams const& asked, Run const& run) {
     if (params.at) {
         made.at = *params.at;
     } else if (around_patch.meets(around_target)) {
-        made.place = PatchPlace::own;
+        made.place = make::PatchPlace::own;
     } else {
-        made.place = PatchPlace::middle;
+        made.place = make::PatchPlace::middle;
         made.at = around_target.middle();
     }
     place_mesh(patch.tin, params, around_patch.middle(), made.at);

@@ -11,7 +11,7 @@
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/blend_into.hpp>
+#include <thalweg/make/blend_into.hpp>
 
 namespace thalweg::pipeline {
 
@@ -20,7 +20,7 @@ struct BlendParams {
     /// Target and patch: two DEMs, or two meshes that io::read_tin reads. For meshes at is the position of the centre
     /// of the patch's box, rotate_deg is in [-360, 360] about that centre, and mask, window, keep, feather_cells,
     /// relief, holes and nodata stay at their defaults.
-    BlendIntoParams patch = {};
+    make::BlendIntoParams patch = {};
     std::string output = {}; ///< a new GeoTIFF; for meshes in any of io::tin_formats()
     io::Existing existing = io::Existing::refuse;
     std::string source_crs = {}; ///< of meshes without a CRS, projected, in metres; "": none
@@ -30,13 +30,13 @@ struct BlendParams {
 struct BlendedTin {
     blend::FusedTin fused;
     std::string crs;
-    PatchPlace place = PatchPlace::given;
+    make::PatchPlace place = make::PatchPlace::given;
     Vec2 at;                            ///< [m] centre of the patch's box
     std::vector<Finding> findings = {}; ///< how the meshes were read
 };
 
 /// What run_blend() returns: a DEM or a mesh, as the target is.
-using BlendResult = std::variant<BlendedDem, BlendedTin>;
+using BlendResult = std::variant<make::BlendedDem, BlendedTin>;
 
 /// Runs `thalweg blend`: reads two DEMs or two meshes and writes the first with a patch of the second, completely or
 /// not at all. DEMs: blend_into; of lines to keep, the parts that cross the target count. Meshes: the patch is moved,

@@ -18,8 +18,8 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/files/files.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/make/river_claims.hpp>
 #include <thalweg/pipeline/commands/internal/repair_network.hpp>
-#include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/check_recipe.hpp>
 #include <thalweg/recipe/read_inputs.hpp>
@@ -79,13 +79,13 @@ measure::Certificate certify_files(NetworkFile const& network, CheckParams const
                                    "(ogr2ogr -t_srs, gdalwarp -novshift -t_srs {} {} OUT.tif)",
                                    lines, dem, land.grid().crs.substr(0, 60), lines, dem));
     }
-    FileReaches const found = reaches_of_file(network, land.grid());
+    make::FileReaches const found = make::reaches_of_file(network, land.grid());
     measure::Claims claims;
     claims.ds_area_m2 = areas_of(network, found.reaches);
-    claims.still = either(still_cells(network, land.grid()), cells_in(rasters.lakes, land.grid()));
+    claims.still = make::either(make::still_cells(network, land.grid()), cells_in(rasters.lakes, land.grid()));
     claims.drawn = cells_in(rasters.drawn, land.grid());
     claims.honoured = rasters.waive ? claims.drawn : Mask{};
-    flow::FlowField const drainage = flow::route(land, sinks_of(network, land), run);
+    flow::FlowField const drainage = flow::route(land, make::sinks_of(network, land), run);
     measure::Certificate certificate = measure::certify(land, drainage, found.reaches, claims, run);
     for (flow::Reach const& reach : found.reaches) {
         if (reach.lines.empty()) {
@@ -197,7 +197,7 @@ void write_copy(RepairedNetwork const& mended, NetworkFile const& file, CheckOut
                                    &mended.user,
                                    HeightUnit::metre,
                                    mended.has_heights,
-                                   sinks_in(mended.network.planform, file)};
+                                   make::sinks_in(mended.network.planform, file)};
     if (output.is_shapefile()) {
         for (io::ShortenedName const& one : io::shortened_names(tables)) {
             checked.notes.push_back({"shortened_field", 0, nowhere, 1.0,

@@ -19,14 +19,14 @@
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/network/write_network.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/make/file_values.hpp>
+#include <thalweg/make/line_sources.hpp>
+#include <thalweg/make/river_claims.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/from_file.hpp>
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/make/file_values.hpp>
-#include <thalweg/pipeline/make/line_sources.hpp>
-#include <thalweg/pipeline/make/river_claims.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/frame.hpp>
 
@@ -99,7 +99,7 @@ void complete(Ready& ready, NetworkFile const& file, Raster<float> const* dem, C
         converted.areas = areas_in_file == Areas::none ? "none" : "file";
         mark_unknown(source.us_area_m2);
         mark_unknown(source.ds_area_m2);
-        ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
+        ready.node_area_m2 = make::node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
     }
 }
 
@@ -108,7 +108,7 @@ void split(Ready& ready, ConvertParams const& params, ConvertResult& converted, 
     network::Split made =
         network::split_confluences(source.network, {params.max_upstream, params.split_distance_m}, run);
     converted.split = static_cast<std::int64_t>(made.pieces.size());
-    add_pieces(made.pieces, source.us_area_m2, source.ds_area_m2);
+    make::add_pieces(made.pieces, source.us_area_m2, source.ds_area_m2);
     for (network::SplitPiece const& piece : made.pieces) {
         source.braided.push_back(source.braided[piece.of]);
         source.own_area_m2[piece.of] = std::numeric_limits<double>::quiet_NaN(); // of both together
@@ -116,9 +116,9 @@ void split(Ready& ready, ConvertParams const& params, ConvertResult& converted, 
         source.records.push_back(source.records[piece.of]);
         source.clues.arcs.push_back(source.clues.arcs[piece.of]);
     }
-    source.stretches = LineSources(source.network.planform, source.stretches).redrawn(made.network.planform);
+    source.stretches = make::LineSources(source.network.planform, source.stretches).redrawn(made.network.planform);
     source.network = std::move(made.network);
-    ready.node_area_m2 = node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
+    ready.node_area_m2 = make::node_areas(source.network.planform, source.us_area_m2, source.ds_area_m2);
 }
 
 /// The grid of a mask: the DEM's, or one around the network.
@@ -288,7 +288,7 @@ ConvertResult run_convert(ConvertParams const& params, Run const& run) {
     tables.braided = &ready.source.braided;
     tables.own_area_m2 = &ready.source.own_area_m2;
     tables.heights = std::string(converted.heights) != "none";
-    tables.sinks = sinks_in(plan, file);
+    tables.sinks = make::sinks_in(plan, file);
     io::UserData const user{std::move(file.attributes), ready.source.records, ready.source.stretches};
     tables.user = &user;
     out.report_renamed_columns(tables, converted.findings);

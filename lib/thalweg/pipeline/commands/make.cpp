@@ -84,7 +84,7 @@ recipe::Recipe recipe_to_rebuild(RebuildFromParams const& params) {
 
 } // namespace
 
-Made run_make(MakeParams const& params, Run const& run) {
+make::Made run_make(MakeParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_asked(params);
     recipe::UserFiles const files(recipe, run);
     return make_folder(recipe, params.output, params.existing, run);
@@ -96,7 +96,7 @@ recipe::Forecast forecast_make(MakeParams const& params, Run const& run) {
     return recipe::forecast(recipe, run);
 }
 
-Made run_rebuild(RebuildFromParams const& params, Run const& run) {
+make::Made run_rebuild(RebuildFromParams const& params, Run const& run) {
     recipe::Recipe recipe = recipe_to_rebuild(params);
     recipe::UserFiles const files(recipe, run);
     return make_folder(recipe::rebuild_recipe(recipe, run), params.output, params.existing, run);

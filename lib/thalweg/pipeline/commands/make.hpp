@@ -8,7 +8,7 @@
 
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
@@ -30,7 +30,7 @@ struct MakeParams {
 /// \return the terrain
 /// \throws BadParameter for a key or field that is unknown
 /// \throws Error as recipe_from(), UserFiles, make() and write_terrain()
-Made run_make(MakeParams const& params, Run const& run = {});
+make::Made run_make(MakeParams const& params, Run const& run = {});
 
 /// \internal
 /// Runs `thalweg make --dry-run`: plans the same work, and writes nothing.
@@ -50,7 +50,7 @@ struct RebuildFromParams : MakeParams {
 /// \return the terrain
 /// \throws BadParameter without rivers; BadInput when the input has none
 /// \throws Error as run_make()
-Made run_rebuild(RebuildFromParams const& params, Run const& run = {});
+make::Made run_rebuild(RebuildFromParams const& params, Run const& run = {});
 
 /// \internal
 /// Runs `thalweg rebuild --dry-run`: plans the same work, and writes nothing.

@@ -23,9 +23,9 @@
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
+#include <thalweg/make/file_values.hpp>
 #include <thalweg/measure/relief/wetness.hpp>
 #include <thalweg/pipeline/commands/internal/measure_rivers.hpp>
-#include <thalweg/pipeline/make/file_values.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -233,7 +233,7 @@ void write_areas(Ground const& g, Raster<double> const& areas, char const* of, s
 
 void write_flow(Ground const& g, MeasureResult& made, Writer& out, Run const& run) {
     if (g.wants("d8")) {
-        write_areas(g, areas_m2(g.drainage), "d8", made.d8_m2, out, run);
+        write_areas(g, make::areas_m2(g.drainage), "d8", made.d8_m2, out, run);
     }
     if (g.wants("directions")) {
         io::write_codes(d8_codes(g.drainage.direction), out.path("direction_d8.tif"), run);
@@ -241,7 +241,7 @@ void write_flow(Ground const& g, MeasureResult& made, Writer& out, Run const& ru
     if (g.wants("dinf") || g.wants("directions") || g.wants("twi")) {
         flow::DinfFlow const parted = flow::route_dinf(g.dem, g.drainage, run);
         if (g.wants("dinf")) {
-            write_areas(g, areas_m2(parted.area_cells), "dinf", made.dinf_m2, out, run);
+            write_areas(g, make::areas_m2(parted.area_cells), "dinf", made.dinf_m2, out, run);
         }
         if (g.wants("directions")) {
             io::write_field(dinf_angles(parted.bearing), out.path("direction_dinf.tif"), run);

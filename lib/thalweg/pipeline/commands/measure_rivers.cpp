@@ -20,12 +20,12 @@
 #include <thalweg/io/network/table.hpp>
 #include <thalweg/io/qgis/styles.hpp>
 #include <thalweg/io/raster/polygons.hpp>
+#include <thalweg/make/file_values.hpp>
+#include <thalweg/make/river_claims.hpp>
 #include <thalweg/measure/relief/zones.hpp>
 #include <thalweg/measure/topology/topology.hpp>
 #include <thalweg/network/order/pfafstetter.hpp>
 #include <thalweg/pipeline/commands/internal/repair_network.hpp>
-#include <thalweg/pipeline/make/file_values.hpp>
-#include <thalweg/pipeline/make/river_claims.hpp>
 
 namespace thalweg::pipeline {
 namespace {
@@ -200,7 +200,7 @@ NetworkFile joined_lines(NetworkFile const& file, Raster<float> const& dem, std:
 }
 
 MeasuredRiver rivers_of_file(NetworkFile const& file, Grid const& grid) {
-    FileReaches found = reaches_of_file(file, grid);
+    make::FileReaches found = make::reaches_of_file(file, grid);
     std::unordered_map<std::int64_t, std::string> names;
     for (NetworkFile::FileArc const& arc : file.arcs) {
         names.try_emplace(arc.id, arc.name);
@@ -351,7 +351,7 @@ void write_streams(MeasuredRiver const& rivers, RiverMeasures const& measures, G
 MeasuredCatchments write_catchments(MeasuredRiver const& rivers, Raster<float> const& dem,
                                     flow::FlowField const& drainage, std::string const& path, Run const& run) {
     flow::Catchments const catchments = flow::catchments(rivers.reaches, drainage, run);
-    auto const rows = catchment_rows(rivers.reaches, rivers.basins, catchments);
+    auto const rows = make::catchment_rows(rivers.reaches, rivers.basins, catchments);
     Raster<double> const outlet_m = flow::lengths_to_outlet(drainage, run);
     io::CatchmentTables tables{catchments.reach, rows};
     std::set<std::int64_t> basins;

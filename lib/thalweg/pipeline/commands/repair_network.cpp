@@ -14,6 +14,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/core/vec.hpp>
+#include <thalweg/make/given.hpp>
 #include <thalweg/network/elevation/known_heights.hpp>
 #include <thalweg/network/import/choose_cell.hpp>
 #include <thalweg/network/import/from_file.hpp>
@@ -22,7 +23,6 @@
 #include <thalweg/network/import/river_heights.hpp>
 #include <thalweg/network/order/main_stems.hpp>
 #include <thalweg/network/order/order.hpp>
-#include <thalweg/pipeline/make/given.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
@@ -539,7 +539,7 @@ RepairedNetwork repair_network(NetworkFile const& file, measure::TopologyReport 
         return give_up(cannot.what());
     }
     append(mended.mended, std::move(imported.repairs));
-    mended.doubts = direction_findings(imported.directions, params.dem != nullptr ? "" : "--dem FILE", "");
+    mended.doubts = make::direction_findings(imported.directions, params.dem != nullptr ? "" : "--dem FILE", "");
     network::Lowered lowered = network::lower_rises(imported.network, imported.arc_z);
     report_lowering(lowered, file.id_shift, mended.mended);
     if (!file.says.heights) {

@@ -50,7 +50,7 @@ StatsResult stats_of_lines(StatsParams const& params, Run const& run) {
     flow::ContributingAreas areas;
     areas.us_area_m2 = mended.us_area_m2;
     areas.ds_area_m2 = mended.ds_area_m2;
-    found.lines = laws_of_lines({mended.network, mended.orders, areas, mended.has_heights});
+    found.lines = make::laws_of_lines({mended.network, mended.orders, areas, mended.has_heights});
     found.lines->left_out = std::ssize(mended.secondary);
     for (SecondaryLine const& line : mended.secondary) {
         found.lines->left_out_m += length_in_plan(line.vertices);
@@ -86,14 +86,14 @@ StatsResult run_stats(StatsParams const& params, Run const& run) {
         found.statistics.kurtosis = read.own->kurtosis;
     }
     if (params.laws || params.relief) {
-        Raster<float> const ground = on_ground(dem);
+        Raster<float> const ground = make::on_ground(dem);
         flow::FlowField const drainage = flow::route(ground, run);
         if (params.laws) {
-            found.laws = laws_of_dem(ground, drainage, flow::flow_lengths(drainage, run),
-                                     {.support_cells = params.support_cells}, run);
+            found.laws = make::laws_of_dem(ground, drainage, flow::flow_lengths(drainage, run),
+                                           {.support_cells = params.support_cells}, run);
         }
         if (params.relief) {
-            found.relief = relief_of_dem(ground, drainage, run);
+            found.relief = make::relief_of_dem(ground, drainage, run);
         }
     }
     if (params.recipe) {

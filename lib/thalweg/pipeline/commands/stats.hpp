@@ -10,9 +10,9 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
+#include <thalweg/make/laws.hpp>
+#include <thalweg/make/relief.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/recipe/recipe_of_dem.hpp>
 
 namespace thalweg::pipeline {
@@ -23,17 +23,18 @@ struct StatsParams {
     io::ReadDemParams reading = {}; ///< how the DEM is read
     bool laws = false;              ///< of the streams extracted from the DEM, or of the lines
     bool relief = false;
-    bool recipe = false;                                        ///< of other terrain with the same statistics
-    std::int64_t support_cells = DemLawsParams{}.support_cells; ///< of the laws, as in DemLawsParams
+    bool recipe = false;                                              ///< of other terrain with the same statistics
+    std::int64_t support_cells = make::DemLawsParams{}.support_cells; ///< of the laws, as in DemLawsParams
 };
 
 /// What run_stats() returns.
 struct StatsResult {
     Grid grid; ///< of the DEM that was measured
     measure::Statistics statistics;
-    std::optional<DemLaws> laws = {};
-    std::optional<LineLaws> lines = {}; ///< laws of lines: then there is no DEM, and grid and statistics are empty
-    std::optional<TerrainRelief> relief = {};
+    std::optional<make::DemLaws> laws = {};
+    std::optional<make::LineLaws> lines =
+        {}; ///< laws of lines: then there is no DEM, and grid and statistics are empty
+    std::optional<make::TerrainRelief> relief = {};
     std::optional<recipe::DemRecipe> recipe = {};
     std::vector<Finding> findings = {}; ///< how the DEM was read
 };

@@ -20,9 +20,9 @@
 #include <thalweg/draw/contact_sheet.hpp>
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/read_drawable.hpp>
+#include <thalweg/make/laws.hpp>
+#include <thalweg/make/relief.hpp>
 #include <thalweg/pipeline/ensemble/internal/ensemble_page.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
-#include <thalweg/pipeline/make/relief.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -44,7 +44,7 @@ struct NamedIndex {
 
 std::vector<NamedIndex> known_laws() {
     std::vector<NamedIndex> known;
-    for (LawRow const& row : law_rows({})) {
+    for (make::LawRow const& row : make::law_rows({})) {
         KnownIndex one{row.name, row.unit, {}};
         if (row.nature != nullptr) {
             one.range = {row.nature->low, row.nature->high};
@@ -63,9 +63,9 @@ std::vector<NamedIndex> known_counts() {
 
 std::vector<NamedIndex> known_relief() {
     std::vector<NamedIndex> known;
-    TerrainRelief nothing;
+    make::TerrainRelief nothing;
     nothing.perched = 0; // it has a row where there are rivers
-    for (ReliefRow const& row : relief_rows(nothing)) {
+    for (make::ReliefRow const& row : make::relief_rows(nothing)) {
         KnownIndex one{row.name, row.unit, {}};
         if (row.range) {
             one.range = {row.range->low, row.range->high};

@@ -100,13 +100,13 @@ std::string value_for(VariedKey const& vary, Member const& member) {
 using Values = std::vector<std::pair<std::string, double>>;
 
 void add_laws(Values& values, char const* prefix, measure::NetworkLaws const& laws) {
-    for (LawRow const& law : law_rows(laws)) {
+    for (make::LawRow const& law : make::law_rows(laws)) {
         values.emplace_back(fmt::format("{}.{}", prefix, law.key),
                             law.value.value_or(std::numeric_limits<double>::quiet_NaN()));
     }
 }
 
-void add_rivers(Values& values, Rivers const& rivers) {
+void add_rivers(Values& values, make::Rivers const& rivers) {
     StreamNetwork const& plan = rivers.network.planform;
     auto const count = [](auto number) { return static_cast<double>(number); };
     int strahler = 0;
@@ -120,7 +120,7 @@ void add_rivers(Values& values, Rivers const& rivers) {
                    {"rivers.length_m", std::accumulate(plan.length_m().begin(), plan.length_m().end(), 0.0)}});
 }
 
-void add_dem(Values& values, SurfaceMeasures const& measured) {
+void add_dem(Values& values, make::SurfaceMeasures const& measured) {
     measure::Statistics const& s = *measured.statistics;
     values.insert(values.end(), {{"dem.mean", s.mean},
                                  {"dem.std", s.std},
@@ -191,7 +191,7 @@ char const* name_of(MemberState state) {
     return state == MemberState::ok ? "ok" : state == MemberState::failed ? "failed" : "check_failed";
 }
 
-MemberRow row_of(Member const& member, Made const& made) {
+MemberRow row_of(Member const& member, make::Made const& made) {
     MemberRow row{.member = member};
     for (Check const& check : made.assessment.checks) {
         if (!check.ok) {
@@ -218,13 +218,13 @@ MemberRow row_of(Member const& member, Made const& made) {
         add_laws(values, "dem_law", made.assessment.laws.dem->laws);
     }
     if (made.assessment.relief) {
-        for (ReliefRow const& index : relief_rows(*made.assessment.relief)) {
+        for (make::ReliefRow const& index : make::relief_rows(*made.assessment.relief)) {
             values.emplace_back(fmt::format("relief.{}", index.key),
                                 index.value.value_or(std::numeric_limits<double>::quiet_NaN()));
         }
     }
-    row.timings_s = timings_of(made);
-    std::vector<Finding> const findings = findings_of(made);
+    row.timings_s = make::timings_of(made);
+    std::vector<Finding> const findings = make::findings_of(made);
     row.warnings = warnings_in(findings);
     if (row.warnings > 0) {
         row.first_warning = std::ranges::find(findings, Severity::warning, &Finding::severity)->text;
@@ -239,7 +239,7 @@ MadeMember make_member(Ensemble const& ensemble, std::int64_t number, Run const&
     };
     try {
         MadeMember out;
-        out.made = make(recipe_of(ensemble, member), run.quiet());
+        out.made = make::make(recipe_of(ensemble, member), run.quiet());
         out.row = row_of(member, *out.made);
         return out;
     } catch (Cancelled const&) {

@@ -10,7 +10,7 @@
 #include <vector>
 
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/recipe/plan.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
@@ -82,12 +82,12 @@ struct MemberRow {
 /// \param member which one
 /// \param made its terrain
 /// \return the row
-MemberRow row_of(Member const& member, Made const& made);
+MemberRow row_of(Member const& member, make::Made const& made);
 
 /// A member with its terrain.
 struct MadeMember {
     MemberRow row;
-    std::optional<Made> made = {}; ///< nothing: the member failed, and the row says why
+    std::optional<make::Made> made = {}; ///< nothing: the member failed, and the row says why
 };
 
 /// Makes a member of an ensemble, as make() does.

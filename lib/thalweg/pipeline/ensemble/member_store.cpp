@@ -28,7 +28,7 @@
 #include <thalweg/io/files/tar.hpp>
 #include <thalweg/io/raster/heightmap.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
-#include <thalweg/pipeline/make/river_claims.hpp>
+#include <thalweg/make/river_claims.hpp>
 #include <thalweg/pipeline/report/report.hpp>
 #include <thalweg/recipe/recipe_files.hpp>
 #include <thalweg/recipe/stages.hpp>
@@ -470,7 +470,7 @@ std::string MemberStore::staged_part(MadeMember const& made, std::string const& 
             add("dem.tif", work + "/dem.tif");
         }
         if (made.made->recipe.network && output.has(recipe::OutputFiles::network)) {
-            io::write_grey_png(as_shares(river_mask(made.made->terrain.valley)), work + "/rivers.png", 8, run);
+            io::write_grey_png(as_shares(make::river_mask(made.made->terrain.valley)), work + "/rivers.png", 8, run);
             add("rivers.png", work + "/rivers.png");
         }
         entries += io::tar_entry(key + ".json", row_object(made.row));

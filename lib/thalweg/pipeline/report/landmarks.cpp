@@ -74,11 +74,11 @@ std::optional<Sea> around_islands(std::optional<Sea> sea, Mask const& land) {
 
 } // namespace
 
-std::optional<Sea> sea_of(Terrain const& terrain) {
+std::optional<Sea> sea_of(make::Terrain const& terrain) {
     return around_islands(terrain.equilibrium ? sea_beside(terrain.equilibrium->edge) : std::nullopt, terrain.land);
 }
 
-std::optional<Sea> sea_of(recipe::Plan const& plan, Planform const& planform) {
+std::optional<Sea> sea_of(recipe::Plan const& plan, make::Planform const& planform) {
     recipe::Recipe const& recipe = plan.recipe;
     bool const is_cut = planform.land.cells() > 0;
     std::optional<surface::Edge> edge;

@@ -10,7 +10,7 @@
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
 #include <thalweg/core/vec.hpp>
-#include <thalweg/pipeline/make/terrain.hpp>
+#include <thalweg/make/terrain.hpp>
 #include <thalweg/recipe/recipe.hpp>
 
 namespace thalweg::pipeline {
@@ -41,12 +41,12 @@ struct Sea {
 
 /// \internal
 /// \return the sea of a terrain; nothing: cells without data are not the sea
-std::optional<Sea> sea_of(Terrain const& terrain);
+std::optional<Sea> sea_of(make::Terrain const& terrain);
 
 /// \internal
 /// \param planform rivers of the plan
 /// \return the sea of the terrain that will be made of them, as far as these tell
-std::optional<Sea> sea_of(recipe::Plan const& plan, Planform const& planform);
+std::optional<Sea> sea_of(recipe::Plan const& plan, make::Planform const& planform);
 
 /// \internal
 /// \param made recipe as make writes it: it names the edge of terrain in equilibrium

@@ -12,7 +12,7 @@
 
 #include <thalweg/core/run/error.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/make/planform.hpp>
+#include <thalweg/make/planform.hpp>
 #include <thalweg/pipeline/report/internal/page_template.hpp>
 #include <thalweg/pipeline/report/page.hpp>
 #include <thalweg/recipe/recipe_keys.hpp>
@@ -49,7 +49,7 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
     return heights;
 }
 
-std::string live_scene(Made const& made, std::string const& recipe, std::string const& command, Run const& run) {
+std::string live_scene(make::Made const& made, std::string const& recipe, std::string const& command, Run const& run) {
     PageParams params = page_params_of(made, recipe);
     params.command = command;
     if (made.terrain.surface) {
@@ -65,8 +65,8 @@ std::string live_scene(Made const& made, std::string const& recipe, std::string 
                        io::packed(lines.bytes), water.empty() ? "" : io::packed(water));
 }
 
-Made rivers_to_be(recipe::Plan const& plan, Planform const& planform) {
-    Made made;
+make::Made rivers_to_be(recipe::Plan const& plan, make::Planform const& planform) {
+    make::Made made;
     made.recipe = plan.recipe;
     made.terrain.grid = planform.grid;
     StreamNetwork const& network = planform.network;
@@ -74,7 +74,7 @@ Made rivers_to_be(recipe::Plan const& plan, Planform const& planform) {
     for (ArcId a = 0; a < network.arc_count(); ++a) {
         level.arc_z.emplace_back(network.arc(a).line.size(), 0.0);
     }
-    made.terrain.rivers = rivers_of(std::move(level), planform.types, planform.file.clues);
+    made.terrain.rivers = make::rivers_of(std::move(level), planform.types, planform.file.clues);
     made.terrain.areas.us_area_m2.assign(network.arc_count(), 0.0);
     made.terrain.areas.ds_area_m2.assign(network.arc_count(), 0.0);
     made.terrain.areas.node_m2.assign(network.node_count(), 0.0);
@@ -85,7 +85,7 @@ std::optional<ClusterArms> cluster_arms(recipe::Plan const& plan, std::int64_t s
     if (!plan.recipe.network || plan.recipe.network->source != recipe::Source::dla) {
         return std::nullopt;
     }
-    network::Cluster const cluster = cluster_of(plan, run);
+    network::Cluster const cluster = make::cluster_of(plan, run);
     Cell low = cluster.cells.front();
     Cell high = low;
     for (Cell const c : cluster.cells) {

@@ -8,7 +8,7 @@
 
 #include <thalweg/core/raster.hpp>
 #include <thalweg/core/run/run.hpp>
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 
 // The page while a terrain is edited: what report.html has packed in it comes in parts (web/README.md).
@@ -55,12 +55,13 @@ std::optional<LiveHeights> live_heights(Raster<float> const& dem, Grid const& gr
 /// \param recipe its text
 /// \param command that makes it again
 /// \return without braces
-std::string live_scene(Made const& made, std::string const& recipe, std::string const& command, Run const& run = {});
+std::string live_scene(make::Made const& made, std::string const& recipe, std::string const& command,
+                       Run const& run = {});
 
 /// \internal
 /// Rivers whose terrain is yet to be made, at height 0.
 /// \return for live_scene()
-Made rivers_to_be(recipe::Plan const& plan, Planform const& planform);
+make::Made rivers_to_be(recipe::Plan const& plan, make::Planform const& planform);
 
 /// The arms of a cluster in the four directions, of which one can become the rivers.
 struct ClusterArms {

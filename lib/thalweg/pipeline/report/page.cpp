@@ -384,7 +384,7 @@ std::string html_text(std::string const& text) {
     return out;
 }
 
-PageLines lines_of_page(Made const& made) {
+PageLines lines_of_page(make::Made const& made) {
     StreamNetwork const& plan = made.terrain.rivers.network.planform;
     RidgeLines const& ridges = made.terrain.ridges;
     std::vector<std::vector<Vec2>> ridges_in_plan;
@@ -399,7 +399,7 @@ PageLines lines_of_page(Made const& made) {
     return page_lines(lines, made.terrain.grid);
 }
 
-std::string page(Made const& made, PageParams const& params, Run const& run) {
+std::string page(make::Made const& made, PageParams const& params, Run const& run) {
     std::optional<PageHeights> const heights =
         made.terrain.surface ? page_heights(made.terrain.surface->dem, run) : std::nullopt;
     run.check();
@@ -430,8 +430,8 @@ bool lies_on(ElevatedNetwork const& network, Grid const& grid) {
 }
 
 /// Makes a terrain of a scene's content.
-Terrain terrain_of(Scene const& scene, Run const& run) {
-    Terrain terrain;
+make::Terrain terrain_of(Scene const& scene, Run const& run) {
+    make::Terrain terrain;
     terrain.grid = scene.dem->grid();
     terrain.surface.emplace();
     terrain.surface->dem = *scene.dem;
@@ -452,8 +452,8 @@ Terrain terrain_of(Scene const& scene, Run const& run) {
 }
 
 /// Measures it.
-Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& run) {
-    Assessment found;
+make::Assessment assessment_of(Scene const& scene, make::Terrain const& terrain, Run const& run) {
+    make::Assessment found;
     found.statistics = measure::statistics(*scene.dem, run);
     found.hypsometry = measure::hypsometry(*scene.dem, run);
     found.pits = terrain.drainage->pits;
@@ -464,10 +464,10 @@ Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& 
         found.checks = topology.checks;
         found.findings = topology.findings;
     }
-    found.laws = laws_of_terrain(terrain, found.statistics->cells, run);
+    found.laws = make::laws_of_terrain(terrain, found.statistics->cells, run);
     found.relief = io::ground_cell(scene.dem->grid()).side_m == scene.dem->grid().cell_m
-                       ? relief_of_dem(*scene.dem, *terrain.drainage, run)
-                       : relief_of_dem(*scene.dem, run);
+                       ? make::relief_of_dem(*scene.dem, *terrain.drainage, run)
+                       : make::relief_of_dem(*scene.dem, run);
     return found;
 }
 
@@ -476,7 +476,7 @@ Assessment assessment_of(Scene const& scene, Terrain const& terrain, Run const& 
 std::string scene_page(Scene const& scene, std::vector<std::string> const& notes, std::string const& command,
                        Run const& run) {
     refuse_if<BadInput>(!scene.dem, "pipeline.scene_page: there is no DEM to show");
-    Made made;
+    make::Made made;
     made.recipe.output.title = scene.title;
     made.terrain = terrain_of(scene, run);
     made.assessment = assessment_of(scene, made.terrain, run);

@@ -15,7 +15,7 @@
 #include <thalweg/draw/comparison.hpp>
 #include <thalweg/io/crs/crs.hpp>
 #include <thalweg/io/gdal/packed.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
+#include <thalweg/make/laws.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/pipeline/report/page.hpp>
@@ -27,7 +27,7 @@ namespace {
 using nlohmann::ordered_json;
 
 /// The small print under a metric.
-std::string note_of(LawRow const& row) {
+std::string note_of(make::LawRow const& row) {
     struct Way {
         std::string_view detail;
         char const* words;
@@ -53,17 +53,17 @@ std::string note_of(LawRow const& row) {
     return note;
 }
 
-ordered_json figure_of(LawRow const& row) {
+ordered_json figure_of(make::LawRow const& row) {
     return {{"value", row.value ? ordered_json(*row.value) : ordered_json(nullptr)}, {"note", note_of(row)}};
 }
 
-ordered_json rows_of(RiverLaws const& laws) {
-    std::vector<LawRow> const none;
-    auto const drawn = laws.network ? law_rows(*laws.network) : none;
-    auto const drained = laws.dem ? law_rows(laws.dem->laws) : none;
+ordered_json rows_of(make::RiverLaws const& laws) {
+    std::vector<make::LawRow> const none;
+    auto const drawn = laws.network ? make::law_rows(*laws.network) : none;
+    auto const drained = laws.dem ? make::law_rows(laws.dem->laws) : none;
     ordered_json rows = ordered_json::array();
     for (std::size_t i = 0; i < std::max(drawn.size(), drained.size()); ++i) {
-        LawRow const& row = i < drawn.size() ? drawn[i] : drained[i];
+        make::LawRow const& row = i < drawn.size() ? drawn[i] : drained[i];
         ordered_json one{{"key", row.key}, {"name", row.name}, {"unit", row.unit}};
         one["network"] = drawn.empty() ? ordered_json(nullptr) : figure_of(drawn[i]);
         one["dem"] = drained.empty() ? ordered_json(nullptr) : figure_of(drained[i]);
@@ -102,7 +102,7 @@ ordered_json power_object(std::optional<measure::PowerLaw> const& law, double un
 }
 
 // The laws of rivers as JSON for the page: a table of metrics, and the data of its diagrams (web/README.md).
-std::string page_laws(RiverLaws const& laws) {
+std::string page_laws(make::RiverLaws const& laws) {
     measure::NetworkLaws const* const drawn = laws.network ? &*laws.network : nullptr;
     measure::NetworkLaws const* const drained = laws.dem ? &laws.dem->laws : nullptr;
     constexpr double kilometre = 1000.0;
@@ -155,7 +155,7 @@ ordered_json grid_object(Grid const& grid) {
 }
 
 /// Rows of name, value and unit, without missing ones.
-ordered_json given_array(std::optional<GivenLength> const& given, std::optional<GivenAreas> const& areas) {
+ordered_json given_array(std::optional<make::GivenLength> const& given, std::optional<make::GivenAreas> const& areas) {
     ordered_json rows = ordered_json::array();
     auto const add = [&](std::string const& name, double metres, double unit_m, char const* unit) {
         if (metres > 0.0) {
@@ -165,7 +165,8 @@ ordered_json given_array(std::optional<GivenLength> const& given, std::optional<
     if (given) {
         add("read", given->read_m, 1000.0, "km");
         for (std::size_t i = 0; i < given->left_out_m.size(); ++i) {
-            add(fmt::format("left out: {}", words_of(static_cast<LeftOut>(i))), given->left_out_m[i], 1000.0, "km");
+            add(fmt::format("left out: {}", make::words_of(static_cast<LeftOut>(i))), given->left_out_m[i], 1000.0,
+                "km");
         }
         add("in the network", given->kept_m, 1000.0, "km");
         add("added where ends were joined", given->closed_m, 1000.0, "km");
@@ -191,7 +192,7 @@ ordered_json heights_object(std::optional<PageHeights> const& heights) {
             {"min", heights->min},     {"max", heights->max},       {"nodata", heights->nodata}};
 }
 
-ordered_json arcs_object(Made const& t, PageLines const& lines) {
+ordered_json arcs_object(make::Made const& t, PageLines const& lines) {
     ordered_json id = ordered_json::array();
     ordered_json downstream = ordered_json::array();
     ordered_json persistence = ordered_json::array();
@@ -225,7 +226,7 @@ ordered_json arcs_object(Made const& t, PageLines const& lines) {
             {"n", n}};
 }
 
-ordered_json ridges_object(Made const& t, PageLines const& lines) {
+ordered_json ridges_object(make::Made const& t, PageLines const& lines) {
     if (t.terrain.ridges.lines.empty()) {
         return nullptr;
     }
@@ -247,7 +248,7 @@ struct Stem {
     std::vector<ProfilePoint> points;
 };
 
-Stem stem_along(Rivers const& rivers, std::vector<ArcId> const& arcs) {
+Stem stem_along(make::Rivers const& rivers, std::vector<ArcId> const& arcs) {
     Stem stem{arcs.empty() ? 0 : rivers.orders.arc_basin[arcs.front()], {}};
     StreamNetwork const& network = rivers.network.planform;
     for (auto arc = arcs.rbegin(); arc != arcs.rend(); ++arc) {
@@ -266,7 +267,7 @@ Stem stem_along(Rivers const& rivers, std::vector<ArcId> const& arcs) {
 }
 
 /// The main stem, then those of the other basins with the longest, each from its source down.
-std::vector<Stem> stems_of(Rivers const& rivers) {
+std::vector<Stem> stems_of(make::Rivers const& rivers) {
     constexpr std::size_t most_stems = 8;
     std::vector<Stem> stems;
     if (rivers.orders.main_stem.empty()) {
@@ -317,7 +318,7 @@ ordered_json sea_object(std::optional<Sea> const& sea) {
     return sea ? ordered_json{{"level", sea->level_m}, {"around", sea->is_around}} : ordered_json(nullptr);
 }
 
-ordered_json curve_object(Made const& t) {
+ordered_json curve_object(make::Made const& t) {
     if (!t.terrain.surface || !t.recipe.surface || t.terrain.surface->increments.empty()) {
         return nullptr;
     }
@@ -330,7 +331,7 @@ ordered_json curve_object(Made const& t) {
     return {{"name", t.recipe.surface->dilate.increment.increment}, {"points", thinned(points)}};
 }
 
-ordered_json hypsometry_object(Made const& t) {
+ordered_json hypsometry_object(make::Made const& t) {
     if (!t.assessment.hypsometry) {
         return nullptr;
     }
@@ -360,7 +361,7 @@ private:
 };
 
 /// The target of [statistics] with the name of a residual.
-std::optional<double> target_value(Made const& t, char const* name) {
+std::optional<double> target_value(make::Made const& t, char const* name) {
     if (t.terrain.projection) {
         for (fractal::Residual const& r : t.terrain.projection->residuals) {
             if (r.name == name) {
@@ -371,7 +372,7 @@ std::optional<double> target_value(Made const& t, char const* name) {
     return std::nullopt;
 }
 
-void add_land(Made const& t, Figures& figures) {
+void add_land(make::Made const& t, Figures& figures) {
     measure::Statistics const& s = *t.assessment.statistics;
     figures.add("mean height", target_value(t, "mean"), to_millimetres(s.mean), "m");
     figures.add("standard deviation", target_value(t, "std"), to_millimetres(s.std), "m");
@@ -392,7 +393,7 @@ void add_land(Made const& t, Figures& figures) {
     figures.add("cells in pits", t.assessment.pits, "");
 }
 
-void add_rivers(Made const& t, std::vector<Stem> const& stems, Figures& figures) {
+void add_rivers(make::Made const& t, std::vector<Stem> const& stems, Figures& figures) {
     std::optional<recipe::NetworkRecipe> const& wanted = t.recipe.network;
     double const length = std::accumulate(t.terrain.rivers.network.planform.length_m().begin(),
                                           t.terrain.rivers.network.planform.length_m().end(), 0.0);
@@ -456,9 +457,9 @@ ordered_json shown(std::vector<Finding> const& findings, Grid const& grid) {
 }
 
 /// The comparison with a DEM, with a map of differences.
-ordered_json against_on_page(Against const& against, Terrain const& terrain) {
+ordered_json against_on_page(make::Against const& against, make::Terrain const& terrain) {
     constexpr int width_px = 900;
-    auto const shape = [](std::string const& name, ReliefShape const& of) {
+    auto const shape = [](std::string const& name, make::ReliefShape const& of) {
         ordered_json points = ordered_json::array();
         for (measure::HypsometricPoint const& point : of.hypsometry) {
             points.push_back({point.share_above, to_millimetres(point.z)});
@@ -470,7 +471,7 @@ ordered_json against_on_page(Against const& against, Terrain const& terrain) {
     auto const [slopes_of_dem, heights_of_dem] = shape("DEM", against.real);
     ordered_json slopes = ordered_json::array({slopes_of_dem});
     ordered_json hypsometry = ordered_json::array({heights_of_dem});
-    for (TerrainAgainst const& one : against.terrains) {
+    for (make::TerrainAgainst const& one : against.terrains) {
         ordered_json row{{"key", one.key}, {"name", one.name}};
         row.update(ordered_json::parse(figures_against(one)));
         rows.push_back(std::move(row));
@@ -502,9 +503,9 @@ ordered_json against_on_page(Against const& against, Terrain const& terrain) {
               {"image", "data:image/png;base64," + image}}}};
 }
 
-ordered_json timings_array(Made const& t) {
+ordered_json timings_array(make::Made const& t) {
     ordered_json out = ordered_json::array();
-    for (StageTime const& time : timings_of(t)) {
+    for (StageTime const& time : make::timings_of(t)) {
         out.push_back({time.stage, to_millimetres(time.wall_s)});
     }
     return out;
@@ -520,8 +521,8 @@ std::vector<Finding> chosen(std::vector<Finding> const& findings, bool (*is_one)
     return some;
 }
 
-ordered_json notes_array(Made const& t, std::vector<Finding> const& findings, std::optional<PageHeights> const& heights,
-                         std::vector<std::string> const& further) {
+ordered_json notes_array(make::Made const& t, std::vector<Finding> const& findings,
+                         std::optional<PageHeights> const& heights, std::vector<std::string> const& further) {
     ordered_json out = further;
     for (Finding const& finding : findings) {
         if (finding.severity() == Severity::note && !is_repair(finding)) {
@@ -566,10 +567,10 @@ std::string without_tags(std::string const& json) {
     return out;
 }
 
-std::string page_data(Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
+std::string page_data(make::Made const& t, PageParams const& params, std::optional<PageHeights> const& heights,
                       PageLines const& lines) {
     std::vector<Stem> const stems = stems_of(t.terrain.rivers);
-    std::vector<Finding> const findings = findings_of(t);
+    std::vector<Finding> const findings = make::findings_of(t);
     Figures figures;
     if (t.assessment.statistics) {
         add_land(t, figures);
@@ -599,7 +600,7 @@ std::string page_data(Made const& t, PageParams const& params, std::optional<Pag
         {"hypsometry", hypsometry_object(t)},
         {"laws", ordered_json::parse(page_laws(t.assessment.laws))},
         {"relief",
-         t.assessment.relief ? ordered_json::parse(relief_json(*t.assessment.relief)) : ordered_json(nullptr)},
+         t.assessment.relief ? ordered_json::parse(make::relief_json(*t.assessment.relief)) : ordered_json(nullptr)},
         {"against", t.assessment.against ? against_on_page(*t.assessment.against, t.terrain) : ordered_json(nullptr)},
         {"statistics", figures.take()},
         {"given", given_array(t.assessment.given, t.assessment.given_areas)},

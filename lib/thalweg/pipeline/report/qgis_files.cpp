@@ -11,7 +11,7 @@
 #include <thalweg/draw/map.hpp>
 #include <thalweg/io/qgis/project.hpp>
 #include <thalweg/io/qgis/styles.hpp>
-#include <thalweg/pipeline/make/file_values.hpp>
+#include <thalweg/make/file_values.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 
@@ -89,7 +89,7 @@ private:
 
 } // namespace
 
-void write_qgis_files(Made const& made, std::string const& title, io::OutputFolder const& out) {
+void write_qgis_files(make::Made const& made, std::string const& title, io::OutputFolder const& out) {
     using Kind = io::QgisLayer::Kind;
     HeightUnit const unit = made.recipe.output.units;
     std::string const unit_name = name_of(unit);
@@ -106,7 +106,7 @@ void write_qgis_files(Made const& made, std::string const& title, io::OutputFold
     layers.vector("Catchments", "catchments.gpkg", "catchments", false);
     layers.vector("Contours", "contours.gpkg", "contours");
     if (layers.has("tin.2dm")) {
-        Tin const tin = in_unit(*made.terrain.tin, unit);
+        Tin const tin = make::in_unit(*made.terrain.tin, unit);
         layers.styled(Kind::mesh, "TIN", "tin.2dm", io::mesh_style(tints_of(heights_of(tin)), unit_name),
                       !made.terrain.surface, true, "Height");
     }

@@ -15,9 +15,9 @@
 #include <thalweg/core/run/memory.hpp>
 #include <thalweg/core/run/messages.hpp>
 #include <thalweg/flow/condition.hpp>
+#include <thalweg/make/file_values.hpp>
+#include <thalweg/make/laws.hpp>
 #include <thalweg/network/growth/tokunaga/grow_tokunaga.hpp>
-#include <thalweg/pipeline/make/file_values.hpp>
-#include <thalweg/pipeline/make/laws.hpp>
 #include <thalweg/recipe/stages.hpp>
 
 namespace thalweg::pipeline {
@@ -133,7 +133,7 @@ ordered_json streams_object(network::StreamCounts const& counts) {
 }
 
 /// Tokunaga's numbers of side branches: of the network as drawn, and of the tree it was grown from.
-ordered_json tokunaga_object(Made const& t) {
+ordered_json tokunaga_object(make::Made const& t) {
     ordered_json out{{"drawn", streams_object(t.terrain.rivers.streams)}};
     if (t.planform.statistics.tokunaga &&
         !t.recipe.network->tokunaga.strokes.empty()) { // each has a tree and lambda of its own
@@ -152,7 +152,7 @@ ordered_json tokunaga_object(Made const& t) {
 
 ordered_json laws_object(measure::NetworkLaws const& laws) {
     ordered_json out = ordered_json::object();
-    for (LawRow const& row : law_rows(laws)) {
+    for (make::LawRow const& row : make::law_rows(laws)) {
         ordered_json& law = out[row.key];
         law = {{"value", row.value ? ordered_json(*row.value) : ordered_json(nullptr)}, {"unit", row.unit}};
         for (auto const& [name, figure] : row.details) {
@@ -166,7 +166,7 @@ ordered_json laws_object(measure::NetworkLaws const& laws) {
     return out;
 }
 
-ordered_json dem_laws_object(DemLaws const& found) {
+ordered_json dem_laws_object(make::DemLaws const& found) {
     ordered_json out = laws_object(found.laws);
     out["support"] = {
         {"cells", found.support_cells}, {"area_m2", found.support_m2}, {"as_dense_as_the_network", found.as_dense}};
@@ -175,7 +175,7 @@ ordered_json dem_laws_object(DemLaws const& found) {
     return out;
 }
 
-ordered_json network_object(Made const& t) {
+ordered_json network_object(make::Made const& t) {
     StreamNetwork const& plan = t.terrain.rivers.network.planform;
     double const length = std::accumulate(plan.length_m().begin(), plan.length_m().end(), 0.0);
     int strahler = 0;
@@ -256,7 +256,7 @@ ordered_json statistics_object(fractal::MatchedDem const& p) {
 }
 
 /// Factor from the recipe's increments to those used.
-double metres_per_unit(Made const& t) {
+double metres_per_unit(make::Made const& t) {
     std::vector<double> const& used = t.terrain.surface->increments;
     std::vector<double> const named =
         surface::increments(static_cast<std::int64_t>(used.size()), t.recipe.surface->dilate.increment);
@@ -276,10 +276,10 @@ ordered_json timings_object(Timings const& timings, double StageTime::*seconds) 
     return out;
 }
 
-ordered_json given_object(GivenLength const& given) {
+ordered_json given_object(make::GivenLength const& given) {
     ordered_json left_out;
     for (std::size_t i = 0; i < given.left_out_m.size(); ++i) {
-        left_out[key_of(static_cast<LeftOut>(i))] = given.left_out_m[i];
+        left_out[make::key_of(static_cast<LeftOut>(i))] = given.left_out_m[i];
     }
     return {{"read_m", given.read_m},       {"left_out_m", left_out},           {"given_m", given.given_m()},
             {"kept_m", given.kept_m},       {"connector_m", given.connector_m}, {"turned_m", given.turned_m},
@@ -287,9 +287,9 @@ ordered_json given_object(GivenLength const& given) {
 }
 
 /// Rivers by the heights that they miss.
-ordered_json rivers_off(GivenHeights const& heights) {
+ordered_json rivers_off(make::GivenHeights const& heights) {
     ordered_json out = ordered_json::array();
-    for (RiverOff const& river : heights.rivers) {
+    for (make::RiverOff const& river : heights.rivers) {
         out.push_back({{"feature", river.feature},
                        {"vertices", river.vertices},
                        {"median_off_m", river.median_off_m},
@@ -299,7 +299,7 @@ ordered_json rivers_off(GivenHeights const& heights) {
     return out;
 }
 
-void add_rivers(Made const& t, ordered_json& report) {
+void add_rivers(make::Made const& t, ordered_json& report) {
     if (t.recipe.network) {
         report["network"] = network_object(t);
         report["network"]["secondary"] = t.assessment.given ? t.assessment.given->secondary.size() : 0;
@@ -307,7 +307,7 @@ void add_rivers(Made const& t, ordered_json& report) {
             report["given"] = given_object(*t.assessment.given);
         }
         if (t.assessment.given_heights) {
-            GivenHeights const& heights = *t.assessment.given_heights;
+            make::GivenHeights const& heights = *t.assessment.given_heights;
             report["given"]["heights"] = {{"tolerance_m", heights.tolerance_m}, {"vertices", heights.vertices},
                                           {"missed", heights.missed},           {"mean_m", heights.mean_m},
                                           {"largest_m", heights.largest_m},     {"median_off_m", heights.median_off_m},
@@ -315,7 +315,7 @@ void add_rivers(Made const& t, ordered_json& report) {
                                           {"rivers", rivers_off(heights)}};
         }
         if (t.assessment.given_areas) {
-            GivenAreas const& areas = *t.assessment.given_areas;
+            make::GivenAreas const& areas = *t.assessment.given_areas;
             report["given"]["areas"] = {{"arcs", areas.arcs},
                                         {"median", areas.median},
                                         {"p05", areas.low},
@@ -323,13 +323,13 @@ void add_rivers(Made const& t, ordered_json& report) {
                                         {"within_factor_2", areas.within_factor_2}};
         }
         report["shortened_fields"] = ordered_json::array();
-        for (io::ShortenedName const& one : shortened_names(t)) {
+        for (io::ShortenedName const& one : make::shortened_names(t)) {
             report["shortened_fields"].push_back({{"field", one.name}, {"in_shapefile", one.in_shapefile}});
         }
     }
 }
 
-void add_dem(Made const& t, ordered_json& report) {
+void add_dem(make::Made const& t, ordered_json& report) {
     if (t.assessment.statistics) {
         report["dem"] = dem(*t.assessment.statistics);
         report["dem"]["hypsometric_integral"] = t.assessment.hypsometry->integral;
@@ -344,12 +344,12 @@ void add_dem(Made const& t, ordered_json& report) {
             report["dem"]["laws"] = dem_laws_object(*t.assessment.laws.dem);
         }
         if (t.assessment.relief) {
-            report["dem"]["relief"] = ordered_json::parse(relief_json(*t.assessment.relief));
+            report["dem"]["relief"] = ordered_json::parse(make::relief_json(*t.assessment.relief));
         }
     }
 }
 
-void add_drainage(Made const& t, ordered_json& report) {
+void add_drainage(make::Made const& t, ordered_json& report) {
     if (t.terrain.drained) {
         report["drained"] = {{"banks", change_object(t.terrain.drained->banks)},
                              {"depressions", change_object(t.terrain.drained->depressions)}};
@@ -364,9 +364,9 @@ void add_drainage(Made const& t, ordered_json& report) {
     }
 }
 
-ordered_json against_object(Against const& against) {
+ordered_json against_object(make::Against const& against) {
     ordered_json terrains;
-    for (TerrainAgainst const& terrain : against.terrains) {
+    for (make::TerrainAgainst const& terrain : against.terrains) {
         terrains[terrain.key] = ordered_json::parse(figures_against(terrain));
     }
     return {{"dem", against.dem},
@@ -376,13 +376,13 @@ ordered_json against_object(Against const& against) {
             {"terrains", terrains}};
 }
 
-ordered_json features_object(GivenFeatures const& given) {
+ordered_json features_object(make::GivenFeatures const& given) {
     constexpr std::size_t listed = 1000;
     ordered_json out;
     if (!given.points.empty()) {
         ordered_json points = ordered_json::array();
         for (std::size_t i = 0; i < std::min(listed, given.points.size()); ++i) {
-            PointOff const& p = given.points[i];
+            make::PointOff const& p = given.points[i];
             points.push_back({{"point", p.number},
                               {"x", p.at.x},
                               {"y", p.at.y},
@@ -398,7 +398,7 @@ ordered_json features_object(GivenFeatures const& given) {
     if (!given.ridges.empty()) {
         ordered_json ridges = ordered_json::array();
         for (std::size_t i = 0; i < std::min(listed, given.ridges.size()); ++i) {
-            RidgeOff const& r = given.ridges[i];
+            make::RidgeOff const& r = given.ridges[i];
             ridges.push_back(
                 {{"feature", r.feature}, {"cells", r.cells}, {"at_rivers", r.in_rivers}, {"crossed", r.crossed}});
             if (r.most_m) {
@@ -410,7 +410,7 @@ ordered_json features_object(GivenFeatures const& given) {
     return out;
 }
 
-void add_lines(Made const& t, ordered_json& report) {
+void add_lines(make::Made const& t, ordered_json& report) {
     if (t.assessment.given_features) {
         report["features"] = features_object(*t.assessment.given_features);
     }
@@ -428,9 +428,9 @@ void add_lines(Made const& t, ordered_json& report) {
 }
 
 /// Adds the statistics of the terrain's construction.
-void add_statistics(Made const& t, ordered_json& report) {
+void add_statistics(make::Made const& t, ordered_json& report) {
     if (t.terrain.equilibrium) {
-        EquilibriumStatistics const& e = *t.terrain.equilibrium;
+        make::EquilibriumStatistics const& e = *t.terrain.equilibrium;
         report["equilibrium"] = {{"channel_cells", e.channel_cells},
                                  {"lakes", t.terrain.lakes},
                                  {"shortened_cells", e.shortened_cells},
@@ -459,7 +459,7 @@ void add_statistics(Made const& t, ordered_json& report) {
         report["diffusion"] = {{"iterations", t.terrain.diffusion->iterations},
                                {"residual", t.terrain.diffusion->residual}};
     }
-    for (PatchStatistics const& p : t.terrain.patches) {
+    for (make::PatchStatistics const& p : t.terrain.patches) {
         report["patches"].push_back(
             {{"cells", p.cells}, {"kept", p.kept}, {"seam_max_m", p.seam_max_m}, {"seam_rms_m", p.seam_rms_m}});
     }
@@ -480,8 +480,8 @@ std::string version() {
     return THALWEG_VERSION;
 }
 
-std::string write_report(Made const& t, std::vector<std::string> const& files, Timings const& writing) {
-    Timings timings = timings_of(t);
+std::string write_report(make::Made const& t, std::vector<std::string> const& files, Timings const& writing) {
+    Timings timings = make::timings_of(t);
     append(timings, writing);
     ordered_json report{{"version", version()},
                         {"recipe", recipe_object(t.recipe)},
@@ -497,7 +497,7 @@ std::string write_report(Made const& t, std::vector<std::string> const& files, T
         report["against"] = against_object(*t.assessment.against);
     }
     report["checks"] = checks_array(t.assessment.checks);
-    std::vector<Finding> const findings = findings_of(t);
+    std::vector<Finding> const findings = make::findings_of(t);
     std::vector<Finding> no_faults;
     std::ranges::copy_if(findings, std::back_inserter(no_faults),
                          [](Finding const& finding) { return finding.severity() != Severity::error; });
@@ -507,7 +507,7 @@ std::string write_report(Made const& t, std::vector<std::string> const& files, T
     return report.dump(2, ' ', false, ordered_json::error_handler_t::replace) + "\n";
 }
 
-std::string figures_against(TerrainAgainst const& terrain) {
+std::string figures_against(make::TerrainAgainst const& terrain) {
     measure::Likeness const& like = terrain.like;
     ordered_json const figures{{"correlation", like.correlation},
                                {"correlation_above_river", like.correlation_above_river},
@@ -540,18 +540,19 @@ std::vector<std::string> files_of_report(std::string const& json) {
     return files;
 }
 
-std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws, TerrainRelief const* relief) {
+std::string statistics_json(measure::Statistics const& statistics, make::DemLaws const* laws,
+                            make::TerrainRelief const* relief) {
     ordered_json out = dem(statistics);
     if (laws != nullptr) {
         out["laws"] = dem_laws_object(*laws);
     }
     if (relief != nullptr) {
-        out["relief"] = ordered_json::parse(relief_json(*relief));
+        out["relief"] = ordered_json::parse(make::relief_json(*relief));
     }
     return out.dump() + "\n";
 }
 
-std::string line_laws_json(LineLaws const& found) {
+std::string line_laws_json(make::LineLaws const& found) {
     ordered_json const out{{"arcs", found.arcs},
                            {"outlets", found.outlets},
                            {"length_m", found.length_m},

@@ -11,10 +11,10 @@
 #include <thalweg/draw/map.hpp>
 #include <thalweg/draw/picture.hpp>
 #include <thalweg/io/files/files.hpp>
+#include <thalweg/make/against.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/measure/drainage/certificate.hpp>
 #include <thalweg/measure/relief/statistics.hpp>
-#include <thalweg/pipeline/make/against.hpp>
-#include <thalweg/pipeline/make/make.hpp>
 
 namespace thalweg::pipeline {
 
@@ -25,7 +25,7 @@ namespace thalweg::pipeline {
 /// \param files names of the files written
 /// \param writing times of writing them
 /// \return JSON
-std::string write_report(Made const& made, std::vector<std::string> const& files, Timings const& writing = {});
+std::string write_report(make::Made const& made, std::vector<std::string> const& files, Timings const& writing = {});
 
 /// \internal
 /// Reads the files that an earlier report.json lists.
@@ -38,14 +38,14 @@ std::vector<std::string> files_of_report(std::string const& json);
 /// \param statistics of a DEM
 /// \param laws of the DEM's rivers, or null
 /// \return JSON
-std::string statistics_json(measure::Statistics const& statistics, DemLaws const* laws = nullptr,
-                            TerrainRelief const* relief = nullptr);
+std::string statistics_json(measure::Statistics const& statistics, make::DemLaws const* laws = nullptr,
+                            make::TerrainRelief const* relief = nullptr);
 
 /// Formats the laws of river lines as one JSON object: arcs, outlets, length_m, left_out (lines, length_m), horton and
 /// tokunaga as under "network" in report.json, laws.
 /// \param found the laws
 /// \return JSON
-std::string line_laws_json(LineLaws const& found);
+std::string line_laws_json(make::LineLaws const& found);
 
 /// \internal
 /// Formats checks as one JSON array, as under "checks" in report.json.
@@ -71,7 +71,7 @@ std::string version();
 /// \param made a terrain
 /// \param path of a new GeoPackage
 /// \throws BadInput when the recipe has no rivers; as io::write_geopackage
-void write_rivers(Made const& made, std::string const& path, Run const& run = {});
+void write_rivers(make::Made const& made, std::string const& path, Run const& run = {});
 
 /// Options of draw_map().
 struct DrawMapParams {
@@ -83,7 +83,7 @@ struct DrawMapParams {
 /// \param made a terrain with a surface
 /// \return the picture
 /// \throws BadInput when the recipe asks for rivers alone; as draw::map
-draw::Picture draw_map(Made const& made, DrawMapParams const& params = {}, Run const& run = {});
+draw::Picture draw_map(make::Made const& made, DrawMapParams const& params = {}, Run const& run = {});
 
 /// \internal
 /// Checks an output folder before the work starts.
@@ -98,28 +98,28 @@ void check_folder(std::string const& folder, io::Existing existing);
 /// \param existing under replace, files listed in the old report.json are removed, nothing else
 /// \return the names of the files, report.json last
 /// \throws Error BadInput (the folder has content), IoError, Cancelled: then nothing has changed
-std::vector<std::string> write_terrain(Made const& made, std::string const& folder,
+std::vector<std::string> write_terrain(make::Made const& made, std::string const& folder,
                                        io::Existing existing = io::Existing::refuse, Run const& run = {});
 
 /// Makes a terrain and writes all output of `make`, as make() and write_terrain() do; with more than one thread files
 /// are written while the terrain is assessed.
 /// \throws Error as make() and write_terrain()
-Made make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing = io::Existing::refuse,
-                 Run const& run = {});
+make::Made make_folder(recipe::Recipe const& recipe, std::string const& folder,
+                       io::Existing existing = io::Existing::refuse, Run const& run = {});
 
 /// Draws the differences of a terrain and the DEM it is compared with.
 /// \internal
-draw::Picture differences_against(Against const& against, Terrain const& terrain, int width_px);
+draw::Picture differences_against(make::Against const& against, make::Terrain const& terrain, int width_px);
 
 /// Draws a terrain beside the DEM it is compared with.
 /// \internal
-draw::Picture comparison_against(Against const& against, Terrain const& terrain, std::string const& title);
+draw::Picture comparison_against(make::Against const& against, make::Terrain const& terrain, std::string const& title);
 
 // Parts of report.json common to other reports.
 
 /// Figures of a terrain beside a DEM as a JSON object.
 /// \internal
-std::string figures_against(TerrainAgainst const& terrain);
+std::string figures_against(make::TerrainAgainst const& terrain);
 
 /// Whether a finding is about one of the input's features and no fault.
 /// \internal

@@ -26,11 +26,11 @@
 #include <thalweg/io/raster/dem_derivatives.hpp>
 #include <thalweg/io/raster/raster_files.hpp>
 #include <thalweg/io/sources/sources.hpp>
+#include <thalweg/make/file_values.hpp>
+#include <thalweg/make/river_claims.hpp>
+#include <thalweg/make/rivers.hpp>
 #include <thalweg/network/order/order.hpp>
 #include <thalweg/network/planform/split_confluences.hpp>
-#include <thalweg/pipeline/make/file_values.hpp>
-#include <thalweg/pipeline/make/river_claims.hpp>
-#include <thalweg/pipeline/make/rivers.hpp>
 #include <thalweg/pipeline/report/internal/qgis_files.hpp>
 #include <thalweg/pipeline/report/landmarks.hpp>
 #include <thalweg/pipeline/report/page.hpp>
@@ -52,31 +52,31 @@ std::vector<std::string> files_left_in(std::string const& folder) {
     return fs::exists(report) ? files_of_report(io::read_text(report, largest_report)) : std::vector<std::string>{};
 }
 
-double relief_m(Made const& t) {
+double relief_m(make::Made const& t) {
     auto const heights = height_range(t.terrain.surface->dem);
     return heights ? heights->second - heights->first : 0.0;
 }
 
 /// In the recipe's unit.
-double contour_interval(Made const& t) {
+double contour_interval(make::Made const& t) {
     double const asked = t.recipe.output.contour_interval;
     return asked > 0.0 ? asked : round_interval(relief_m(t) / metres_in(t.recipe.output.units));
 }
 
 /// For pictures and the page, which are in metres.
-double contour_interval_m(Made const& t) {
+double contour_interval_m(make::Made const& t) {
     return t.recipe.output.units == HeightUnit::metre ? contour_interval(t) : round_interval(relief_m(t));
 }
 
 } // namespace
 
-PageParams page_params_of(Made const& made, std::string recipe) {
+PageParams page_params_of(make::Made const& made, std::string recipe) {
     PageParams params;
     params.recipe = std::move(recipe);
     if (made.terrain.surface) {
         params.contour_interval_m = contour_interval_m(made);
         params.sea = sea_of(made.terrain);
-        params.lakes = lake_cells(made.terrain.channels);
+        params.lakes = make::lake_cells(made.terrain.channels);
     }
     return params;
 }
@@ -84,7 +84,7 @@ PageParams page_params_of(Made const& made, std::string recipe) {
 namespace {
 
 /// Writes the network in another schema, with confluences split if it limits the number of arcs at a node.
-void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_in_schema(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     io::SchemaTable const& schema = io::table_of(t.recipe.output.schema);
     network::Split split{t.terrain.rivers.network, {}};
     if (schema.most_upstream > 0) {
@@ -93,22 +93,22 @@ void write_in_schema(Made const& t, io::OutputFolder const& out, Run const& run)
     }
     std::vector<double> us_area_m2 = t.terrain.areas.us_area_m2;
     std::vector<double> ds_area_m2 = t.terrain.areas.ds_area_m2;
-    add_pieces(split.pieces, us_area_m2, ds_area_m2);
-    NetworkOrders const orders = order_rivers(split.network.planform, t.terrain.rivers.clues);
-    std::vector<double> const node_area_m2 = node_areas(split.network.planform, us_area_m2, ds_area_m2);
-    auto const user = user_data(t, split.network.planform);
+    make::add_pieces(split.pieces, us_area_m2, ds_area_m2);
+    NetworkOrders const orders = make::order_rivers(split.network.planform, t.terrain.rivers.clues);
+    std::vector<double> const node_area_m2 = make::node_areas(split.network.planform, us_area_m2, ds_area_m2);
+    auto const user = make::user_data(t, split.network.planform);
     io::NetworkTables tables{split.network, orders, us_area_m2, ds_area_m2, node_area_m2, t.terrain.grid.crs, {}};
     tables.user = user ? &*user : nullptr;
     io::write_network(tables, out.path(fmt::format("network_{}.gpkg", schema.name)), {.schema = schema.schema}, run);
 }
 
 /// Calls write(tables) with what the files of a network hold.
-template <class Write> void with_tables(Made const& t, Write const& write) {
+template <class Write> void with_tables(make::Made const& t, Write const& write) {
     std::map<std::string, std::string> const about = {{"version", version()},
                                                       {"seed", fmt::format("{}", t.recipe.seed)},
                                                       {"area_from", t.terrain.areas.source},
                                                       {"height_unit", name_of(t.recipe.output.units)}};
-    auto const user = user_data(t, t.terrain.rivers.network.planform);
+    auto const user = make::user_data(t, t.terrain.rivers.network.planform);
     io::NetworkTables const tables{t.terrain.rivers.network,
                                    t.terrain.rivers.orders,
                                    t.terrain.areas.us_area_m2,
@@ -126,7 +126,7 @@ template <class Write> void with_tables(Made const& t, Write const& write) {
     write(tables);
 }
 
-void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_network(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     with_tables(t, [&](io::NetworkTables const& tables) {
         io::write_geopackage(tables, out.path("network"), run);
         io::write_shapefiles(tables, out.path("network"), run);
@@ -134,38 +134,38 @@ void write_network(Made const& t, io::OutputFolder const& out, Run const& run) {
     if (t.recipe.output.schema != io::Schema::native) {
         write_in_schema(t, out, run);
     }
-    io::write_mask(river_mask(t.terrain.valley), out.path("network.tif"), run);
+    io::write_mask(make::river_mask(t.terrain.valley), out.path("network.tif"), run);
     if (t.terrain.lakes > 0) {
-        io::write_mask(lake_cells(t.terrain.channels), out.path("lakes.tif"), run);
+        io::write_mask(make::lake_cells(t.terrain.channels), out.path("lakes.tif"), run);
     }
 }
 
-void write_catchments(Made const& t, io::OutputFolder const& out, Run const& run) {
-    auto const rows = catchment_rows(flow::reaches_of(t.terrain.rivers.network.planform),
-                                     t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
+void write_catchments(make::Made const& t, io::OutputFolder const& out, Run const& run) {
+    auto const rows = make::catchment_rows(flow::reaches_of(t.terrain.rivers.network.planform),
+                                           t.terrain.rivers.orders.arc_basin, *t.assessment.catchments);
     io::write_catchments({t.assessment.catchments->reach, rows}, out.path("catchments.gpkg"), run);
 }
 
-void write_areas(WaterAreas const& areas, io::OutputFolder const& out, Run const& run) {
+void write_areas(make::WaterAreas const& areas, io::OutputFolder const& out, Run const& run) {
     io::write_field(areas.d8, out.path("area_d8.tif"), run);
     io::write_field(areas.dinf, out.path("area_dinf.tif"), run);
 }
 
-void write_tin(Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_tin(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
-    Tin const tin = in_unit(*t.terrain.tin, unit);
+    Tin const tin = make::in_unit(*t.terrain.tin, unit);
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.2dm"), io::TinFormat::mesh_2dm, unit, run);
     io::write_tin(tin, t.terrain.grid.crs, out.path("tin.ply"), io::TinFormat::ply, unit, run);
 }
 
-void write_dem(Made const& t, io::OutputFolder const& out, Run const& run) {
+void write_dem(make::Made const& t, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     Raster<float> const& dem = t.terrain.surface->dem;
-    io::write_dem(unit == HeightUnit::metre ? dem : in_unit(dem, unit), out.path("dem.tif"), unit, run);
+    io::write_dem(unit == HeightUnit::metre ? dem : make::in_unit(dem, unit), out.path("dem.tif"), unit, run);
 }
 
 /// The hillshade of the DEM that a terrain is compared with: the terrain minus the difference.
-Raster<std::uint8_t> shade_of_dem(Against const& against, Raster<float> const& dem) {
+Raster<std::uint8_t> shade_of_dem(make::Against const& against, Raster<float> const& dem) {
     Raster<float> real(dem.grid());
     for (std::int64_t i = 0; i < dem.cells(); ++i) {
         real[i] = dem[i] - against.difference[i];
@@ -173,18 +173,18 @@ Raster<std::uint8_t> shade_of_dem(Against const& against, Raster<float> const& d
     return io::hillshade(real);
 }
 
-ElevatedNetwork const* network_of(Made const& t) {
+ElevatedNetwork const* network_of(make::Made const& t) {
     return t.recipe.network ? &t.terrain.rivers.network : nullptr;
 }
 
-NetworkOrders const* orders_of(Made const& t) {
+NetworkOrders const* orders_of(make::Made const& t) {
     return t.recipe.network ? &t.terrain.rivers.orders : nullptr;
 }
 
 /// What several files of a terrain's surface need.
 class SurfaceParts {
 public:
-    explicit SurfaceParts(Made const& made) : made_(made) {}
+    explicit SurfaceParts(make::Made const& made) : made_(made) {}
 
     /// In metres, for the map.
     std::vector<io::ContourLine> const& contours(Run const& run) {
@@ -199,27 +199,27 @@ public:
     }
 
 private:
-    Made const& made_;
+    make::Made const& made_;
     std::once_flag contours_made_;
     std::once_flag summits_made_;
     std::vector<io::ContourLine> contours_;
     std::vector<Summit> summits_;
 };
 
-draw::Picture map_with(Made const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
+draw::Picture map_with(make::Made const& t, SurfaceParts& parts, draw::MapParams map, Run const& run) {
     Raster<float> const& dem = t.terrain.surface->dem;
     Raster<std::uint8_t> const shade = io::hillshade(dem);
     draw::MapSheet sheet{dem, shade, network_of(t), orders_of(t), {}, &t.terrain.ridges, t.terrain.areas.ds_area_m2};
     for (auto const& [z, line] : parts.contours(run)) {
         sheet.contours.emplace_back(z, line);
     }
-    Mask const lakes = t.terrain.lakes > 0 ? lake_cells(t.terrain.channels) : Mask{};
+    Mask const lakes = t.terrain.lakes > 0 ? make::lake_cells(t.terrain.channels) : Mask{};
     sheet.lakes = &lakes;
     map.contour_interval_m = contour_interval_m(t);
     return draw_land(std::move(sheet), sea_of(t.terrain), parts.summits(run), map);
 }
 
-void write_contours(Made const& t, SurfaceParts& parts, io::OutputFolder const& out, Run const& run) {
+void write_contours(make::Made const& t, SurfaceParts& parts, io::OutputFolder const& out, Run const& run) {
     HeightUnit const unit = t.recipe.output.units;
     double const step = contour_interval(t);
     auto const write = [&](std::vector<io::ContourLine> const& contours) {
@@ -228,15 +228,15 @@ void write_contours(Made const& t, SurfaceParts& parts, io::OutputFolder const& 
     if (unit == HeightUnit::metre) {
         write(parts.contours(run));
     } else {
-        write(io::contours(in_unit(t.terrain.surface->dem, unit), step, run));
+        write(io::contours(make::in_unit(t.terrain.surface->dem, unit), step, run));
     }
 }
 
-draw::Picture curve_of(Made const& t) {
+draw::Picture curve_of(make::Made const& t) {
     return draw::curve(t.terrain.surface->increments, {t.recipe.surface->dilate.increment.increment});
 }
 
-draw::Picture wireframe_of(Made const& t, std::string const& title) {
+draw::Picture wireframe_of(make::Made const& t, std::string const& title) {
     draw::WireframeScene const land{t.terrain.surface->dem, network_of(t), orders_of(t)};
     draw::WireframeParams wireframe;
     wireframe.title = title;
@@ -244,13 +244,13 @@ draw::Picture wireframe_of(Made const& t, std::string const& title) {
     return draw::wireframe(land, wireframe);
 }
 
-draw::Picture sections_of(Made const& t, std::string const& title) {
+draw::Picture sections_of(make::Made const& t, std::string const& title) {
     draw::SectionsParams sections;
     sections.title = title;
     return draw::sections(t.terrain.surface->dem, network_of(t), orders_of(t), sections);
 }
 
-draw::Picture profile_of(Made const& t, std::string const& title) {
+draw::Picture profile_of(make::Made const& t, std::string const& title) {
     draw::ProfileParams profile;
     profile.title = title;
     return draw::profile(t.terrain.rivers.network, t.terrain.rivers.orders, profile);
@@ -260,7 +260,7 @@ draw::Picture profile_of(Made const& t, std::string const& title) {
 class FolderWriter {
 public:
     /// \param made outlives this object
-    FolderWriter(Made const& made, std::string const& folder, io::Existing existing, Run const& run)
+    FolderWriter(make::Made const& made, std::string const& folder, io::Existing existing, Run const& run)
         : made_(made), out_(folder, existing, files_left_in(folder)), run_(run), title_(recipe::title_of(made.recipe)),
           recipe_(recipe::keep_inputs(made.recipe, out_)), parts_(made), jobs_(run, "write") {}
 
@@ -359,7 +359,7 @@ private:
         });
     }
 
-    Made const& made_;
+    make::Made const& made_;
     io::OutputFolder out_;
     Run const& run_;
     std::string const title_;
@@ -371,14 +371,14 @@ private:
 
 } // namespace
 
-draw::Picture differences_against(Against const& against, Terrain const& terrain, int width_px) {
+draw::Picture differences_against(make::Against const& against, make::Terrain const& terrain, int width_px) {
     Raster<std::uint8_t> const shade = io::hillshade(terrain.surface->dem);
     draw::ComparisonParams params;
     params.width_px = width_px;
     return draw::differences({shade, shade, against.difference, against.divides_of_dem, against.divides}, params);
 }
 
-draw::Picture comparison_against(Against const& against, Terrain const& terrain, std::string const& title) {
+draw::Picture comparison_against(make::Against const& against, make::Terrain const& terrain, std::string const& title) {
     Raster<float> const& dem = terrain.surface->dem;
     draw::ComparisonParams params;
     params.title = title;
@@ -388,13 +388,13 @@ draw::Picture comparison_against(Against const& against, Terrain const& terrain,
         params);
 }
 
-void write_rivers(Made const& made, std::string const& path, Run const& run) {
+void write_rivers(make::Made const& made, std::string const& path, Run const& run) {
     refuse_if<BadInput>(!made.recipe.network,
                         "pipeline.write_rivers: the recipe has no [network]: there are no rivers");
     with_tables(made, [&](io::NetworkTables const& tables) { io::write_geopackage(tables, path, run); });
 }
 
-draw::Picture draw_map(Made const& made, DrawMapParams const& params, Run const& run) {
+draw::Picture draw_map(make::Made const& made, DrawMapParams const& params, Run const& run) {
     refuse_if<BadInput>(!made.terrain.surface,
                         "pipeline.draw_map: the recipe asks for rivers alone: there is no terrain to draw");
     draw::MapParams map;
@@ -408,23 +408,23 @@ void check_folder(std::string const& folder, io::Existing existing) {
     io::OutputFolder const probe(folder, existing, files_left_in(folder));
 }
 
-std::vector<std::string> write_terrain(Made const& made, std::string const& folder, io::Existing existing,
+std::vector<std::string> write_terrain(make::Made const& made, std::string const& folder, io::Existing existing,
                                        Run const& run) {
     FolderWriter writer(made, folder, existing, run);
     writer.begin();
     return writer.finish();
 }
 
-Made make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing, Run const& run) {
+make::Made make_folder(recipe::Recipe const& recipe, std::string const& folder, io::Existing existing, Run const& run) {
     check_folder(folder, existing);
-    Made made;
+    make::Made made;
     made.plan = recipe::resolve(recipe, run);
-    made.planform = make_planform(made.plan, run);
-    made.terrain = make_terrain(made.plan, made.planform, run);
+    made.planform = make::make_planform(made.plan, run);
+    made.terrain = make::make_terrain(made.plan, made.planform, run);
     made.recipe = recipe_of(made.plan, made.terrain);
     FolderWriter writer(made, folder, existing, run);
     writer.begin();
-    made.assessment = assess(made.plan, made.planform, made.terrain, run);
+    made.assessment = make::assess(made.plan, made.planform, made.terrain, run);
     writer.finish();
     return made;
 }

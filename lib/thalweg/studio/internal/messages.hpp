@@ -9,7 +9,7 @@
 #include <string_view>
 #include <vector>
 
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 #include <thalweg/pipeline/report/live_page.hpp>
 #include <thalweg/studio/document.hpp>
 #include <thalweg/studio/drawing.hpp>

@@ -5,7 +5,7 @@
 #include <string>
 
 #include <thalweg/io/files/files.hpp>
-#include <thalweg/pipeline/make/make.hpp>
+#include <thalweg/make/make.hpp>
 
 namespace thalweg::pipeline {
 
@@ -13,6 +13,6 @@ namespace thalweg::pipeline {
 /// (dem.qml ...).
 /// \param out holds every other layer already
 /// \throws IoError
-void write_qgis_files(Made const& made, std::string const& title, io::OutputFolder const& out);
+void write_qgis_files(make::Made const& made, std::string const& title, io::OutputFolder const& out);
 
 } // namespace thalweg::pipeline

@@ -1,0 +1,347 @@
+// SPDX-FileCopyrightText: the thalweg authors
+// SPDX-License-Identifier: GPL-3.0-or-later
+
+#include <algorithm>
+#include <cmath>
+#include <functional>
+#include <iterator>
+#include <limits>
+#include <numeric>
+#include <vector>
+
+#include <fmt/format.h>
+
+#include <thalweg/make/file_values.hpp>
+#include <thalweg/make/river_claims.hpp>
+#include <thalweg/measure/topology/topology.hpp>
+#include <thalweg/recipe/check_recipe.hpp>
+#include <thalweg/recipe/stages.hpp>
+
+namespace thalweg::make {
+
+namespace {
+
+/// Counts arcs that rise somewhere. The schema allows level ones: lakes, tidal reaches.
+std::int64_t uphill_arcs(ElevatedNetwork const& network) {
+    return std::count_if(network.arc_z.begin(), network.arc_z.end(), [](std::vector<double> const& z) {
+        return std::adjacent_find(z.begin(), z.end(), std::less<>()) != z.end();
+    });
+}
+
+std::int64_t valley_cells_moved(Valley const& valley, Raster<float> const& dem) {
+    std::int64_t moved = 0;
+    for (std::int64_t i = 0; i < dem.cells(); ++i) {
+        moved += !std::isnan(valley.z[i]) && !(valley.z[i] == dem[i]);
+    }
+    return moved;
+}
+
+Check none_of(char const* name, std::int64_t count) {
+    return {name, static_cast<double>(count), 0.0, count == 0};
+}
+
+/// What the rivers claim of the surface.
+measure::Claims claims_of(recipe::Plan const& plan, Terrain const& terrain) {
+    measure::Claims claims;
+    claims.ds_area_m2 = terrain.areas.ds_area_m2;
+    claims.still = either(still_cells(measure::as_file(terrain.rivers.network, terrain.rivers.orders), terrain.grid),
+                          lake_cells(terrain.channels));
+    claims.drawn = river_mask(terrain.valley);
+    if (recipe::replaces_rivers(plan.recipe)) {
+        claims.honoured = claims.drawn;
+    }
+    return claims;
+}
+
+/// Checks that a conditioned surface drains, by its rivers where it honours them.
+std::vector<Check> drainage_checks(SurfaceMeasures const& found, flow::FlowField const& drainage) {
+    return found.certificate
+               ? found.certificate->checks()
+               : std::vector<Check>{none_of("depressions", static_cast<std::int64_t>(drainage.depressions.size()))};
+}
+
+/// Checks of the surface: first of what the recipe asks, then that it kept the rivers' heights and drains.
+std::vector<Check> surface_checks(recipe::Plan const& plan, Terrain const& terrain, SurfaceMeasures const& found) {
+    std::vector<Check> checks = terrain.checks;
+    if (terrain.surface && plan.recipe.network) {
+        checks.push_back(none_of("valley_cells_moved", valley_cells_moved(terrain.valley, terrain.surface->dem)));
+    }
+    if (terrain.drained) {
+        append(checks, drainage_checks(found, *terrain.drainage));
+    }
+    return checks;
+}
+
+/// Says what a reader of the hillshade would see: terrain in equilibrium whose texture is not that of land.
+void warn_of_texture(recipe::Plan const& plan, Terrain const& terrain, TerrainRelief const& relief,
+                     StageLog& stage_log) {
+    constexpr std::int64_t least_cells = 250'000; // with fewer, randomness dominates
+    if (!terrain.equilibrium || terrain.grid.cells() < least_cells) {
+        return;
+    }
+    std::string const outside =
+        unusual_relief(relief_rows(relief), plan.recipe.network->source == recipe::Source::lines);
+    if (!outside.empty()) {
+        stage_log.find({.kind = "unusual_relief",
+                        .text = "measures of the relief lie outside those of the reference DEMs: " + outside,
+                        .remedy = "docs/relief_measures.md says what they mean"});
+    }
+}
+
+/// Measures a surface, with the rivers on it.
+SurfaceMeasures of_surface(recipe::Plan const& plan, Terrain const& terrain, StageLog& stage_log, Run const& run) {
+    flow::FlowField const& drainage = *terrain.drainage;
+    Raster<float> const& dem = terrain.surface->dem;
+    StreamNetwork const& network = terrain.rivers.network.planform;
+    SurfaceMeasures found;
+    found.statistics = stage_log.stage("measure", [&] { return measure::statistics(dem, run); });
+    found.hypsometry = measure::hypsometry(dem, run);
+    found.pits = drainage.pits;
+    found.pit_volume_m3 = drainage.pit_volume_m3;
+    if (recipe::finds_catchments(plan.recipe)) {
+        found.catchments =
+            stage_log.stage("catchments", [&] { return flow::catchments(flow::reaches_of(network), drainage, run); });
+    }
+    if (plan.recipe.network) {
+        if (plan.recipe.network->inland == recipe::InlandEnds::sink) {
+            found.sinks = inland_ends(network, dem);
+        }
+        found.certificate = stage_log.stage("certify", [&] {
+            return measure::certify(dem, drainage, flow::reaches_of(network), claims_of(plan, terrain), run);
+        });
+    }
+    if (!terrain.ridges.lines.empty()) {
+        found.surface_ridges =
+            stage_log.stage("ridges", [&] { return measure::extract_ridges(dem, terrain.ridges, run); });
+        measure::Agreement const& within_a_cell = found.surface_ridges->extracted[1];
+        stage_log.say(
+            fmt::format("{:.0f} % of those asked for are ridges of the surface, {:.0f} % of its own are asked for",
+                        100.0 * within_a_cell.recall, 100.0 * within_a_cell.precision));
+    }
+    if (recipe::measures_areas(plan.recipe)) {
+        found.water_areas = stage_log.stage("areas", [&] {
+            return WaterAreas{areas_m2(drainage), areas_m2(flow::route_dinf(dem, drainage, run).area_cells)};
+        });
+    }
+    found.laws = stage_log.stage("laws", [&] { return laws_of_terrain(terrain, found.statistics->cells, run); });
+    found.relief =
+        stage_log.stage("relief", [&] { return relief_of_terrain(plan.recipe, terrain, *found.statistics, run); });
+    warn_of_texture(plan, terrain, *found.relief, stage_log);
+    return found;
+}
+
+/// Returns the findings only if the certificate failed.
+std::vector<Finding> findings_of(std::optional<measure::Certificate> const& certificate) {
+    if (!certificate) {
+        return {};
+    }
+    std::vector<Check> const checks = certificate->checks();
+    bool const ok = std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+    return ok ? std::vector<Finding>{} : certificate->findings;
+}
+
+/// Checks the network's topology: arcs descend and connect.
+measure::TopologyReport topology_of(Terrain const& terrain, StageLog& stage_log, Run const& run) {
+    return stage_log.stage("check", [&] {
+        return measure::check_topology(measure::as_file(terrain.rivers.network, terrain.rivers.orders), {}, run);
+    });
+}
+
+/// A number > 0 rounded down to one digit.
+double one_digit(double number) {
+    double power = 1.0;
+    for (; power > number; power /= 10.0) {
+    }
+    for (; power * 10.0 <= number; power *= 10.0) {
+    }
+    return std::floor(number / power) * power;
+}
+
+/// Warns where the cells are so large that many arcs have none of their own: such terrain is a few blocks, whatever its
+/// checks say.
+void warn_of_coarse_cells(Terrain const& terrain, StageLog& stage_log, Run const& run) {
+    constexpr double worth_a_word = 0.2;
+    constexpr double cells_an_arc = 8.0;
+    StreamNetwork const& network = terrain.rivers.network.planform;
+    if (network.arc_count() == 0 || !terrain.surface) {
+        return;
+    }
+    std::vector<bool> has_cell(network.arc_count());
+    for (flow::RiverCell const& cell : flow::river_cells(flow::reaches_of(network), terrain.grid, run)) {
+        has_cell[cell.reach] = true;
+    }
+    auto const without = std::ranges::count(has_cell, false);
+    double const share = static_cast<double>(without) / static_cast<double>(network.arc_count());
+    if (share > worth_a_word) {
+        double const length_m = std::accumulate(network.length_m().begin(), network.length_m().end(), 0.0);
+        double const fine_m = length_m / static_cast<double>(network.arc_count()) / cells_an_arc;
+        stage_log.find(
+            {.kind = "crowded_rivers",
+             .amount = share,
+             .text = fmt::format("{} of the {} arcs have no cell of their own: cells of {:g} m are too large "
+                                 "for these {:.1f} km of rivers",
+                                 without, network.arc_count(), terrain.grid.cell_m, length_m / 1000.0),
+             .remedy = fine_m > 0.0 ? fmt::format("Smaller cells show them: --set grid.cell={:g}",
+                                                  one_digit(std::min(fine_m, terrain.grid.cell_m / 2.0)))
+                                    : "",
+             .key = "grid.cell"});
+    }
+}
+
+/// The check given_length; notes the account of the input's length, and warns where more than 1 % of it is missing.
+Check length_check(recipe::Plan const& plan, GivenLength const& given, Grid const& grid, StageLog& stage_log) {
+    constexpr double worth_a_word = 0.99;
+    double const share = given.share();
+    double const least = plan.recipe.network->lines.keep;
+    stage_log.find({.kind = "given",
+                    .amount = given.given_m(),
+                    .text = line_of(given),
+                    .key = "network.lines.path",
+                    .layer = plan.lines.name,
+                    .numbers = {{"kept", given.kept_m, "m"}}});
+    if (share < worth_a_word) {
+        double const gone_m = given.given_m() - given.kept_m;
+        double const short_m = given.left_out(LeftOut::too_short);
+        stage_log.find(
+            {.kind = "rivers_missing",
+             .amount = gone_m,
+             .text = fmt::format("{:.1f} of the {:.1f} km of rivers in {} are not in the network, {}. Layer secondary "
+                                 "of network.gpkg has them",
+                                 gone_m / 1000.0, given.given_m() / 1000.0, plan.lines.name,
+                                 short_m > 0.5 * gone_m ? "most of them too short"
+                                                        : "most of them cut at heads that lie beside other rivers"),
+             .remedy = short_m < gone_m
+                           ? fmt::format("Finer cells keep them apart: --set grid.cell={}", grid.cell_m / 2.0)
+                           : "",
+             .key = "network.lines.path",
+             .layer = plan.lines.name,
+             .numbers = {{"given", given.given_m(), "m"}}});
+    }
+    return {"given_length", share, least, share >= least, Bound::at_least};
+}
+
+void warn_of_heights(recipe::Plan const& plan, GivenHeights const& given, StageLog& stage_log) {
+    stage_log.find({.kind = "heights",
+                    .amount = given.largest_m,
+                    .text = line_of(given),
+                    .key = "network.heights",
+                    .layer = plan.lines.name});
+    if (given.missed > 0) {
+        stage_log.find({.kind = "heights_missed",
+                        .amount = given.largest_m,
+                        .text = fmt::format("at {} of the {} vertices with heights in {} dem.tif is off by more than "
+                                            "{:g} m: by {:.3g} m on average, by {:.3g} m at most",
+                                            given.missed, given.vertices, plan.lines.name, given.tolerance_m,
+                                            given.mean_m, given.largest_m),
+                        .key = "network.heights_tolerance",
+                        .layer = plan.lines.name,
+                        .numbers = {{"missed", static_cast<double>(given.missed), "vertices"},
+                                    {"vertices", static_cast<double>(given.vertices), "vertices"},
+                                    {"mean", given.mean_m, "m"}}});
+    }
+}
+
+/// Warns of given points and ridges that the terrain does not have, with a finding for each point.
+void warn_of_features(GivenFeatures const& given, StageLog& stage_log) {
+    constexpr std::size_t listed = 1000;
+    constexpr double most_crossed = 0.05; // of a ridge's cells
+    constexpr double most_at_rivers = 0.5;
+    std::vector<PointOff> missed;
+    std::ranges::copy_if(given.points, std::back_inserter(missed),
+                         [&](PointOff const& p) { return !(std::fabs(p.z_m - p.asked_m) <= given.tolerance_m); });
+    std::ranges::stable_sort(missed, std::greater<>(), [](PointOff const& p) {
+        double const off = std::fabs(p.z_m - p.asked_m);
+        return std::isnan(off) ? std::numeric_limits<double>::infinity() : off;
+    });
+    auto const words = [](PointOff const& p) {
+        return fmt::format("point {} at ({:.1f}, {:.1f}) asks for {:.6g} m, the {} {}", p.number, p.at.x, p.at.y,
+                           p.asked_m, p.in_river ? "river there has" : "terrain has",
+                           std::isnan(p.z_m) ? "no height there" : fmt::format("{:.6g} m", p.z_m));
+    };
+    for (std::size_t i = 0; i < std::min(listed, missed.size()); ++i) {
+        stage_log.find(
+            {"point_missed", missed[i].number, missed[i].at, missed[i].z_m - missed[i].asked_m, words(missed[i])});
+    }
+    if (!missed.empty()) {
+        stage_log.find({.kind = "points_missed",
+                        .feature = missed.front().number,
+                        .where = missed.front().at,
+                        .amount = static_cast<double>(missed.size()),
+                        .text = fmt::format("{} of the {} points of {} are missed by more than {:g} m. The worst: {}",
+                                            missed.size(), given.points.size(), given.points_file, given.tolerance_m,
+                                            words(missed.front())),
+                        .key = "skeleton.points",
+                        .layer = given.points_file,
+                        .numbers = {{"points", static_cast<double>(given.points.size())}}});
+    }
+    std::vector<RidgeOff> crossed;
+    std::ranges::copy_if(given.ridges, std::back_inserter(crossed), [](RidgeOff const& r) {
+        auto const cells = static_cast<double>(r.cells);
+        return static_cast<double>(r.crossed) > most_crossed * cells ||
+               static_cast<double>(r.in_rivers) > most_at_rivers * cells;
+    });
+    if (!crossed.empty()) {
+        RidgeOff const& first = crossed.front();
+        stage_log.find({.kind = "ridges_crossed",
+                        .feature = first.feature,
+                        .amount = static_cast<double>(crossed.size()),
+                        .text = fmt::format("{} of the {} ridges of {} are crossed by water or lie at rivers. The "
+                                            "first, feature {}: of {} cells {} lie at rivers, and water crosses {}",
+                                            crossed.size(), given.ridges.size(), given.ridges_file, first.feature,
+                                            first.cells, first.in_rivers, first.crossed),
+                        .key = "skeleton.ridge_lines",
+                        .layer = given.ridges_file});
+    }
+}
+
+} // namespace
+
+bool Assessment::passed() const {
+    return std::all_of(checks.begin(), checks.end(), [](Check const& c) { return c.ok; });
+}
+
+Assessment assess(recipe::Plan const& plan, Planform const& planform, Terrain const& terrain, Run const& run) {
+    StageLog stage_log(run);
+    Assessment found{terrain.surface ? of_surface(plan, terrain, stage_log, run)
+                                     : SurfaceMeasures{.laws = laws_of_terrain(terrain, terrain.grid.cells(), run)}};
+    found.checks = surface_checks(plan, terrain, found);
+    if (plan.recipe.network) {
+        measure::TopologyReport topology = topology_of(terrain, stage_log, run);
+        found.checks.insert(found.checks.begin(), none_of("uphill_arcs", uphill_arcs(terrain.rivers.network)));
+        append(found.checks, std::move(topology.checks));
+        stage_log.find(topology.findings);
+        if (terrain.drained) {
+            stage_log.find(findings_of(found.certificate));
+        }
+    }
+    warn_of_coarse_cells(terrain, stage_log, run);
+    found.given = given_length(plan, planform, terrain);
+    if (found.given) {
+        found.checks.push_back(length_check(plan, *found.given, terrain.grid, stage_log));
+    }
+    found.given_heights = given_heights(plan, planform, terrain);
+    if (found.given_heights) {
+        warn_of_heights(plan, *found.given_heights, stage_log);
+    }
+    found.given_features = given_features(plan, terrain);
+    if (found.given_features) {
+        stage_log.find({.kind = "features", .text = line_of(*found.given_features)});
+        warn_of_features(*found.given_features, stage_log);
+    }
+    if (terrain.drainage && found.given) {
+        found.given_areas = given_areas(plan, planform, terrain);
+    }
+    if (found.given_areas) {
+        stage_log.find({.kind = "areas", .text = line_of(*found.given_areas)});
+    }
+    if (plan.against.cells() > 0) {
+        found.against = stage_log.stage("compare", [&] { return compare_with_dem(plan, terrain, run); });
+        stage_log.say(line_of(*found.against));
+    }
+    found.findings = stage_log.take_findings();
+    found.timings_s = stage_log.take();
+    run.report(found.findings);
+    return found;
+}
+
+} // namespace thalweg::make
